@@ -95,6 +95,20 @@ const Image& OffscreenRenderer::render(const Scene& scene, int width, int height
     return m_impl->image;
 }
 
+const Image& OffscreenRenderer::render(std::span<const Pane> panes,
+                                       const std::function<Scene(std::size_t)>& sceneOf,
+                                       const Viewport& size) {
+    m_impl->resize(std::max(size.width, 1), std::max(size.height, 1));
+    for (std::size_t i = 0; i < panes.size(); ++i) {
+        const Image& image = m_impl->image;
+        m_impl->renderer.drawPane(
+            sceneOf(i), panes[i],
+            {image.width, image.height, m_impl->framebuffer.name(), size.pixelRatio, i});
+    }
+    m_impl->readBack();
+    return m_impl->image;
+}
+
 Image OffscreenRenderer::takeImage() {
     return std::exchange(m_impl->image, std::exchange(m_impl->spare, Image()));
 }

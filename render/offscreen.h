@@ -4,7 +4,9 @@
 #include "render/image.h"
 #include "render/renderer.h"
 
+#include <functional>
 #include <memory>
+#include <span>
 #include <string>
 
 #include <tl/expected.hpp>
@@ -56,6 +58,10 @@ public:
     /// PixelOrder::Bgra, alpha 255: QImage::Format_RGB32 without conversion. Sizes are device pixels, at
     /// least 1.
     const Image& render(const Scene& scene, int width, int height, float pixelRatio = 1.0F);
+    /// The same of several scenes, each in a part of the picture; `sceneOf` is asked for each just before it
+    /// is drawn.
+    const Image& render(std::span<const Pane> panes, const std::function<Scene(std::size_t)>& sceneOf,
+                        const Viewport& size);
     /// Moves the last picture out.
     Image takeImage();
     /// For the next picture, so that its room is not made anew each time: one that was taken and is no longer

@@ -65,6 +65,8 @@ struct Renderer::Impl {
     std::optional<MarksPass> marks;
     /// Only where the quality asks for samples and the target has none.
     gl::Framebuffer multisampled;
+    /// Of panes, by view.
+    std::array<gl::Framebuffer, kMostViews> paneTargets;
     Frame frame;
     std::function<void(std::string_view)> passed;
 
@@ -242,6 +244,23 @@ void Renderer::draw(const Scene& scene, const Viewport& viewport) {
     glBindVertexArray(0);
     glUseProgram(0);
     glActiveTexture(GL_TEXTURE0);
+}
+
+void Renderer::drawPane(const Scene& scene, const Pane& pane, const Viewport& whole) {
+    if (pane.width < 1 || pane.height < 1 || whole.view >= kMostViews) {
+        return;
+    }
+    gl::Framebuffer& target = m_impl->paneTargets[whole.view];
+    if (target.width() != pane.width || target.height() != pane.height) {
+        auto created = gl::Framebuffer::create(pane.width, pane.height);
+        if (!created) {
+            return;
+        }
+        target = std::move(*created);
+    }
+    draw(scene, {pane.width, pane.height, target.name(), whole.pixelRatio, whole.view});
+    target.copyTo(whole.framebuffer, pane.x, whole.height - pane.y - pane.height);
+    glBindFramebuffer(GL_FRAMEBUFFER, whole.framebuffer);
 }
 
 void Renderer::observePasses(std::function<void(std::string_view)> passed) {

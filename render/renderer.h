@@ -58,6 +58,19 @@ struct Viewport {
     unsigned framebuffer = 0;
     /// Device pixels per logical pixel: widths of lines and points are scaled by it.
     float pixelRatio = 1.0F;
+    /// Which of several views that are drawn in turn: what is kept from picture to picture is kept for each.
+    std::size_t view = 0;
+};
+
+/// As many views as have something kept of their own.
+inline constexpr std::size_t kMostViews = 4;
+
+/// A part of a picture in device pixels, from its top left.
+struct Pane {
+    int x = 0;
+    int y = 0;
+    int width = 0;
+    int height = 0;
 };
 
 /// Draws scenes in the OpenGL context that was current at `create`: any context of 3.3 or newer.
@@ -93,6 +106,9 @@ public:
 
     /// Leaves out characters whose mesh is unknown or whose palette is too short.
     void draw(const Scene& scene, const Viewport& viewport);
+
+    /// Draws into a part of a target, which keeps what else is in it; Viewport::view is one of kMostViews.
+    void drawPane(const Scene& scene, const Pane& pane, const Viewport& whole);
 
     /// For measuring: from now on the driver finishes each pass before the next begins, and `passed` is
     /// called with its name. Drawing takes longer so. Empty ends it.

@@ -29,6 +29,8 @@ public:
     void bind() const;
     /// Copies the colour, averaging samples, to another framebuffer of the same size.
     void resolveTo(unsigned framebuffer) const;
+    /// Copies the colour to a place in another framebuffer, pixels from its lower left.
+    void copyTo(unsigned framebuffer, int x, int y) const;
 
 private:
     static tl::expected<Framebuffer, std::string> checked(Framebuffer framebuffer);

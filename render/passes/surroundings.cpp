@@ -4,6 +4,8 @@
 #include "render/passes/shader_sources.h"
 #include "shader_files.h"
 
+#include <algorithm>
+
 #include <epoxy/gl.h>
 
 namespace posewire::render {
@@ -48,17 +50,18 @@ void SurroundingsPass::drawBareFloor() {
 }
 
 void SurroundingsPass::drawKept(const Frame& frame, bool isPlain, unsigned target) {
+    const std::size_t view = std::min(frame.viewport.view, kMostViews - 1);
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_CULL_FACE);
     glDisable(GL_BLEND);
     if (!frame.scene->showFloor || isPlain) {
-        m_keptBackground.show(backgroundBlock(frame.block), target, [&] { drawBackground(); });
+        m_keptBackgrounds[view].show(backgroundBlock(frame.block), target, [&] { drawBackground(); });
         if (frame.scene->showFloor) {
             m_plainFloor->draw(frame);
         }
         return;
     }
-    m_keptFloor.show(backdropBlock(frame.block), target, [&] {
+    m_keptFloors[view].show(backdropBlock(frame.block), target, [&] {
         drawBackground();
         drawBareFloor();
     });

@@ -5,6 +5,7 @@
 #include "render/passes/backdrop.h"
 #include "render/passes/plain_floor.h"
 
+#include <array>
 #include <optional>
 #include <string>
 
@@ -33,8 +34,8 @@ private:
     gl::Program m_bareFloor;
     gl::VertexArray m_noVertices;
     std::optional<PlainFloor> m_plainFloor;
-    Backdrop m_keptBackground;
-    Backdrop m_keptFloor;
+    std::array<Backdrop, kMostViews> m_keptBackgrounds;
+    std::array<Backdrop, kMostViews> m_keptFloors;
 };
 
 } // namespace posewire::render

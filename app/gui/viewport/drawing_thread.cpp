@@ -33,6 +33,12 @@ void yieldToOthers() {
 #endif
 }
 
+/// Of any pane.
+bool hasCameraMoved(const SceneFrame& frame, const SceneFrame& before) {
+    return frame.camera != before.camera ||
+           !std::ranges::equal(frame.panes, before.panes, {}, &SceneFrame::camera, &SceneFrame::camera);
+}
+
 double secondsOf(SteadyClock::duration duration) {
     return std::chrono::duration<double>(duration).count();
 }
@@ -81,20 +87,34 @@ public:
 
 private:
     void draw(const SceneFrame& frame, bool isBest) {
-        render::Scene scene = m_upload.prepare(frame, m_renderer.renderer());
         const Simplification step = m_ladder.step();
         render::RenderQuality quality = render::simplified(m_interactive, step);
         if (isBest) {
             quality = render::stillQuality(m_interactive, frame.width, frame.height);
         } else {
-            const bool isMoving = m_last != nullptr && frame.camera != m_last->camera;
+            const bool isMoving = m_last != nullptr && hasCameraMoved(frame, *m_last);
             quality.plainFloor = isMoving && step != Simplification::None;
-            if (step >= Simplification::FewAxes) {
-                scene.axes = scene.axes.subspan(frame.selectedAxes, frame.selectedAxesCount);
-            }
         }
         m_renderer.renderer().setQuality(quality);
-        m_renderer.render(scene, frame.width, frame.height, frame.pixelRatio);
+        const bool hasFewAxes = !isBest && step >= Simplification::FewAxes;
+        if (frame.panes.empty()) {
+            m_renderer.render(sceneOf(frame, hasFewAxes), frame.width, frame.height, frame.pixelRatio);
+            return;
+        }
+        std::vector<render::Pane> panes;
+        for (const SceneFrame& pane : frame.panes) {
+            panes.push_back(pane.place());
+        }
+        m_renderer.render(panes, [&](std::size_t pane) { return sceneOf(frame.panes[pane], hasFewAxes); },
+                          {frame.width, frame.height, 0, frame.pixelRatio});
+    }
+
+    render::Scene sceneOf(const SceneFrame& frame, bool hasFewAxes) {
+        render::Scene scene = m_upload.prepare(frame, m_renderer.renderer());
+        if (hasFewAxes) {
+            scene.axes = scene.axes.subspan(frame.selectedAxes, frame.selectedAxesCount);
+        }
+        return scene;
     }
 
     render::OffscreenRenderer& m_renderer;

@@ -102,10 +102,16 @@ protected:
         if (!m_renderer || m_frame == nullptr) {
             return;
         }
-        const render::Scene scene = m_upload.prepare(*m_frame, *m_renderer);
         const QSize pixels = size() * devicePixelRatioF(); // rounded as QOpenGLWidget does
-        m_renderer->draw(scene, {pixels.width(), pixels.height(), defaultFramebufferObject(),
-                                 static_cast<float>(devicePixelRatioF())});
+        render::Viewport whole{pixels.width(), pixels.height(), defaultFramebufferObject(),
+                               static_cast<float>(devicePixelRatioF())};
+        if (m_frame->panes.empty()) {
+            m_renderer->draw(m_upload.prepare(*m_frame, *m_renderer), whole);
+        }
+        for (const SceneFrame& pane : m_frame->panes) {
+            m_renderer->drawPane(m_upload.prepare(pane, *m_renderer), pane.place(), whole);
+            ++whole.view;
+        }
         if (m_renderer->isContextLost()) {
             m_failure = tr("The graphics driver was reset.");
         }

@@ -54,7 +54,7 @@ std::optional<PickedSegment> pickIn(const SceneFrame& frame, const model::Sessio
     for (std::size_t i = 0; i < frame.figures.size(); ++i) {
         const Figure& figure = frame.figures[i];
         if (figure.mesh != nullptr) {
-            targets.push_back({static_cast<std::uint32_t>(i), &figure.mesh->capsules, figure.palette});
+            targets.push_back({static_cast<std::uint32_t>(i), &figure.capsules(), figure.drawnPalette()});
         }
     }
     const auto aspect = static_cast<float>(view.width() / view.height());

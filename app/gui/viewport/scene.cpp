@@ -3,6 +3,7 @@
 
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/stream_state.h"
+#include "app/gui/models/text.h"
 #include "app/gui/theme/theme.h"
 #include "app/gui/viewport/captions.h"
 #include "app/gui/viewport/hands.h"
@@ -71,7 +72,8 @@ void makePalette(const model::CharacterPose& pose, Figure& figure) {
     }
 }
 
-/// The theme's colours as the renderer wants them.
+} // namespace
+
 render::SceneColours themedSceneColours() {
     const Theme& colours = theme();
     render::SceneColours scene = colours.isDark ? render::darkSceneColours() : render::lightSceneColours();
@@ -81,8 +83,6 @@ render::SceneColours themedSceneColours() {
     scene.selection = vectorOf(colours.accent);
     return scene;
 }
-
-} // namespace
 
 render::Scene SceneUpload::prepare(const SceneFrame& frame, render::Renderer& renderer) {
     releaseUnused(frame, renderer);
@@ -104,21 +104,28 @@ render::Scene SceneUpload::prepare(const SceneFrame& frame, render::Renderer& re
 }
 
 void SceneUpload::add(const Figure& figure, render::Renderer& renderer) {
-    if (figure.mesh == nullptr) {
+    if (figure.drawn() == nullptr) {
         return;
     }
-    const auto [entry, isNew] = m_meshes.try_emplace(figure.mesh);
+    const auto [entry, isNew] = m_meshes.try_emplace(figure.drawn());
     Meshes& meshes = entry->second;
     if (isNew) {
-        meshes.mesh = renderer.uploadMesh(figure.mesh->mesh, figure.mesh->templatePositions);
-        meshes.low = renderer.uploadMesh(figure.mesh->lowMesh, figure.mesh->lowTemplatePositions);
+        meshes = uploaded(figure, renderer);
     }
-    m_instances.push_back({meshes.mesh, meshes.low, figure.palette, figure.look});
+    m_instances.push_back({meshes.mesh, meshes.low, figure.drawnPalette(), figure.look});
+}
+
+SceneUpload::Meshes SceneUpload::uploaded(const Figure& figure, render::Renderer& renderer) {
+    if (figure.own != nullptr) {
+        return {renderer.uploadMesh(figure.own->mesh, figure.own->dress()), render::MeshId::None};
+    }
+    return {renderer.uploadMesh(figure.mesh->mesh, figure.mesh->templatePositions),
+            renderer.uploadMesh(figure.mesh->lowMesh, figure.mesh->lowTemplatePositions)};
 }
 
 void SceneUpload::releaseUnused(const SceneFrame& frame, render::Renderer& renderer) {
     std::erase_if(m_meshes, [&](const auto& entry) {
-        const auto isItsOwn = [&](const Figure& figure) { return figure.mesh == entry.first; };
+        const auto isItsOwn = [&](const Figure& figure) { return figure.drawn() == entry.first; };
         const bool isUsed =
             std::ranges::any_of(frame.figures, isItsOwn) || std::ranges::any_of(frame.ghosts, isItsOwn);
         if (!isUsed) {
@@ -229,6 +236,7 @@ void SceneBuilder::addFigure(const model::Character& character, const model::Cha
     const auto provenance = figure.look.provenance;
     figure.look = lookOf(character.key);
     figure.look.provenance = provenance;
+    dress(figure);
     frame.figures.push_back(std::move(figure));
 }
 
@@ -242,6 +250,28 @@ Figure SceneBuilder::bodyOf(const model::SessionView& session, const model::Char
     figure.labelPosition =
         render::transformPoint(figure.palette[render::Head], head) + glm::vec3(0, 0, kLabelHeight);
     return figure;
+}
+
+/// The user's own body in the pose that the mannequin has.
+void SceneBuilder::dress(Figure& figure) {
+    const auto dressed =
+        m_wardrobe.isEmpty() ? nullptr : m_wardrobe.of(shown(m_session.displayName(figure.key)));
+    if (dressed == nullptr) {
+        return;
+    }
+    const std::shared_ptr<const OwnFigure> own = m_ownFigures.of(dressed, figure.mesh->origins);
+    std::vector<render::DualQuaternion> bones(dressed->body.joints.size());
+    const render::OwnPaletteJob job{&dressed->body, own->scale, figure.palette, figure.mesh->origins, bones};
+    if (!job.validate()) {
+        return;
+    }
+    job.run();
+    constexpr float kAboveHead = 0.06F;
+    const auto head = static_cast<std::size_t>(dressed->body.segmentJoints[render::Head]);
+    const glm::vec3 top = own->scale * dressed->body.joints[head].origin + glm::vec3(0, 0, own->top);
+    figure.labelPosition = render::transformPoint(bones[head], top) + glm::vec3(0, 0, kAboveHead);
+    figure.own = own;
+    figure.bones = std::move(bones);
 }
 
 render::CharacterLook SceneBuilder::lookOf(const model::CharacterKey& key) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/gui/viewport/body_meshes.h"
+#include "app/gui/viewport/dressed_body.h"
 #include "app/gui/viewport/overlays/choice.h"
 #include "core/log/time.h"
 #include "core/model/body/character_pose.h"
@@ -26,13 +27,26 @@ struct ComparisonState;
 /// One character in a picture.
 struct Figure {
     model::CharacterKey key;
-    std::shared_ptr<const FigureMesh> mesh; ///< null for tracked objects: they have axes alone
+    std::shared_ptr<const FigureMesh> mesh;    ///< null for tracked objects: they have axes alone
+    std::shared_ptr<const OwnFigure> own;      ///< drawn instead of the mannequin; null for none
+    std::vector<render::DualQuaternion> bones; ///< of that
     std::array<render::DualQuaternion, render::kJointCount> palette{};
     render::CharacterLook look;
     glm::vec3 labelPosition{0.0F}; ///< above the head
     render::Bounds bounds;         ///< of the segment origins
 
     bool operator==(const Figure&) const = default;
+
+    /// What is drawn of it; null for nothing.
+    [[nodiscard]] std::shared_ptr<const void> drawn() const {
+        return own != nullptr ? std::shared_ptr<const void>(own) : std::shared_ptr<const void>(mesh);
+    }
+    [[nodiscard]] const render::SegmentCapsules& capsules() const {
+        return own != nullptr ? own->capsules : mesh->capsules;
+    }
+    [[nodiscard]] std::span<const render::DualQuaternion> drawnPalette() const {
+        return own != nullptr ? std::span(bones) : std::span<const render::DualQuaternion>(palette);
+    }
 };
 
 /// A few words at a place in space.
@@ -58,12 +72,18 @@ struct SceneFrame {
     std::vector<render::LineInstance> lines;
     std::vector<render::PointInstance> points;
     std::vector<SceneText> texts;
+    int x = 0; ///< of a pane in the picture, device pixels
+    int y = 0;
     int width = 1; ///< device pixels
     int height = 1;
     float pixelRatio = 1.0F;
-    bool isBest = false; ///< to be drawn as well as it can be, however long that takes
+    std::vector<SceneFrame> panes; ///< the views of a split picture, drawn instead of this one; else empty
+    bool isBest = false;           ///< to be drawn as well as it can be, however long that takes
 
     bool operator==(const SceneFrame&) const = default;
+
+    /// Where it is drawn in the picture that it is a pane of.
+    [[nodiscard]] render::Pane place() const { return {x, y, width, height}; }
 };
 
 /// Turns frames into scenes for one renderer: uploads meshes when they are first seen, releases those no
@@ -80,11 +100,15 @@ private:
         render::MeshId low = render::MeshId::None;
     };
     void add(const Figure& figure, render::Renderer& renderer);
+    [[nodiscard]] static Meshes uploaded(const Figure& figure, render::Renderer& renderer);
     void releaseUnused(const SceneFrame& frame, render::Renderer& renderer);
 
-    std::map<std::shared_ptr<const FigureMesh>, Meshes> m_meshes;
+    std::map<std::shared_ptr<const void>, Meshes> m_meshes; ///< by what is drawn
     std::vector<render::SkinnedInstance> m_instances;
 };
+
+/// The theme's colours as the renderer wants them.
+[[nodiscard]] render::SceneColours themedSceneColours();
 
 /// Gives axes their length in space: the same on the screen wherever they are, but never smaller or larger
 /// than makes sense on a body. For when camera and size of a frame are known.
@@ -104,6 +128,8 @@ public:
     /// Fills figures, axes, lines, points, texts and colours; camera and size are the caller's. Hidden
     /// characters are left out. Overlays are drawn of the selected character, of all where none is selected.
     void build(AxesMode axes, const Overlays& overlays, SceneFrame& frame);
+    /// Who is drawn by a body of the user's own.
+    void setWardrobe(const Wardrobe& wardrobe) { m_wardrobe = wardrobe; }
     /// Bodies glide from sample to sample while what is received is followed.
     void setInterpolating(bool isInterpolating) { m_isInterpolating = isInterpolating; }
     /// What is compared is drawn as well, through: it outlives this. Null for nothing.
@@ -112,6 +138,7 @@ public:
     [[nodiscard]] bool isUnderWay() const;
     /// Of the bodies in the scenes.
     [[nodiscard]] const BodyMeshes& meshes() const { return m_meshes; }
+    [[nodiscard]] const OwnFigures& ownFigures() const { return m_ownFigures; }
 
 private:
     [[nodiscard]] std::shared_ptr<const FigureMesh> meshOf(const model::SessionView& session,
@@ -120,6 +147,7 @@ private:
     [[nodiscard]] Figure bodyOf(const model::SessionView& session, const model::CharacterKey& key,
                                 const model::CharacterPose& pose);
     [[nodiscard]] render::CharacterLook lookOf(const model::CharacterKey& key) const;
+    void dress(Figure& figure);
     void addFigure(const model::Character& character, const model::CharacterPose& pose, SceneFrame& frame);
     void addObjects(const model::Character& character, const model::CharacterPose& pose, SceneFrame& frame);
     /// On the floor under the live pelvis, turned as it is; nothing where no null pose was sent.
@@ -137,6 +165,8 @@ private:
 
     model::SessionView& m_session;
     BodyMeshes m_meshes;
+    OwnFigures m_ownFigures;
+    Wardrobe m_wardrobe;
     bool m_isInterpolating = false;
     const ComparisonState* m_comparison = nullptr;
     std::map<model::CharacterKey, model::PoseInterpolation> m_motions; ///< of characters in the last frame

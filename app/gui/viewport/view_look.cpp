@@ -3,10 +3,40 @@
 
 #include "app/gui/viewport/floor_scale.h"
 
+#include <QRect>
+
+#include <algorithm>
+#include <cmath>
+
 namespace posewire::gui {
 
 void ViewLook::fill(SceneBuilder& builder, double seconds, SceneFrame& frame) {
+    builder.setWardrobe(wardrobe);
     builder.build(axes, overlays, frame);
+    aim(panes.motion(), seconds, frame);
+}
+
+void ViewLook::fillPanes(SceneBuilder& builder, double seconds, const QSize& view, SceneFrame& frame) {
+    builder.setWardrobe(wardrobe);
+    builder.build(axes, overlays, frame);
+    std::vector<SceneFrame> all(static_cast<std::size_t>(panes.count()), frame);
+    const auto pixels = [&](int logical) {
+        return static_cast<int>(std::lround(static_cast<float>(logical) * frame.pixelRatio));
+    };
+    for (int pane = 0; pane < panes.count(); ++pane) {
+        SceneFrame& one = all[static_cast<std::size_t>(pane)];
+        const QRect place = panes.place(pane, view);
+        one.x = pixels(place.x());
+        one.y = pixels(place.y());
+        one.width = std::max(1, pixels(place.width()));
+        one.height = std::max(1, pixels(place.height()));
+        aim(panes.motionOf(pane), seconds, one);
+    }
+    frame.camera = panes.motion().camera();
+    frame.panes = std::move(all);
+}
+
+void ViewLook::aim(CameraMotion& motion, double seconds, SceneFrame& frame) const {
     motion.follow(boxesOf(frame), aspectOf(frame), seconds);
     frame.camera = motion.camera();
     sizeAxes(frame);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/viewport/camera_motion.h"
 #include "app/gui/viewport/scene.h"
+#include "app/gui/viewport/view_panes.h"
 
 #include <vector>
 
@@ -13,11 +13,17 @@ struct ViewLook {
     AxesMode axes = AxesMode::Selected;
     Overlays overlays;
     bool hasScale = true; ///< metres on the floor
-    CameraMotion motion;
+    Wardrobe wardrobe;
+    ViewPanes panes;
 
     /// The frame at the cursor of the builder's session, for its width, height and ratio of pixels.
     /// `seconds`: since the frame before it, for a camera that follows.
     void fill(SceneBuilder& builder, double seconds, SceneFrame& frame);
+    /// The same for all panes of a view of that size, in logical pixels: what is in them is built once.
+    void fillPanes(SceneBuilder& builder, double seconds, const QSize& view, SceneFrame& frame);
+
+private:
+    void aim(CameraMotion& motion, double seconds, SceneFrame& frame) const;
 };
 
 /// About a figure, with room for flesh, feet and the label above.

@@ -203,8 +203,9 @@ std::vector<QRectF> ViewportOverlay::takenRoom() const {
     std::vector<QRectF> taken;
     for (const QWidget* other : parentWidget()->findChildren<QWidget*>(Qt::FindDirectChildrenOnly)) {
         const bool isSmall = other->width() < width() || other->height() < height();
-        if (other != this && other->isVisible() && isSmall) {
-            taken.push_back(other->geometry());
+        const bool isOverlay = qobject_cast<const ViewportOverlay*>(other) != nullptr;
+        if (!isOverlay && other->isVisible() && isSmall) {
+            taken.push_back(other->geometry().translated(-pos()));
         }
     }
     return taken;

@@ -6,6 +6,7 @@
 #include "app/gui/models/text.h"
 #include "app/gui/viewport/captions.h"
 #include "app/gui/viewport/overlays/overlays.h"
+#include "app/gui/viewport/pane_frame.h"
 #include "app/gui/viewport/picture_health.h"
 #include "app/gui/viewport/pose_banner.h"
 #include "app/gui/viewport/segment_card.h"
@@ -33,8 +34,13 @@ ViewportWidget::ViewportWidget(model::SessionView& session, Commands& commands, 
       m_session(&session),
       m_commands(commands),
       m_overlay(new ViewportOverlay(this)),
+      m_paneFrame(new PaneFrame(this)),
       m_banner(new PoseBanner(commands, this)),
       m_card(new SegmentCard(this, *m_banner)) {
+    for (ViewportOverlay*& overlay : m_paneOverlays) {
+        overlay = new ViewportOverlay(this);
+        overlay->hide();
+    }
     constexpr int kRest = 120; // milliseconds: a pointer that passes by asks nothing
     m_hoverTimer.setSingleShot(true);
     m_hoverTimer.setInterval(kRest);
@@ -46,6 +52,10 @@ ViewportWidget::ViewportWidget(model::SessionView& session, Commands& commands, 
     m_glideTimer.setSingleShot(true);
     m_glideTimer.setInterval(kGlide);
     connect(&m_glideTimer, &QTimer::timeout, this, &ViewportWidget::refresh);
+    connect(&m_ownCharacters, &OwnCharacters::changed, this, [this] {
+        m_look.wardrobe = m_ownCharacters.wardrobe();
+        refresh();
+    });
     setMouseTracking(true);
     setObjectName(QStringLiteral("viewport"));
     setAccessibleName(tr("Characters in space"));
@@ -136,7 +146,12 @@ void ViewportWidget::drawNext() {
     frame->height = std::max(1, qRound(height() * devicePixelRatioF()));
     m_builder->setInterpolating(m_isInterpolating);
     m_builder->setComparison(m_comparison);
-    m_look.fill(*m_builder, log::secondsOf(m_session->now() - m_followed), *frame);
+    const double seconds = log::secondsOf(m_session->now() - m_followed);
+    if (m_look.panes.isSplit()) {
+        m_look.fillPanes(*m_builder, seconds, size(), *frame);
+    } else {
+        m_look.fill(*m_builder, seconds, *frame);
+    }
     m_followed = m_session->now();
     m_drawingBuilt = m_session->now();
     m_isOutdated = m_builder->meshes().isBehind();
@@ -166,8 +181,7 @@ void ViewportWidget::onPresented() {
 void ViewportWidget::updateOverlay() {
     const SceneFrame nothing;
     const SceneFrame& shown = m_shown == nullptr ? nothing : *m_shown;
-    m_overlay->setLabels(labelsOf(shown, *m_session, size()));
-    m_overlay->setTexts(textsOf(shown, size()));
+    updatePanes(shown);
     updateWords();
     if (const QString problem = failure(); !problem.isEmpty()) {
         m_overlay->setCard(
@@ -219,10 +233,6 @@ bool ViewportWidget::isSettled() const {
     return m_shown != nullptr && (isIdle || m_session->now() - m_shownBuilt < kFresh);
 }
 
-float ViewportWidget::aspect() const {
-    return static_cast<float>(std::max(1, width())) / static_cast<float>(std::max(1, height()));
-}
-
 void ViewportWidget::setAxes(AxesMode mode) {
     m_look.axes = mode;
     refresh();
@@ -236,21 +246,16 @@ void ViewportWidget::toggle(Overlay overlay) {
 }
 
 void ViewportWidget::toggleProjection() {
-    m_look.motion.setProjection(projection() == render::Projection::Perspective
-                                    ? render::Projection::Orthographic
-                                    : render::Projection::Perspective);
+    m_look.panes.motion().setProjection(projection() == render::Projection::Perspective
+                                            ? render::Projection::Orthographic
+                                            : render::Projection::Perspective);
     refresh();
     emit optionsChanged();
 }
 
 void ViewportWidget::face(render::StandardView view) {
-    m_look.motion.face(view);
-    const auto key = shownCharacter(*m_session);
-    const model::CharacterPose* pose = key ? m_session->pose(*key) : nullptr;
-    if (m_hasRelativeViews && pose != nullptr && !pose->isObjects && pose->isPresent(render::Pelvis)) {
-        const Eigen::Vector3d ahead = pose->segments[render::Pelvis].orientation * Eigen::Vector3d::UnitX();
-        m_look.motion.turn(static_cast<float>(std::atan2(ahead.y(), ahead.x())));
-    }
+    m_look.panes.motion().face(view);
+    m_look.panes.motion().turn(heading());
     refresh();
 }
 
@@ -279,7 +284,7 @@ void ViewportWidget::toggleCard() {
 
 void ViewportWidget::showKeptView(int index) {
     if (isKept(index)) {
-        gui::restore(m_look.motion, m_keptViews[static_cast<std::size_t>(index)]);
+        gui::restore(m_look.panes.motion(), m_keptViews[static_cast<std::size_t>(index)]);
         refresh();
         emit optionsChanged();
     }
@@ -296,18 +301,20 @@ QJsonObject ViewportWidget::state() const {
     for (const QJsonObject& view : m_keptViews) {
         views.append(view);
     }
-    return {{"camera", stateOf(m_look.motion)},
+    return {{"panes", m_look.panes.state()},
             {"axes", static_cast<int>(m_look.axes)},
             {"overlays", on},
             {"scale", m_look.hasScale},
             {"interpolation", m_isInterpolating},
             {"segmentCard", m_hasCard},
             {"relativeViews", m_hasRelativeViews},
+            {"ownCharacters", m_ownCharacters.state()},
             {"views", views}};
 }
 
 void ViewportWidget::restoreState(const QJsonObject& state) {
-    gui::restore(m_look.motion, state["camera"].toObject());
+    gui::restore(m_look.panes.motion(), state["camera"].toObject()); // as versions wrote it that had one view
+    m_look.panes.restoreState(state["panes"].toObject());
     const int axes = state["axes"].toInt(static_cast<int>(m_look.axes));
     m_look.overlays = {};
     for (const OverlayEntry& entry : kOverlayTable) {
@@ -319,6 +326,7 @@ void ViewportWidget::restoreState(const QJsonObject& state) {
     m_hasCard = state["segmentCard"].toBool(true);
     m_isInterpolating = state["interpolation"].toBool(false);
     m_hasRelativeViews = state["relativeViews"].toBool(true);
+    m_ownCharacters.restoreState(state["ownCharacters"].toArray());
     for (int i = 0; i < kKeptViews; ++i) {
         m_keptViews[static_cast<std::size_t>(i)] = state["views"].toArray().at(i).toObject();
     }
@@ -329,7 +337,7 @@ void ViewportWidget::restoreState(const QJsonObject& state) {
 
 void ViewportWidget::frameAll() {
     if (m_shown != nullptr) {
-        m_look.motion.frame(boxesOf(*m_shown), aspect());
+        m_look.panes.motion().frame(boxesOf(*m_shown), aspect());
         refresh();
     }
 }
@@ -340,7 +348,7 @@ void ViewportWidget::frameCharacter(const model::CharacterKey& key) {
     }
     for (const Figure& figure : m_shown->figures) {
         if (figure.key == key && !figure.bounds.isEmpty()) {
-            m_look.motion.show(paddedBounds(figure), aspect());
+            m_look.panes.motion().show(paddedBounds(figure), aspect());
             refresh();
         }
     }
@@ -354,6 +362,7 @@ void ViewportWidget::paintEvent(QPaintEvent* /*event*/) {
 
 void ViewportWidget::resizeEvent(QResizeEvent* /*event*/) {
     m_overlay->setGeometry(rect());
+    m_paneFrame->setGeometry(rect());
     m_banner->place(size());
     m_card->place();
     if (m_presenter != nullptr) {
@@ -372,6 +381,7 @@ void ViewportWidget::changeEvent(QEvent* event) {
 void ViewportWidget::mousePressEvent(QMouseEvent* event) {
     m_pressed = m_pointer = event->position();
     m_isDragging = false;
+    activate(m_look.panes.paneAt(event->position(), size()));
 }
 
 void ViewportWidget::mouseMoveEvent(QMouseEvent* event) {
@@ -392,9 +402,9 @@ void ViewportWidget::mouseMoveEvent(QMouseEvent* event) {
         event->buttons().testFlag(Qt::MiddleButton) ||
         (event->buttons().testFlag(Qt::LeftButton) && event->modifiers().testFlag(Qt::ShiftModifier));
     if (isPan) {
-        m_look.motion.pan(movement, size());
+        m_look.panes.motion().pan(movement, paneAt(m_pressed).size());
     } else if (event->buttons().testFlag(Qt::LeftButton)) {
-        m_look.motion.orbit(movement);
+        m_look.panes.motion().orbit(movement);
     }
     refresh();
 }
@@ -417,7 +427,10 @@ void ViewportWidget::mouseDoubleClickEvent(QMouseEvent* event) {
 }
 
 void ViewportWidget::wheelEvent(QWheelEvent* event) {
-    m_look.motion.zoom(event->angleDelta().y() / kWheelStep, event->position(), size());
+    activate(m_look.panes.paneAt(event->position(), size()));
+    const QRect pane = paneAt(event->position());
+    m_look.panes.motion().zoom(event->angleDelta().y() / kWheelStep, event->position() - pane.topLeft(),
+                               pane.size());
     event->accept();
     refresh();
 }
@@ -427,10 +440,6 @@ void ViewportWidget::leaveEvent(QEvent* event) {
     m_hovered.reset();
     updateCard();
     QWidget::leaveEvent(event);
-}
-
-std::optional<PickedSegment> ViewportWidget::pickAt(const QPointF& pointer) const {
-    return m_shown == nullptr ? std::nullopt : pickIn(*m_shown, *m_session, pointer, size());
 }
 
 } // namespace posewire::gui

@@ -4,6 +4,7 @@
 #include "app/gui/commands.h"
 #include "app/gui/program_view.h"
 #include "app/gui/viewport/camera_state.h"
+#include "app/gui/viewport/own_characters.h"
 #include "app/gui/viewport/picking.h"
 #include "app/gui/viewport/presenter.h"
 #include "app/gui/viewport/view_look.h"
@@ -18,6 +19,7 @@
 
 namespace posewire::gui {
 
+class PaneFrame;
 class PoseBanner;
 class SegmentCard;
 class ViewportOverlay;
@@ -51,7 +53,7 @@ public:
     void toggle(Overlay overlay);
     [[nodiscard]] bool isOn(Overlay overlay) const { return m_look.overlays.has(overlay); }
     void toggleProjection();
-    [[nodiscard]] render::Projection projection() const { return m_look.motion.camera().projection; }
+    [[nodiscard]] render::Projection projection() const { return m_look.panes.motion().camera().projection; }
     /// Of the shown character where views are relative to the pelvis, else of the world.
     void face(render::StandardView view);
     void toggleRelativeViews();
@@ -68,12 +70,21 @@ public:
     /// Keeps how the camera looks now as one of kKeptViews views; or looks like that again, and nothing where
     /// none was kept.
     static constexpr int kKeptViews = 4;
-    void keepView(int index) { m_keptViews[static_cast<std::size_t>(index)] = stateOf(m_look.motion); }
+    void keepView(int index) {
+        m_keptViews[static_cast<std::size_t>(index)] = stateOf(m_look.panes.motion());
+    }
     void showKeptView(int index);
     [[nodiscard]] bool isKept(int index) const {
         return !m_keptViews[static_cast<std::size_t>(index)].isEmpty();
     }
     [[nodiscard]] const ViewLook& look() const { return m_look; }
+    /// Into 1, 2 or 4 views. Each has a camera; what is asked of the camera is of the active one, which a
+    /// click or activateNext() chooses.
+    void split(int count);
+    [[nodiscard]] int viewCount() const { return m_look.panes.count(); }
+    void activateNext();
+    /// Who is drawn by a body of the user's own.
+    [[nodiscard]] OwnCharacters& ownCharacters() { return m_ownCharacters; }
     /// Camera, axes and overlays, as they are kept from one run to the next.
     [[nodiscard]] QJsonObject state() const;
     void restoreState(const QJsonObject& state);
@@ -93,9 +104,7 @@ public:
     /// How they are drawn now, for the statistics; nothing before start().
     [[nodiscard]] PictureHealth pictureHealth() const;
     /// Null before start().
-    [[nodiscard]] const BodyMeshes* meshes() const {
-        return m_builder == nullptr ? nullptr : &m_builder->meshes();
-    }
+    [[nodiscard]] const SceneBuilder* builder() const { return m_builder.get(); }
     /// Why there is no picture; empty where there is one.
     [[nodiscard]] QString failure() const {
         return m_presenter == nullptr ? QString() : m_presenter->failure();
@@ -127,6 +136,12 @@ private:
     void updateCard();
     [[nodiscard]] std::optional<PickedSegment> pickAt(const QPointF& pointer) const;
     [[nodiscard]] float aspect() const;
+    /// Radians; of the shown character where views are relative to the pelvis.
+    [[nodiscard]] float heading() const;
+    void activate(int pane);
+    /// Of the pane under the pointer.
+    [[nodiscard]] QRect paneAt(const QPointF& pointer) const;
+    void updatePanes(const SceneFrame& shown);
 
     model::SessionView* m_session;
     QString m_file; ///< that the session is of; empty for none
@@ -134,6 +149,7 @@ private:
     bool m_isHardware = false;
     QString m_hardwareFailure; ///< why the processor draws after all; empty where it does not
     ViewLook m_look;
+    OwnCharacters m_ownCharacters;
     bool m_hasRelativeViews = true;
     bool m_isInterpolating = false;
     const ComparisonState* m_comparison = nullptr;
@@ -143,6 +159,8 @@ private:
     std::unique_ptr<SceneBuilder> m_builder;
     Presenter* m_presenter = nullptr;
     ViewportOverlay* m_overlay;
+    std::array<ViewportOverlay*, ViewPanes::kMost> m_paneOverlays{}; ///< shown where the view is split
+    PaneFrame* m_paneFrame;
     PoseBanner* m_banner;
     SegmentCard* m_card;
     log::Stamp m_wordsStamp{}; ///< of what banner and card were made from

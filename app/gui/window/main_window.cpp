@@ -72,6 +72,7 @@ MainWindow::MainWindow(SessionDriver& driver, const SettingsFile& file, const Se
     connectHelp();
     m_driver.setThresholds(m_settings.alerts.thresholds);
     m_driver.setDisplayFilter(m_settings.filter);
+    connect(&m_viewport->ownCharacters(), &OwnCharacters::failed, this, &MainWindow::say);
     m_viewport->restoreState(m_settings.viewport);
     m_viewport->setComparison(m_driver.comparison());
     new PressingKeys(this);
@@ -339,8 +340,11 @@ void MainWindow::showReceiving() {
     }
     m_driver.setPicturesShown(m_viewport->picturesShown());
     m_driver.setPictureHealth(m_viewport->pictureHealth());
-    if (const BodyMeshes* meshes = m_viewport->meshes()) {
-        m_driver.setMeshMemory(meshes->memoryBytes(), meshes->mostBytes());
+    if (const SceneBuilder* builder = m_viewport->builder()) {
+        const BodyMeshes& meshes = builder->meshes();
+        const OwnFigures& own = builder->ownFigures();
+        m_driver.setMeshMemory(meshes.memoryBytes() + own.memoryBytes(),
+                               meshes.mostBytes() + own.mostBytes());
     }
 }
 

@@ -73,6 +73,7 @@ public:
     void showReplay();
     void exportMotion();
     void exportPictures();
+    void editOwnCharacter();
     /// What was received by a run that did not end well, to be opened or saved.
     void showRecovered();
     /// The same where there is any.

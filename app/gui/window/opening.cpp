@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Which files the window opens, records and sends.
+#include "app/gui/models/text.h"
 #include "app/gui/theme/help_link.h"
 #include "app/gui/theme/widgets.h"
 #include "app/gui/window/main_window.h"
 #include "app/gui/window/motion_export_dialog.h"
+#include "app/gui/window/own_character_dialog.h"
 #include "app/gui/window/pictures_dialog.h"
 #include "app/gui/window/recording_dialog.h"
 #include "app/gui/window/recovery_dialog.h"
@@ -131,6 +133,18 @@ void MainWindow::exportPictures() {
         return;
     }
     PicturesDialog(m_driver, *m_viewport, this).exec();
+}
+
+void MainWindow::editOwnCharacter() {
+    model::SessionView& session = m_driver.session();
+    QStringList names;
+    for (const model::Character* character : session.currentCharacters()) {
+        names += shown(session.displayName(character->key));
+    }
+    names.removeDuplicates();
+    const std::optional<model::CharacterKey>& selected = session.selection().character;
+    const QString name = selected ? shown(session.displayName(*selected)) : QString();
+    OwnCharacterDialog(m_viewport->ownCharacters(), names, name, this).exec();
 }
 
 void MainWindow::showRecovered() {

@@ -69,10 +69,10 @@ PicturesDialog::PicturesDialog(SessionDriver& driver, const ViewportWidget& view
     m_button->setDefault(true);
     auto* column = new QVBoxLayout(this);
     column->setSpacing(fontMetrics().height());
-    column->addWidget(
-        dimText(tr("Pictures show what the viewport shows, with its labels and overlays, drawn as "
-                   "well as it can be. The display moves to each moment while they are drawn."),
-                this));
+    column->addWidget(dimText(tr("Pictures show what the viewport shows (of a split view, the active one), "
+                                 "with its labels and overlays, drawn as "
+                                 "well as it can be. The display moves to each moment while they are drawn."),
+                              this));
     column->addLayout(form);
     column->addWidget(m_state);
     column->addWidget(buttons);

@@ -88,6 +88,16 @@ constexpr ActionInfo keepViewEntry(const char* id, const char* text, const char*
             Do::call<keepView<index>>};
 }
 
+template <int count>
+constexpr ActionInfo splitEntry(const char* id, const char* text, const char* shortcut) {
+    return {id,
+            QT_TRANSLATE_NOOP("Action", "&View/Sp&lit view"),
+            text,
+            shortcut,
+            Do::callIn<&Window::viewport, &ViewportWidget::split, count>,
+            Do::isIn<&Window::viewport, &ViewportWidget::viewCount, count>};
+}
+
 template <Overlay overlay>
 void toggleOverlay(Window& window) {
     window.viewport().toggle(overlay);
@@ -133,6 +143,11 @@ const ActionInfo kEntries[] = {
     keepViewEntry<1>("keepView2", QT_TRANSLATE_NOOP("Action", "As view &2"), "Alt+Shift+8"),
     keepViewEntry<2>("keepView3", QT_TRANSLATE_NOOP("Action", "As view &3"), "Alt+Shift+9"),
     keepViewEntry<3>("keepView4", QT_TRANSLATE_NOOP("Action", "As view &4"), "Alt+Shift+0"),
+    splitEntry<1>("splitOne", QT_TRANSLATE_NOOP("Action", "&One view"), "Ctrl+Alt+1"),
+    splitEntry<2>("splitTwo", QT_TRANSLATE_NOOP("Action", "&Two side by side"), "Ctrl+Alt+2"),
+    splitEntry<4>("splitFour", QT_TRANSLATE_NOOP("Action", "&Four views"), "Ctrl+Alt+4"),
+    {"nextView", "&View/Sp&lit view", QT_TRANSLATE_NOOP("Action", "&Next view"), "Ctrl+Alt+N",
+     Do::callIn<&Window::viewport, &ViewportWidget::activateNext>},
     {"axes", "&View", QT_TRANSLATE_NOOP("Action", "&Axes: all, selected, none"), "A", Do::call<nextAxes>},
     overlayEntry<Overlay::SegmentNames>(),
     overlayEntry<Overlay::JointAngles>(),
@@ -149,6 +164,8 @@ const ActionInfo kEntries[] = {
     {"segmentCard", "&View/O&verlays", QT_TRANSLATE_NOOP("Action", "&Values of a segment"), "",
      Do::callIn<&Window::viewport, &ViewportWidget::toggleCard>,
      Do::isIn<&Window::viewport, &ViewportWidget::hasCard, true>},
+    {"ownCharacter", "&View", QT_TRANSLATE_NOOP("Action", "O&wn character…"), "",
+     Do::call<&Window::editOwnCharacter>},
     {"interpolation", "&View", QT_TRANSLATE_NOOP("Action", "&Interpolate between samples"), "",
      Do::callIn<&Window::viewport, &ViewportWidget::toggleInterpolation>,
      Do::isIn<&Window::viewport, &ViewportWidget::isInterpolating, true>},

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/viewport/dressed_body.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace posewire::gui {
+
+std::size_t DressedBody::meshBytes() const {
+    constexpr std::size_t kVertex = 2 * sizeof(glm::vec3) + sizeof(float) + sizeof(render::JointIndices) +
+                                    sizeof(glm::vec4) + sizeof(glm::vec2);
+    return body.mesh.vertexCount() * kVertex + body.mesh.indices.size() * sizeof(std::uint32_t);
+}
+
+std::size_t DressedBody::textureBytes() const {
+    std::size_t bytes = 0;
+    for (const render::TextureImage& image : *textures) {
+        bytes += image.texels.size();
+    }
+    return bytes;
+}
+
+std::shared_ptr<const DressedBody> Wardrobe::of(const QString& name) const {
+    const auto own = byName.find(name);
+    return own == byName.end() ? forAll : own->second;
+}
+
+render::MeshDress OwnFigure::dress() const {
+    const render::OwnBody& body = dressed->body;
+    return {body.jointSegments, body.segmentJoints, body.texturePlaces, body.parts, *dressed->textures};
+}
+
+std::shared_ptr<const OwnFigure> sized(std::shared_ptr<const DressedBody> dressed, float scale) {
+    auto figure = std::make_shared<OwnFigure>();
+    const render::OwnBody& body = dressed->body;
+    figure->scale = scale;
+    figure->mesh = body.mesh;
+    float highest = 0.0F;
+    for (glm::vec3& position : figure->mesh.positions) {
+        position *= scale;
+        highest = std::max(highest, position.z);
+    }
+    figure->capsules = render::segmentCapsules(figure->mesh, body.jointSegments, body.segmentJoints);
+    figure->top = std::max(highest - scale * body.head.z, 0.0F);
+    figure->dressed = std::move(dressed);
+    return figure;
+}
+
+std::shared_ptr<const OwnFigure> OwnFigures::of(const std::shared_ptr<const DressedBody>& dressed,
+                                                const render::NullPose& origins) {
+    constexpr float kSteps = 200.0F; // half a percent is not to be seen
+    const float exact = dressed->isScaled ? render::scaleFor(dressed->body, origins) : 1.0F;
+    const float scale = std::max(std::round(exact * kSteps), 1.0F) / kSteps;
+    ++m_uses;
+    for (Entry& entry : m_entries) {
+        if (entry.figure->dressed == dressed && entry.figure->scale == scale) {
+            entry.used = m_uses;
+            return entry.figure;
+        }
+    }
+    if (m_entries.size() >= kMost) {
+        m_entries.erase(std::ranges::min_element(m_entries, {}, &Entry::used));
+    }
+    m_entries.push_back({sized(dressed, scale), m_uses});
+    return m_entries.back().figure;
+}
+
+std::size_t OwnFigures::memoryBytes() const {
+    std::size_t bytes = 0;
+    for (const Entry& entry : m_entries) {
+        bytes += 2 * entry.figure->dressed->meshBytes() + 2 * entry.figure->dressed->textureBytes();
+    }
+    return bytes;
+}
+
+std::size_t OwnFigures::mostBytes() const {
+    std::size_t largest = 0;
+    for (const Entry& entry : m_entries) {
+        largest =
+            std::max(largest, entry.figure->dressed->meshBytes() + entry.figure->dressed->textureBytes());
+    }
+    return kMost * 2 * largest;
+}
+
+} // namespace posewire::gui

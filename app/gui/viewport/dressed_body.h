@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "render/mesh/own_body.h"
+#include "render/picking.h"
+#include "render/scene.h"
+
+#include <QString>
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <vector>
+
+namespace posewire::gui {
+
+/// A user's own character with its textures; never changed once made, so that threads may share it.
+struct DressedBody {
+    render::OwnBody body;
+    std::shared_ptr<const std::vector<render::TextureImage>> textures;
+    /// Larger or smaller for each performer; else as large as the file has it.
+    bool isScaled = true;
+
+    [[nodiscard]] std::size_t meshBytes() const;
+    [[nodiscard]] std::size_t textureBytes() const;
+};
+
+/// Who has which body of the user's own. By the name that a character is shown by.
+struct Wardrobe {
+    std::shared_ptr<const DressedBody> forAll; ///< null for the mannequin
+    std::map<QString, std::shared_ptr<const DressedBody>> byName;
+
+    [[nodiscard]] bool isEmpty() const { return forAll == nullptr && byName.empty(); }
+    [[nodiscard]] std::shared_ptr<const DressedBody> of(const QString& name) const;
+};
+
+/// Such a body as large as one performer.
+struct OwnFigure {
+    std::shared_ptr<const DressedBody> dressed;
+    float scale = 1.0F;
+    render::SkinnedMesh mesh;
+    render::SegmentCapsules capsules{};
+    float top = 0.0F; ///< of the mesh above the origin of the head, metres
+
+    /// For uploading.
+    [[nodiscard]] render::MeshDress dress() const;
+};
+
+[[nodiscard]] std::shared_ptr<const OwnFigure> sized(std::shared_ptr<const DressedBody> dressed, float scale);
+
+/// Bodies of the user's own as they fit each performer, made once for all of about the same size. At most
+/// kMost are kept, those that were shown last.
+class OwnFigures {
+public:
+    static constexpr std::size_t kMost = 12;
+
+    /// `origins`: of the performer's null pose.
+    [[nodiscard]] std::shared_ptr<const OwnFigure> of(const std::shared_ptr<const DressedBody>& dressed,
+                                                      const render::NullPose& origins);
+
+    /// What is kept here, and as much again on the graphics side; textures once for each figure there.
+    [[nodiscard]] std::size_t memoryBytes() const;
+    /// What that can become with the largest of the bodies there are.
+    [[nodiscard]] std::size_t mostBytes() const;
+
+private:
+    struct Entry {
+        std::shared_ptr<const OwnFigure> figure;
+        std::uint64_t used = 0;
+    };
+    std::vector<Entry> m_entries;
+    std::uint64_t m_uses = 0;
+};
+
+} // namespace posewire::gui

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/viewport/own_characters.h"
+
+#include "app/gui/theme/words.h"
+
+#include <QDir>
+#include <QFileInfo>
+
+#include <algorithm>
+#include <utility>
+
+namespace posewire::gui {
+
+namespace {
+
+int boneNamed(const QString& name, const render::ImportedCharacter& character) {
+    const auto bone = std::ranges::find(character.bones, name.toStdString(), &render::ImportedBone::name);
+    return bone == character.bones.end() ? -1 : static_cast<int>(bone - character.bones.begin());
+}
+
+QString key(std::size_t mappable) {
+    const std::string_view name = render::mappableName(mappable);
+    return QString::fromLatin1(name.data(), static_cast<qsizetype>(name.size()));
+}
+
+} // namespace
+
+void CharacterReading::begin(const QString& path, std::function<void(const ReadCharacter&)> done) {
+    const std::uint64_t number = ++m_number;
+    m_thread = std::jthread([this, path, number, done = std::move(done)] {
+        const ReadCharacter file = readCharacterFile(path);
+        QMetaObject::invokeMethod(
+            this,
+            [this, number, done, file] {
+                if (number == m_number) {
+                    done(file);
+                }
+            },
+            Qt::QueuedConnection);
+    });
+}
+
+tl::expected<std::shared_ptr<const DressedBody>, QString> bodyOf(const CharacterFile& file,
+                                                                 const BodyChoice& choice) {
+    auto body = render::makeOwnBody(file.character, choice.mapping, choice.rest);
+    if (!body) {
+        return tl::unexpected(QString::fromStdString(body.error()));
+    }
+    return std::make_shared<const DressedBody>(DressedBody{std::move(*body), file.textures, choice.isScaled});
+}
+
+QJsonObject jsonOf(const CharacterFile& file, const BodyChoice& choice) {
+    QJsonObject bones;
+    for (std::size_t i = 0; i < render::kMappableCount; ++i) {
+        const int bone = choice.mapping.bones[i];
+        if (bone >= 0 && bone < static_cast<int>(file.character.bones.size())) {
+            bones[key(i)] = QString::fromStdString(file.character.bones[static_cast<std::size_t>(bone)].name);
+        }
+    }
+    return {{"file", QDir().absoluteFilePath(file.path)},
+            {"sum", file.sum},
+            {"bones", bones},
+            {"unit", choice.rest.unit},
+            {"quarterTurns", choice.rest.quarterTurns},
+            {"straightened", choice.rest.isStraightened},
+            {"scaled", choice.isScaled}};
+}
+
+BodyChoice choiceOf(const QJsonObject& kept, const CharacterFile& file) {
+    BodyChoice choice;
+    choice.mapping = render::mapBones(file.character.bones);
+    const QJsonObject bones = kept["bones"].toObject();
+    if (!bones.isEmpty()) {
+        render::BoneMapping mapping = choice.mapping;
+        for (std::size_t i = 0; i < render::kMappableCount; ++i) {
+            mapping.bones[i] = boneNamed(bones[key(i)].toString(), file.character);
+        }
+        if (render::checkMapping(mapping, file.character.bones)) {
+            choice.mapping = mapping;
+        }
+    }
+    constexpr double kLargestUnit = 1'000;
+    choice.rest.unit = static_cast<float>(std::clamp(kept["unit"].toDouble(), 0.0, kLargestUnit));
+    choice.rest.quarterTurns = kept["quarterTurns"].toInt() & 3;
+    choice.rest.isStraightened = kept["straightened"].toBool(true);
+    choice.isScaled = kept["scaled"].toBool(true);
+    return choice;
+}
+
+void OwnCharacters::dress(const QString& name, std::shared_ptr<const CharacterFile> file,
+                          const BodyChoice& choice, std::shared_ptr<const DressedBody> body) {
+    if (m_kept.size() >= kMost && !m_kept.contains(name)) {
+        emit failed(tr("At most %1 characters have bodies of their own.").arg(kMost));
+        return;
+    }
+    std::erase(m_waiting, name);
+    m_kept[name] = jsonOf(*file, choice);
+    if (name.isEmpty()) {
+        m_wardrobe.forAll = std::move(body);
+    } else {
+        m_wardrobe.byName[name] = std::move(body);
+    }
+    emit changed();
+}
+
+void OwnCharacters::undress(const QString& name) {
+    std::erase(m_waiting, name);
+    m_kept.erase(name);
+    if (name.isEmpty()) {
+        m_wardrobe.forAll.reset();
+    } else {
+        m_wardrobe.byName.erase(name);
+    }
+    emit changed();
+}
+
+QJsonObject OwnCharacters::keptFor(const QString& name) const {
+    const auto own = m_kept.find(name);
+    const auto all = m_kept.find(QString());
+    return own != m_kept.end() ? own->second : all != m_kept.end() ? all->second : QJsonObject();
+}
+
+QJsonArray OwnCharacters::state() const {
+    QJsonArray state;
+    for (const auto& [name, kept] : m_kept) {
+        QJsonObject entry = kept;
+        entry["character"] = name;
+        state.append(entry);
+    }
+    return state;
+}
+
+void OwnCharacters::restoreState(const QJsonArray& state) {
+    m_kept.clear();
+    m_wardrobe = {};
+    m_waiting.clear();
+    for (const auto& value : state) {
+        const QJsonObject kept = value.toObject();
+        const QString name = kept["character"].toString();
+        if (!kept["file"].toString().isEmpty() && m_kept.size() < kMost) {
+            m_kept[name] = kept;
+            m_waiting.push_back(name);
+        }
+    }
+    restoreNext();
+    emit changed();
+}
+
+void OwnCharacters::restoreNext() {
+    if (!m_waiting.empty()) {
+        const QString name = m_waiting.front();
+        m_reading.begin(m_kept[name]["file"].toString(),
+                        [this, name](const ReadCharacter& file) { finish(name, file); });
+    }
+}
+
+void OwnCharacters::finish(const QString& name, const ReadCharacter& file) {
+    const auto kept = m_kept.find(name);
+    if (kept != m_kept.end() && std::ranges::find(m_waiting, name) != m_waiting.end()) {
+        std::erase(m_waiting, name);
+        const auto body =
+            file ? bodyOf(**file, choiceOf(kept->second, **file))
+                 : tl::expected<std::shared_ptr<const DressedBody>, QString>(tl::unexpected(file.error()));
+        if (body) {
+            (name.isEmpty() ? m_wardrobe.forAll : m_wardrobe.byName[name]) = *body;
+            emit changed();
+        } else {
+            // What was chosen is kept: the file may be on a disk that is not there now.
+            emit failed(tr("The mannequin stands in for %1: %2")
+                            .arg(QFileInfo(kept->second["file"].toString()).fileName(), body.error()));
+        }
+    }
+    restoreNext();
+}
+
+} // namespace posewire::gui

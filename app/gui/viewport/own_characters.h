@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/gui/viewport/dressed_body.h"
+#include "render/mesh/character_file.h"
+
+#include <QJsonArray>
+#include <QJsonObject>
+#include <QObject>
+#include <QString>
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <thread>
+#include <vector>
+
+#include <tl/expected.hpp>
+
+namespace posewire::gui {
+
+/// A file of a character as it was read.
+struct CharacterFile {
+    QString path;
+    QString sum; ///< SHA-256 of its bytes
+    render::ImportedCharacter character;
+    std::shared_ptr<const std::vector<render::TextureImage>>
+        textures;        ///< by texture; empty where there is none
+    QStringList remarks; ///< what is odd about it, in sentences
+};
+using ReadCharacter = tl::expected<std::shared_ptr<const CharacterFile>, QString>;
+
+/// Reads a file with its textures, which together become no larger than 2048 × 2048; takes long, on any
+/// thread. The error says what is wrong with it.
+[[nodiscard]] ReadCharacter readCharacterFile(const QString& path);
+
+/// The same on a thread of its own; `done` is called on the thread of this object, unless it is gone or
+/// another reading was begun.
+class CharacterReading final : public QObject {
+    Q_OBJECT
+
+public:
+    using QObject::QObject;
+
+    void begin(const QString& path, std::function<void(const ReadCharacter&)> done);
+
+private:
+    std::uint64_t m_number = 0;
+    std::jthread m_thread;
+};
+
+/// How a file becomes a body, as the operator chose it.
+struct BodyChoice {
+    render::BoneMapping mapping;
+    render::RestChoice rest;
+    bool isScaled = true;
+
+    bool operator==(const BodyChoice&) const = default;
+};
+[[nodiscard]] tl::expected<std::shared_ptr<const DressedBody>, QString> bodyOf(const CharacterFile& file,
+                                                                               const BodyChoice& choice);
+
+/// Choices by the names of bones, as they are kept from one run to the next.
+[[nodiscard]] QJsonObject jsonOf(const CharacterFile& file, const BodyChoice& choice);
+/// What makes no sense for the file is as it would be found.
+[[nodiscard]] BodyChoice choiceOf(const QJsonObject& kept, const CharacterFile& file);
+
+/// Which characters have bodies of the user's own. Kept with their files from one run to the next: these are
+/// read again one after the other, and until then, or where one is gone or broken, the mannequin stands
+/// there.
+class OwnCharacters final : public QObject {
+    Q_OBJECT
+
+public:
+    using QObject::QObject;
+
+    /// `name`: as the character is shown; empty for all that have none of their own.
+    void dress(const QString& name, std::shared_ptr<const CharacterFile> file, const BodyChoice& choice,
+               std::shared_ptr<const DressedBody> body);
+    /// The mannequin again.
+    void undress(const QString& name);
+
+    [[nodiscard]] const Wardrobe& wardrobe() const { return m_wardrobe; }
+    /// As it was kept for that name, else for all; empty for the mannequin.
+    [[nodiscard]] QJsonObject keptFor(const QString& name) const;
+    [[nodiscard]] bool hasOwn(const QString& name) const { return m_kept.contains(name); }
+
+    [[nodiscard]] QJsonArray state() const;
+    void restoreState(const QJsonArray& state);
+    /// Whether files of the last run are still being read.
+    [[nodiscard]] bool isRestoring() const { return !m_waiting.empty(); }
+
+signals:
+    /// Somebody is dressed otherwise.
+    void changed();
+    /// A body of the last run is not to be had; in a sentence.
+    void failed(const QString& problem);
+
+private:
+    void restoreNext();
+    void finish(const QString& name, const ReadCharacter& file);
+
+    static constexpr std::size_t kMost = 32; ///< of names
+    std::map<QString, QJsonObject> m_kept;   ///< by name
+    Wardrobe m_wardrobe;
+    std::vector<QString> m_waiting; ///< names whose files are still to be read
+    CharacterReading m_reading{this};
+};
+
+} // namespace posewire::gui

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QRect>
+#include <QWidget>
+
+#include <vector>
+
+namespace posewire::gui {
+
+/// The lines between the panes of a view, and the frame around the active one.
+class PaneFrame final : public QWidget {
+    Q_OBJECT
+
+public:
+    explicit PaneFrame(QWidget* parent);
+
+    /// None for a view that is not split.
+    void setPanes(const std::vector<QRect>& panes, int active);
+
+protected:
+    void paintEvent(QPaintEvent* event) override;
+
+private:
+    std::vector<QRect> m_panes;
+    int m_active = 0;
+};
+
+} // namespace posewire::gui

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/gui/viewport/camera_motion.h"
+#include "app/gui/viewport/scene.h"
+
+#include <QJsonObject>
+#include <QPointF>
+#include <QRectF>
+#include <QSizeF>
+
+#include <array>
+
+namespace posewire::gui {
+
+/// The views that the viewport is split into: one, two side by side or four, each with a camera of its own.
+/// One is the active: what the operator asks of the camera is of that one.
+class ViewPanes {
+public:
+    static constexpr int kMost = 4;
+
+    [[nodiscard]] int count() const { return m_count; }
+    [[nodiscard]] bool isSplit() const { return m_count > 1; }
+    [[nodiscard]] int active() const { return m_active; }
+
+    /// 1, 2 or 4. Views that were never shown look level from the front, the left and the top, about
+    /// `heading` (radians) as a character's.
+    void split(int count, float heading);
+    void activate(int pane);
+
+    /// The active one's.
+    [[nodiscard]] CameraMotion& motion() { return motionOf(m_active); }
+    [[nodiscard]] const CameraMotion& motion() const { return m_motions[static_cast<std::size_t>(m_active)]; }
+    [[nodiscard]] CameraMotion& motionOf(int pane) { return m_motions[static_cast<std::size_t>(pane)]; }
+
+    /// Where a pane is in a view of that size.
+    [[nodiscard]] QRect place(int pane, const QSize& view) const;
+    /// The one there; the active one where the point is between two.
+    [[nodiscard]] int paneAt(const QPointF& point, const QSize& view) const;
+
+    [[nodiscard]] QJsonObject state() const;
+    /// What makes no sense stays as it is.
+    void restoreState(const QJsonObject& state);
+
+private:
+    std::array<CameraMotion, kMost> m_motions;
+    std::array<bool, kMost> m_wasShown{true};
+    int m_count = 1;
+    int m_active = 0;
+};
+
+} // namespace posewire::gui

@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/window/own_character_dialog.h"
+
+#include "app/gui/models/text.h"
+#include "app/gui/theme/theme.h"
+#include "app/gui/theme/widgets.h"
+#include "app/gui/viewport/bone_table.h"
+#include "app/gui/window/body_preview.h"
+
+#include <QDialogButtonBox>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QFormLayout>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QVBoxLayout>
+
+#include <algorithm>
+#include <cmath>
+
+namespace posewire::gui {
+
+namespace {
+
+/// Metres of a unit, in the order of the list; 0 finds it.
+constexpr std::array kUnits{0.0F, 1.0F, 0.01F, 0.001F, 0.0254F, 0.3048F};
+
+enum Rest : std::uint8_t { Straightened, AsItIs };
+enum Size : std::uint8_t { OfPerformer, OfFile };
+
+QString unitName(float unit) {
+    const std::array names{OwnCharacterDialog::tr("metres"), OwnCharacterDialog::tr("centimetres"),
+                           OwnCharacterDialog::tr("millimetres"), OwnCharacterDialog::tr("inches"),
+                           OwnCharacterDialog::tr("feet")};
+    for (std::size_t i = 1; i < kUnits.size(); ++i) {
+        if (std::abs(unit - kUnits.at(i)) < 1e-3F * kUnits.at(i)) {
+            return names.at(i - 1);
+        }
+    }
+    return OwnCharacterDialog::tr("units of %1 m").arg(static_cast<double>(unit));
+}
+
+QString restName(float armsBelowLevel) {
+    constexpr float kLevel = 12.0F; // degrees
+    constexpr float kHanging = 70.0F;
+    return armsBelowLevel < -kLevel  ? OwnCharacterDialog::tr("arms raised")
+           : armsBelowLevel < kLevel ? OwnCharacterDialog::tr("T-pose")
+           : armsBelowLevel < kHanging
+               ? OwnCharacterDialog::tr("A-pose, arms %1° down").arg(std::lround(armsBelowLevel))
+               : OwnCharacterDialog::tr("arms hanging");
+}
+
+} // namespace
+
+OwnCharacterDialog::OwnCharacterDialog(OwnCharacters& characters, const QStringList& names,
+                                       const QString& selected, QWidget* parent)
+    : QDialog(parent),
+      m_characters(characters),
+      m_path(new QLineEdit(this)),
+      m_browse(new QPushButton(tr("&File…"), this)),
+      m_preview(new BodyPreview(this)),
+      m_state(dimText({}, this)),
+      m_unit(new ComboBox(this)),
+      m_heading(new ComboBox(this)),
+      m_rest(new ComboBox(this)),
+      m_size(new ComboBox(this)),
+      m_bones(new BoneTable(this)),
+      m_detect(new QPushButton(tr("&Detect again"), this)),
+      m_who(new ComboBox(this)),
+      m_apply(new QPushButton(tr("&Apply"), this)),
+      m_mannequin(new QPushButton(tr("Use the &mannequin"), this)) {
+    setWindowTitle(tr("Own character"));
+    m_who->addItem(tr("All characters"), QString());
+    for (const QString& name : names) {
+        m_who->addItem(name, name);
+    }
+    m_who->setCurrentIndex(std::max(0, m_who->findData(selected)));
+    makeForm();
+    const QJsonObject kept = characters.keptFor(who());
+    if (const QString path = kept["file"].toString(); !path.isEmpty()) {
+        read(path);
+    } else {
+        describe();
+    }
+}
+
+void OwnCharacterDialog::makeForm() {
+    m_path->setReadOnly(true);
+    m_path->setPlaceholderText(tr("A file of glTF, FBX or Collada with a skinned mesh"));
+    m_path->setAccessibleName(tr("File of the character"));
+    m_unit->addItems(
+        {tr("As found"), tr("Metres"), tr("Centimetres"), tr("Millimetres"), tr("Inches"), tr("Feet")});
+    m_heading->addItems({tr("As found"), tr("A quarter turn to the left"), tr("Half a turn"),
+                         tr("A quarter turn to the right")});
+    m_rest->addItems({tr("Turn it into the T-pose"), tr("It is a T-pose")});
+    m_size->addItems({tr("As tall as the performer"), tr("As tall as in the file")});
+    auto* file = spacedRow({}, 8);
+    file->addWidget(m_path, 1);
+    file->addWidget(m_browse);
+    auto* form = new QFormLayout;
+    form->addRow(tr("&Unit"), m_unit);
+    form->addRow(tr("&Heading"), m_heading);
+    form->addRow(tr("&Rest pose"), m_rest);
+    form->addRow(tr("&Size"), m_size);
+    auto* right = new QVBoxLayout;
+    right->addLayout(form);
+    right->addWidget(m_bones, 1);
+    auto* under = spacedRow({}, 8);
+    under->addStretch(1);
+    under->addWidget(m_detect);
+    right->addLayout(under);
+    auto* left = new QVBoxLayout;
+    left->addWidget(m_preview, 1);
+    left->addWidget(m_state);
+    auto* middle = spacedRow({}, fontMetrics().height());
+    middle->addLayout(left, 1);
+    middle->addLayout(right, 1);
+    auto* target = new QFormLayout;
+    target->addRow(tr("F&or"), m_who);
+    auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel, this);
+    buttons->addButton(m_mannequin, QDialogButtonBox::ResetRole);
+    buttons->addButton(m_apply, QDialogButtonBox::AcceptRole);
+    m_apply->setDefault(true);
+    auto* column = new QVBoxLayout(this);
+    column->setSpacing(fontMetrics().height());
+    column->addLayout(file);
+    column->addLayout(middle, 1);
+    column->addLayout(target);
+    column->addWidget(buttons);
+    connect(m_browse, &QPushButton::clicked, this, &OwnCharacterDialog::askForFile);
+    connect(m_detect, &QPushButton::clicked, this, &OwnCharacterDialog::detect);
+    connect(m_bones, &BoneTable::mappingChanged, this, &OwnCharacterDialog::makeBody);
+    for (QComboBox* each : {m_unit, m_heading, m_rest, m_size}) {
+        connect(each, &QComboBox::activated, this, &OwnCharacterDialog::makeBody);
+    }
+    connect(m_who, &QComboBox::activated, this, &OwnCharacterDialog::describe);
+    connect(m_mannequin, &QPushButton::clicked, this, &OwnCharacterDialog::useMannequin);
+    connect(buttons, &QDialogButtonBox::accepted, this, &OwnCharacterDialog::accept);
+    connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+}
+
+QString OwnCharacterDialog::stateText() const {
+    return m_state->text();
+}
+
+QString OwnCharacterDialog::who() const {
+    return m_who->currentData().toString();
+}
+
+void OwnCharacterDialog::askForFile() {
+    const QString path =
+        QFileDialog::getOpenFileName(this, windowTitle(), QFileInfo(m_path->text()).absolutePath(),
+                                     tr("Characters (*.glb *.gltf *.vrm *.fbx *.dae);;All files (*)"));
+    if (!path.isEmpty()) {
+        read(path);
+    }
+}
+
+void OwnCharacterDialog::read(const QString& path) {
+    m_path->setText(path);
+    m_isReading = true;
+    describe();
+    m_reading.begin(path, [this](const ReadCharacter& file) { take(file); });
+}
+
+/// A file that cannot be read changes nothing but the words.
+void OwnCharacterDialog::take(const ReadCharacter& file) {
+    m_isReading = false;
+    if (!file) {
+        m_problem = file.error();
+        m_file.reset();
+        m_body.reset();
+        m_bones->setBones({});
+        m_preview->setBody(nullptr);
+        describe();
+    } else {
+        m_file = *file;
+        m_bones->setBones(m_file->character.bones);
+        const QJsonObject kept = m_characters.keptFor(who());
+        // What was chosen for another file is of no use here.
+        showChoice(choiceOf(kept["sum"].toString() == m_file->sum ? kept : QJsonObject(), *m_file));
+        makeBody();
+    }
+    emit finished();
+}
+
+void OwnCharacterDialog::showChoice(const BodyChoice& choice) {
+    m_bones->setMapping(choice.mapping);
+    const auto unit = std::ranges::find(kUnits, choice.rest.unit);
+    m_unit->setCurrentIndex(unit == kUnits.end() ? 0 : static_cast<int>(unit - kUnits.begin()));
+    m_heading->setCurrentIndex(choice.rest.quarterTurns);
+    m_rest->setCurrentIndex(choice.rest.isStraightened ? Straightened : AsItIs);
+    m_size->setCurrentIndex(choice.isScaled ? OfPerformer : OfFile);
+}
+
+BodyChoice OwnCharacterDialog::choice() const {
+    BodyChoice choice;
+    choice.mapping = m_bones->mapping();
+    choice.rest = {kUnits.at(static_cast<std::size_t>(m_unit->currentIndex())), m_heading->currentIndex(),
+                   m_rest->currentIndex() == Straightened};
+    choice.isScaled = m_size->currentIndex() == OfPerformer;
+    return choice;
+}
+
+void OwnCharacterDialog::detect() {
+    showChoice(choiceOf({}, *m_file));
+    makeBody();
+}
+
+void OwnCharacterDialog::makeBody() {
+    if (m_file == nullptr) {
+        return;
+    }
+    auto body = bodyOf(*m_file, choice());
+    m_body = body ? *body : nullptr;
+    m_problem = body ? QString() : tr("It cannot be posed yet: %1.").arg(body.error());
+    m_preview->setBody(m_body);
+    describe();
+}
+
+void OwnCharacterDialog::describe() {
+    QStringList lines;
+    if (m_isReading) {
+        lines += tr("Reading %1 …").arg(QFileInfo(m_path->text()).fileName());
+    } else if (m_file == nullptr && m_problem.isEmpty()) {
+        lines += tr("Characters of Mixamo, Unreal, VRM, Unity, Blender's Rigify and MVN are recognised by "
+                    "the names of "
+                    "their bones; any other can be mapped by hand.");
+    }
+    if (!m_isReading && m_file != nullptr) {
+        const render::ImportedCharacter& character = m_file->character;
+        lines += tr("Bones %1 (named as by %2) · vertices %3")
+                     .arg(QString::number(character.bones.size()),
+                          QString::fromUtf8(render::titleOf(m_bones->mapping().naming).data()),
+                          grouped(character.mesh.vertexCount()));
+        lines += m_file->remarks;
+    }
+    if (!m_isReading && m_body != nullptr) {
+        const render::RestReading& reading = m_body->body.reading;
+        lines += tr("%1 m tall, in %2 · %3")
+                     .arg(fixed(static_cast<double>(reading.height), 2), unitName(reading.unit),
+                          restName(reading.armsBelowLevel));
+        for (const std::string& remark : reading.remarks) {
+            lines += QString::fromStdString(remark);
+        }
+    }
+    const bool hasProblem = !m_isReading && !m_problem.isEmpty();
+    if (hasProblem) {
+        lines += QStringLiteral("▲ ") + m_problem;
+    }
+    m_state->setText(lines.join(QLatin1Char('\n')));
+    setTextColour(*m_state, hasProblem ? theme().warning : theme().dim);
+    const bool hasFile = !m_isReading && m_file != nullptr;
+    for (QWidget* each :
+         {static_cast<QWidget*>(m_unit), static_cast<QWidget*>(m_heading), static_cast<QWidget*>(m_rest),
+          static_cast<QWidget*>(m_size), static_cast<QWidget*>(m_bones), static_cast<QWidget*>(m_detect)}) {
+        each->setEnabled(hasFile);
+    }
+    m_browse->setEnabled(!m_isReading);
+    m_apply->setEnabled(!m_isReading && m_body != nullptr);
+    m_mannequin->setEnabled(m_characters.hasOwn(who()));
+}
+
+void OwnCharacterDialog::accept() {
+    if (m_body != nullptr && !m_isReading) {
+        m_characters.dress(who(), m_file, choice(), m_body);
+        QDialog::accept();
+    }
+}
+
+void OwnCharacterDialog::useMannequin() {
+    m_characters.undress(who());
+    QDialog::accept();
+}
+
+} // namespace posewire::gui

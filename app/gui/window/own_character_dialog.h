@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/gui/viewport/own_characters.h"
+
+#include <QDialog>
+#include <QStringList>
+
+#include <memory>
+
+class QComboBox;
+class QLabel;
+class QLineEdit;
+class QPushButton;
+
+namespace posewire::gui {
+
+class BodyPreview;
+class BoneTable;
+
+/// Gives characters a body of the user's own: its file, which bone follows which segment, and how it stands
+/// at rest.
+class OwnCharacterDialog final : public QDialog {
+    Q_OBJECT
+
+public:
+    /// `names`: of the characters there are; `selected` is one of them, or empty for all.
+    OwnCharacterDialog(OwnCharacters& characters, const QStringList& names, const QString& selected,
+                       QWidget* parent);
+
+    /// Reads a file, as the button does that asks for one.
+    void read(const QString& path);
+    /// What it says about the file, or about what is wrong with it.
+    [[nodiscard]] QString stateText() const;
+    [[nodiscard]] bool isReading() const { return m_isReading; }
+
+    /// What is chosen becomes the body of the characters that are chosen.
+    void accept() override;
+
+signals:
+    /// A file was read, or could not be.
+    void finished();
+
+private:
+    [[nodiscard]] QString who() const;
+    [[nodiscard]] BodyChoice choice() const;
+    void makeForm();
+    void askForFile();
+    void take(const ReadCharacter& file);
+    void showChoice(const BodyChoice& choice);
+    void detect();
+    /// By what is chosen now.
+    void makeBody();
+    void describe();
+    void useMannequin();
+
+    OwnCharacters& m_characters;
+    CharacterReading m_reading;
+    bool m_isReading = false;
+    std::shared_ptr<const CharacterFile> m_file;
+    std::shared_ptr<const DressedBody> m_body; ///< null where what is chosen makes none
+    QString m_problem;                         ///< with the file or the choice; empty for none
+    QLineEdit* m_path;
+    QPushButton* m_browse;
+    BodyPreview* m_preview;
+    QLabel* m_state;
+    QComboBox* m_unit;
+    QComboBox* m_heading;
+    QComboBox* m_rest;
+    QComboBox* m_size;
+    BoneTable* m_bones;
+    QPushButton* m_detect;
+    QComboBox* m_who;
+    QPushButton* m_apply;
+    QPushButton* m_mannequin;
+};
+
+} // namespace posewire::gui

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/window/own_character_dialog.h"
+
+#include "app/gui/viewport/bone_table.h"
+#include "tests/support/paths.h"
+
+#include <QComboBox>
+#include <QFile>
+#include <QPushButton>
+#include <QTemporaryDir>
+#include <QTest>
+
+#include <gtest/gtest.h>
+
+namespace posewire::gui {
+namespace {
+
+class OwnCharacterDialogTest : public testing::Test {
+protected:
+    void open(const QString& selected = {}) {
+        m_dialog = std::make_unique<OwnCharacterDialog>(m_characters, QStringList{"Alice", "Bob"}, selected,
+                                                        nullptr);
+    }
+    bool read(const QString& path) {
+        m_dialog->read(path);
+        return settle();
+    }
+    bool settle() {
+        return QTest::qWaitFor([this] { return !m_dialog->isReading(); }, 20'000);
+    }
+    QPushButton* button(const QString& text) {
+        for (auto* one : m_dialog->findChildren<QPushButton*>()) {
+            if (one->text().remove(u'&') == text) {
+                return one;
+            }
+        }
+        return nullptr;
+    }
+
+    const QString m_mannequin =
+        QString::fromStdString(test::sourcePath("resources/mannequin_low.glb").string());
+    OwnCharacters m_characters;
+    std::unique_ptr<OwnCharacterDialog> m_dialog;
+    QTemporaryDir m_folder;
+};
+
+TEST_F(OwnCharacterDialogTest, SaysWhatToDoBeforeThereIsAFile) {
+    open();
+    EXPECT_TRUE(m_dialog->stateText().contains("Mixamo"));
+    EXPECT_FALSE(button("Apply")->isEnabled());
+    EXPECT_FALSE(button("Use the mannequin")->isEnabled());
+}
+
+TEST_F(OwnCharacterDialogTest, AppliesAFileToWhoIsSelected) {
+    open("Bob");
+    ASSERT_TRUE(read(m_mannequin));
+    EXPECT_TRUE(m_dialog->stateText().contains("named as by MVN")) << m_dialog->stateText().toStdString();
+    EXPECT_TRUE(m_dialog->stateText().contains("1.75 m tall, in metres · T-pose"))
+        << m_dialog->stateText().toStdString();
+    ASSERT_TRUE(button("Apply")->isEnabled());
+    button("Apply")->click();
+    EXPECT_NE(m_characters.wardrobe().of("Bob"), nullptr);
+    EXPECT_EQ(m_characters.wardrobe().of("Alice"), nullptr);
+}
+
+TEST_F(OwnCharacterDialogTest, ABrokenFileIsExplainedAndChangesNothing) {
+    open();
+    const QString path = m_folder.filePath("broken.fbx");
+    QFile file(path);
+    ASSERT_TRUE(file.open(QIODevice::WriteOnly));
+    file.write("Kaydara FBX Binary  ");
+    file.close();
+    ASSERT_TRUE(read(path));
+    EXPECT_TRUE(m_dialog->stateText().contains("broken.fbx")) << m_dialog->stateText().toStdString();
+    EXPECT_FALSE(button("Apply")->isEnabled());
+    m_dialog->accept();
+    EXPECT_TRUE(m_characters.wardrobe().isEmpty());
+}
+
+TEST_F(OwnCharacterDialogTest, ABoneThatIsTakenAwayIsMissedUntilItIsDetectedAgain) {
+    open();
+    ASSERT_TRUE(read(m_mannequin));
+    QComboBox* hand = nullptr;
+    for (auto* one : m_dialog->findChildren<QComboBox*>()) {
+        hand = one->accessibleName() == "Bone of LeftHand" ? one : hand;
+    }
+    ASSERT_NE(hand, nullptr);
+    EXPECT_EQ(hand->currentText(), "LeftHand");
+    hand->setCurrentIndex(0);
+    emit hand->activated(0);
+    EXPECT_TRUE(m_dialog->stateText().contains("no bone for LeftHand"));
+    EXPECT_FALSE(button("Apply")->isEnabled());
+    button("Detect again")->click();
+    EXPECT_EQ(hand->currentText(), "LeftHand");
+    EXPECT_TRUE(button("Apply")->isEnabled());
+}
+
+TEST_F(OwnCharacterDialogTest, ShowsWhatWasChosenBefore) {
+    open("Alice");
+    ASSERT_TRUE(read(m_mannequin));
+    const auto boxes = m_dialog->findChildren<QComboBox*>();
+    const auto size = std::ranges::find_if(
+        boxes, [](const QComboBox* one) { return one->itemText(1) == "As tall as in the file"; });
+    ASSERT_NE(size, boxes.end());
+    (*size)->setCurrentIndex(1);
+    m_dialog->accept();
+    ASSERT_FALSE(m_characters.wardrobe().of("Alice")->isScaled);
+    open("Alice");
+    ASSERT_TRUE(settle());
+    m_dialog->accept();
+    EXPECT_FALSE(m_characters.wardrobe().of("Alice")->isScaled);
+    open("Alice");
+    ASSERT_TRUE(settle());
+    ASSERT_TRUE(button("Use the mannequin")->isEnabled());
+    button("Use the mannequin")->click();
+    EXPECT_EQ(m_characters.wardrobe().of("Alice"), nullptr);
+}
+
+} // namespace
+} // namespace posewire::gui
