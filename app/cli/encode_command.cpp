@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/command.h"
-#include "app/cli/interruption.h"
+#include "app/system/interruption.h"
 #include "core/export/json.h"
 
 namespace posewire::cli {
@@ -52,8 +52,8 @@ private:
 };
 
 ExitStatus encode(const EncodeOptions& options, Console& console) {
-    const Interruption interruption; // so that no half file is left
-    const auto source = openInput(options.input, Interruption::hasCome);
+    const system::Interruption interruption; // so that no half file is left
+    const auto source = openInput(options.input, system::Interruption::hasCome);
     if (!source) {
         return console.unusable(source.error().text);
     }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/command.h"
-#include "app/cli/interruption.h"
 #include "app/cli/progress_line.h"
 #include "app/cli/recorded_session.h"
 #include "app/figure/mannequin_body.h"
+#include "app/system/interruption.h"
 #include "app/usage/version.h"
 #include "core/export/motion/motion_export.h"
 #include "core/model/accounting/stream_figures.h"
@@ -177,7 +177,7 @@ ExitStatus writeMotion(const ExportOptions& options, const MotionFormat& format,
                                                    figure::mannequinBody},
                                                   [&](double share) {
                                                       line.show("writing", share);
-                                                      return !Interruption::hasCome();
+                                                      return !system::Interruption::hasCome();
                                                   });
     line.clear();
     if (!exported) {
@@ -193,12 +193,12 @@ ExitStatus writeMotion(const ExportOptions& options, const MotionFormat& format,
 }
 
 ExitStatus exportRecording(const ExportOptions& options, const Console& console) {
-    const Interruption interruption; // so that no half file is left
+    const system::Interruption interruption; // so that no half file is left
     const auto format = formatOf(options);
     if (!format) {
         return console.unusable(format.error());
     }
-    const auto file = openInput(options.input, Interruption::hasCome);
+    const auto file = openInput(options.input, system::Interruption::hasCome);
     if (!file) {
         return console.unusable(file.error().text);
     }
@@ -211,7 +211,7 @@ ExitStatus exportRecording(const ExportOptions& options, const Console& console)
     RecordedSession recorded(options.input);
     const auto read = recorded.read(**file, [&](double share) { line.show("reading", share); });
     line.clear();
-    if (Interruption::hasCome()) {
+    if (system::Interruption::hasCome()) {
         return console.unusable("interrupted; " + options.output + " was not written");
     }
     const ExitStatus status = readingStatus(read, console);

@@ -7,14 +7,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
-
-#if defined(__unix__) || defined(__APPLE__)
-#include <sys/ioctl.h>
-#include <unistd.h>
-#elif defined(_WIN32)
-#include <io.h>
-#endif
 
 namespace posewire::cli {
 namespace {
@@ -136,27 +128,6 @@ std::vector<std::string> liveTable(const model::SessionView& session, const expo
                         " samples, " + grouped(retired.lost) + " lost");
     }
     return lines;
-}
-
-bool LiveDisplay::isOnTerminal() {
-#if defined(__unix__) || defined(__APPLE__)
-    return ::isatty(STDOUT_FILENO) == 1;
-#elif defined(_WIN32)
-    return ::_isatty(::_fileno(stdout)) != 0;
-#else
-    return false;
-#endif
-}
-
-LiveDisplay::Size LiveDisplay::terminalSize() {
-    Size size;
-#if defined(__unix__) || defined(__APPLE__)
-    winsize window{};
-    if (::ioctl(STDOUT_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_row > 1 && window.ws_col > 1) {
-        size = {window.ws_row, window.ws_col};
-    }
-#endif
-    return size;
 }
 
 std::string LiveDisplay::show(const std::vector<std::string>& lines, std::size_t rows, std::size_t columns) {

@@ -19,20 +19,11 @@ namespace posewire::cli {
 /// Shows tables one after another: over each other on a terminal, else as blocks of lines.
 class LiveDisplay {
 public:
-    /// Is standard output a terminal?
-    [[nodiscard]] static bool isOnTerminal();
-
     explicit LiveDisplay(bool isTerminal) : m_isTerminal(isTerminal) {}
 
     /// What to write to show these lines; `rows` and `columns` are what the terminal has.
     [[nodiscard]] std::string show(const std::vector<std::string>& lines, std::size_t rows,
                                    std::size_t columns);
-
-    struct Size {
-        std::size_t rows = 24;
-        std::size_t columns = 80;
-    };
-    [[nodiscard]] static Size terminalSize();
 
 private:
     bool m_isTerminal;

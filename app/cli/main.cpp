@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/program.h"
+#include "app/system/standard_streams.h"
 
 #include <algorithm>
-#include <csignal>
 #include <iostream>
-
-#include <fcntl.h>
+#include <iterator>
+#include <string>
+#include <vector>
 
 namespace posewire::cli {
 namespace {
@@ -21,27 +22,24 @@ ExitStatus run(const Command& command) {
     return status;
 }
 
-/// Where one of the three is closed, a file that is opened would take its place, and be written to as that.
-void openStandardStreams() {
-    for (int number = 0; number < 3; ++number) {
-        if (::fcntl(number, F_GETFD) < 0) {
-            static_cast<void>(::open("/dev/null", O_RDWR));
-        }
-    }
+CommandLine::Parsed parse(CommandLine& line, int count, char** arguments) {
+    const std::vector<std::string> texts = system::argumentsOf(count, arguments);
+    std::vector<const char*> pointers;
+    std::ranges::transform(texts, std::back_inserter(pointers), &std::string::c_str);
+    return line.parse(static_cast<int>(pointers.size()), pointers.data());
 }
 
 } // namespace
 } // namespace posewire::cli
 
 int main(int argumentCount, char** arguments) {
+    using namespace posewire;
     using namespace posewire::cli;
-    // Where the reader closes the pipe, or a file may not grow, the failed write says so in good order.
-    std::signal(SIGPIPE, SIG_IGN);
-    std::signal(SIGXFSZ, SIG_IGN);
-    openStandardStreams();
+    system::leaveFailedWritesToTheWriter();
+    system::prepareStandardStreams();
     std::ios::sync_with_stdio(false);
     Program program;
-    const CommandLine::Parsed parsed = program.line.parse(argumentCount, arguments);
+    const CommandLine::Parsed parsed = parse(program.line, argumentCount, arguments);
     if (parsed.kind == CommandLine::Parsed::Kind::Answer) {
         std::cout << parsed.text;
         return static_cast<int>(ExitStatus::Fine);

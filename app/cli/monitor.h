@@ -2,9 +2,10 @@
 #pragma once
 
 #include "app/cli/command.h"
-#include "app/cli/interruption.h"
 #include "app/cli/table_writer.h"
 #include "app/net/receiver.h"
+#include "app/system/interruption.h"
+#include "app/system/standard_streams.h"
 #include "core/export/reports.h"
 #include "core/export/verdict_json.h"
 #include "core/log/packet_log.h"
@@ -84,7 +85,7 @@ createRecording(const MonitorOptions& options);
 
 /// What monitoring the network and monitoring a file have in common: a log, a session that follows it, what
 /// is shown meanwhile and what is said at the end. During its lifetime the first Ctrl+C is only remembered,
-/// see Interruption. One object at a time.
+/// see system::Interruption. One object at a time.
 class MonitorRun {
 public:
     MonitorRun(const MonitorOptions& options, Console& console);
@@ -120,10 +121,10 @@ private:
 
     const MonitorOptions& m_options;
     Console& m_console;
-    Interruption m_interruption;
+    system::Interruption m_interruption;
     log::PacketLog m_log;
     model::Session m_session{m_log};
-    const bool m_isTerminal = LiveDisplay::isOnTerminal();
+    const bool m_isTerminal = system::isTerminal(system::kStandardOutput);
     std::optional<TableWriter> m_table; ///< where tables or lines were asked for
     exporting::VerdictLines m_lines;
     bool m_isConcluding = false;

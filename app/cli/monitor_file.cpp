@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/datagram_pacer.h"
 #include "app/cli/monitor.h"
+#include "core/log/file_names.h"
 #include "core/log/recording_file.h"
-
-#include <filesystem>
 
 namespace posewire::cli {
 namespace {
@@ -16,7 +15,7 @@ public:
         : m_run(run),
           m_recorder(recorder),
           m_clock(run.log().timeline()),
-          m_name(std::filesystem::path(options.file).filename().string()),
+          m_name(log::nameOf(log::pathOf(options.file).filename())),
           m_followsClosely(options.asJsonLines),
           m_longest(options.durationSeconds > 0 ? log::durationOf(options.durationSeconds)
                                                 : log::Duration::max()) {}

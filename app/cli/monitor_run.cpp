@@ -5,6 +5,7 @@
 #include "core/export/html.h"
 #include "core/export/reports.h"
 #include "core/export/session_reading.h"
+#include "core/log/file_names.h"
 #include "core/log/log_reader.h"
 #include "core/wire/type_table.h"
 
@@ -16,8 +17,6 @@
 #include <cmath>
 #include <filesystem>
 #include <iterator>
-
-#include <unistd.h>
 
 namespace posewire::cli {
 namespace {
@@ -91,8 +90,7 @@ std::vector<std::string> exceeded(const model::SessionView& session, const Limit
 
 /// The same file under one name. Links are found out by log::checkOutput().
 bool areSame(const std::string& a, const std::string& b) {
-    return !a.empty() && !b.empty() &&
-           std::filesystem::path(a).lexically_normal() == std::filesystem::path(b).lexically_normal();
+    return !a.empty() && !b.empty() && log::pathOf(a).lexically_normal() == log::pathOf(b).lexically_normal();
 }
 
 log::OutputRules rulesOf(const MonitorOptions& options) {
@@ -115,12 +113,12 @@ MonitorRun::MonitorRun(const MonitorOptions& options, Console& console)
       m_lines(log::durationOf(options.intervalSeconds)),
       m_nextShow(std::chrono::steady_clock::now()) {
     if (!options.asJson && !options.isQuiet) {
-        m_table.emplace(STDOUT_FILENO, m_isTerminal);
+        m_table.emplace(system::kStandardOutput, m_isTerminal);
     }
 }
 
 bool MonitorRun::isOver() const {
-    return Interruption::hasCome() || (isReaderGone() && m_options.record.empty());
+    return system::Interruption::hasCome() || (isReaderGone() && m_options.record.empty());
 }
 
 void MonitorRun::follow(log::Stamp now) {
@@ -174,7 +172,7 @@ ExitStatus MonitorRun::finishTable(const exporting::MonitorFacts& facts) {
     m_nextShow = {};
     m_isConcluding = true;
     show(facts, m_session.now());
-    m_table->finish(Interruption::hasCome);
+    m_table->finish(system::Interruption::hasCome);
     if (const std::uint64_t leftOut = m_table->leftOut(); leftOut != 0) {
         m_console.complain(std::to_string(leftOut) + " lines were left out: they were not read in time");
     }

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/progress_line.h"
 
+#include "app/system/standard_streams.h"
+
 #include <cmath>
 #include <iostream>
 #include <utility>
 
-#include <unistd.h>
-
 namespace posewire::cli {
 
 ProgressLine::ProgressLine(std::string command)
-    : m_command(std::move(command)), m_isTerminal(::isatty(STDERR_FILENO) != 0) {}
+    : m_command(std::move(command)), m_isTerminal(system::isTerminal(system::kStandardError)) {}
 
 void ProgressLine::show(const std::string& work, double share) {
     const auto now = std::chrono::steady_clock::now();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/recorded_session.h"
 
+#include "core/log/file_names.h"
+
 #include <algorithm>
 #include <filesystem>
 #include <system_error>
@@ -18,7 +20,7 @@ std::shared_ptr<log::Scratch> newScratch() {
     const fs::path folder = fs::temp_directory_path(error);
     const fs::space_info space = fs::space(folder, error);
     return error ? std::make_shared<log::Scratch>()
-                 : std::make_shared<log::Scratch>(folder.string(), space.available / 10);
+                 : std::make_shared<log::Scratch>(log::nameOf(folder), space.available / 10);
 }
 
 std::shared_ptr<const log::ByteStore> storeOf(const std::string& path) {
@@ -28,14 +30,15 @@ std::shared_ptr<const log::ByteStore> storeOf(const std::string& path) {
 
 double sizeOf(const std::string& path) {
     std::error_code error;
-    const std::uintmax_t size = fs::is_regular_file(path, error) ? fs::file_size(path, error) : 0;
+    const fs::path file = log::pathOf(path);
+    const std::uintmax_t size = fs::is_regular_file(file, error) ? fs::file_size(file, error) : 0;
     return error ? 0 : static_cast<double>(size);
 }
 
 } // namespace
 
 RecordedSession::RecordedSession(const std::string& path)
-    : m_name(fs::path(path).filename().string()),
+    : m_name(log::nameOf(log::pathOf(path).filename())),
       m_size(sizeOf(path)),
       m_store(storeOf(path)),
       m_log(m_store != nullptr ? log::LogLimits{.memoryCap = kMemoryCap} : log::LogLimits{}, newScratch()) {

@@ -2,14 +2,13 @@
 #include "app/cli/table_writer.h"
 
 #include "app/cli/input_output.h"
+#include "app/system/standard_streams.h"
+#include "core/log/system_files.h"
 
-#include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <span>
 #include <utility>
-
-#include <poll.h>
-#include <unistd.h>
 
 namespace posewire::cli {
 
@@ -92,7 +91,7 @@ void TableWriter::run() {
         m_changed.notify_all();
         lock.unlock();
         if (table) {
-            const LiveDisplay::Size size = LiveDisplay::terminalSize();
+            const system::TerminalSize size = system::terminalSize();
             text += m_display.show(*table, size.rows, size.columns);
         }
         write(text);
@@ -104,24 +103,19 @@ void TableWriter::run() {
 
 void TableWriter::write(std::string_view text) {
     constexpr std::size_t piece = 512; // the least that a pipe or a terminal with room takes at once
+    constexpr std::chrono::milliseconds pause{50};
     while (!text.empty() && !m_isStopping && m_isWanted) {
-        if (!hasRoom()) {
+        if (!log::hasRoom(m_descriptor, pause)) {
             continue;
         }
-        const ssize_t count = ::write(m_descriptor, text.data(), std::min(piece, text.size()));
+        const std::ptrdiff_t count =
+            log::writeSome(m_descriptor, std::as_bytes(std::span(text.substr(0, piece))));
         if (count >= 0) {
             text.remove_prefix(static_cast<std::size_t>(count));
         } else if (errno != EINTR && errno != EAGAIN) {
             noteFailure();
         }
     }
-}
-
-/// Waits a little for it. An error counts as room: writing says what it is.
-bool TableWriter::hasRoom() const {
-    constexpr int waitMs = 50;
-    pollfd state{m_descriptor, POLLOUT, 0};
-    return ::poll(&state, 1, waitMs) > 0;
 }
 
 void TableWriter::noteFailure() {

@@ -51,7 +51,6 @@ private:
     void run();
     [[nodiscard]] bool hasWork() const { return m_newest || !m_lines.empty(); }
     void write(std::string_view text);
-    [[nodiscard]] bool hasRoom() const;
     void noteFailure();
 
     int m_descriptor;

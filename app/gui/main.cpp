@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/driver/program_health.h"
 #include "app/gui/ending_signals.h"
 #include "app/gui/logging.h"
 #include "app/gui/options.h"
@@ -8,6 +7,8 @@
 #include "app/gui/theme/icons.h"
 #include "app/gui/viewport/presenter.h"
 #include "app/gui/window/main_window.h"
+#include "app/system/process_figures.h"
+#include "app/system/standard_streams.h"
 #include "app/usage/version.h"
 
 #include <QApplication>
@@ -15,7 +16,6 @@
 #include <QStandardPaths>
 #include <QTimer>
 
-#include <csignal>
 #include <cstdio>
 #include <utility>
 
@@ -137,7 +137,7 @@ void takeScreenshot(MainWindow& window, const Options& options, int attempts) {
 
 void begin(MainWindow& window, const Options& options, const Settings& settings) {
     if (options.printsStartupTime) {
-        std::printf("window on screen after %.0f ms\n", processAgeMs());
+        std::printf("window on screen after %.0f ms\n", system::processAgeMs());
         std::fflush(stdout);
     }
     openInputs(window, options, settings);
@@ -166,9 +166,7 @@ int main(int argc, char** argv) {
         std::fputs(qUtf8Printable(options.error().text), options.error().status == 0 ? stdout : stderr);
         return options.error().status;
     }
-    // Where a file may not grow, or nobody reads a pipe, the failed write says so.
-    std::signal(SIGXFSZ, SIG_IGN);
-    std::signal(SIGPIPE, SIG_IGN);
+    system::leaveFailedWritesToTheWriter();
     if (options->isVerbose) {
         tellVerbosely();
     }

@@ -21,15 +21,6 @@ namespace posewire::net {
 [[nodiscard]] NetError listenError(const std::string& protocol, const Endpoint& endpoint,
                                    QAbstractSocket::SocketError error, const QString& systemText);
 
-struct Process {
-    std::string name;
-    std::int64_t id = 0;
-};
-
-/// The process that listens on a port of this computer. Empty where the system does not reveal it: off Linux,
-/// and for other users' processes.
-[[nodiscard]] std::optional<Process> holderOfPort(std::uint16_t port, bool isTcp);
-
 /// The error with the port's holder named, if the port is in use and the system reveals who has it.
 [[nodiscard]] NetError withHolder(NetError error, std::uint16_t port, bool isTcp);
 

@@ -4,15 +4,9 @@
 #include "app/net/listening.h"
 #include "app/net/receive_loop.h"
 #include "app/net/tcp_thread.h"
+#include "app/system/process_figures.h"
 
 #include <algorithm>
-
-#if __has_include(<pthread.h>) && __has_include(<unistd.h>)
-#include <ctime>
-
-#include <pthread.h>
-#include <unistd.h>
-#endif
 
 namespace posewire::net {
 namespace {
@@ -159,15 +153,7 @@ ReceiveTotals Receiver::totals() const {
 }
 
 std::optional<double> Receiver::cpuSeconds() {
-#if defined(_POSIX_THREAD_CPUTIME) && _POSIX_THREAD_CPUTIME >= 0
-    clockid_t clock{};
-    timespec time{};
-    if (::pthread_getcpuclockid(m_thread.native_handle(), &clock) == 0 &&
-        ::clock_gettime(clock, &time) == 0) {
-        return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_nsec) * 1e-9;
-    }
-#endif
-    return std::nullopt;
+    return system::threadCpuSeconds(m_thread);
 }
 
 std::optional<double> Receiver::takeBufferFill() {

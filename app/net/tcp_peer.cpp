@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/net/tcp_peer.h"
 
+#include "app/net/socket_options.h"
+
 #include <QHostAddress>
 
 #include <array>
-
-#if __has_include(<netinet/tcp.h>)
-#include <netinet/in.h>
-#include <netinet/tcp.h>
-#include <sys/socket.h>
-#endif
 
 namespace posewire::net {
 namespace {
@@ -17,21 +13,6 @@ namespace {
 /// More than the system's buffers hold of one connection: who sends without end does not keep us from
 /// closing.
 constexpr int kMostReads = 512;
-
-/// Has the system find out within a minute that the other end is gone, where it can be told so; else it takes
-/// its own time, usually two hours.
-void keepAlive(QTcpSocket& socket) {
-    socket.setSocketOption(QAbstractSocket::KeepAliveOption, 1);
-#ifdef TCP_KEEPIDLE
-    const auto descriptor = static_cast<int>(socket.socketDescriptor());
-    const auto set = [descriptor](int option, int value) {
-        ::setsockopt(descriptor, IPPROTO_TCP, option, &value, sizeof value);
-    };
-    set(TCP_KEEPIDLE, 30);  // seconds of silence before it asks
-    set(TCP_KEEPINTVL, 10); // seconds between two questions
-    set(TCP_KEEPCNT, 3);    // questions without an answer
-#endif
-}
 
 } // namespace
 

@@ -16,13 +16,22 @@ if(POSEWIRE_CCACHE)
     CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime "${POSEWIRE_CCACHE}")
 endif()
 
-add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor)
+if(WIN32)
+  add_compile_definitions(_WIN32_WINNT=0x0A00 WIN32_LEAN_AND_MEAN NOMINMAX) # Windows 10
+endif()
+if(MSVC)
+  add_compile_options(/W4 /utf-8 /permissive-)
+else()
+  add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor)
+endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   add_compile_options(-Wno-restrict -Wno-stringop-overflow -Wno-stringop-overread -Wno-array-bounds) # GCC 12 warns of its own std::string (bug 105651)
 endif()
-add_compile_options(-pthread) # one setting for all: a precompiled header is only good for units compiled like it
+if(NOT MSVC)
+  add_compile_options(-pthread) # one setting for all: a precompiled header is only good for units compiled like it
+endif()
 if(POSEWIRE_WERROR)
-  add_compile_options(-Werror)
+  set(CMAKE_COMPILE_WARNING_AS_ERROR ON)
 endif()
 if(POSEWIRE_SANITIZER OR POSEWIRE_FUZZ)
   add_compile_options(-O1 -g1) # a finding needs names and lines, and units compile in half the time
@@ -91,7 +100,7 @@ function(posewire_library name)
   posewire_use_precompiled(${name} "${ARG_PRECOMPILED}")
 endfunction()
 
-# posewire_test(name SOURCES … LIBRARIES … [LABELS …] [ENVIRONMENT …] [PRECOMPILED kind]): a GoogleTest program; each case is a ctest case, except with a sanitizer.
+# posewire_test(name SOURCES … LIBRARIES … [LABELS …] [ENVIRONMENT …] [PRECOMPILED kind]): a GoogleTest program; each case is a ctest case, except with a sanitizer or under an emulator.
 # LABELS is "bytes" for what handles input from outside, "threads" for what runs several threads, "bytes-threads" for both:
 # packaging/test builds these again with sanitizers, as the targets byte_tests and thread_tests.
 function(posewire_test name)
@@ -117,7 +126,7 @@ function(posewire_test name)
       add_dependencies(${group} ${name})
     endif()
   endforeach()
-  if(POSEWIRE_SANITIZER) # starting a program costs more than most cases, so one ctest case runs them all
+  if(POSEWIRE_SANITIZER OR CMAKE_CROSSCOMPILING) # starting a program costs more than most cases, so one ctest case runs them all
     add_test(NAME ${name} COMMAND ${name})
     set_tests_properties(${name} PROPERTIES ${properties} TIMEOUT 900)
   else()

@@ -6,7 +6,7 @@ set(standard <algorithm> <array> <chrono> <cmath> <cstddef> <cstdint> <deque> <f
 
 posewire_precompile(core HEADERS ${standard} LIBRARIES tl::expected)
 posewire_precompile(body HEADERS ${standard} <Eigen/Core> <Eigen/Geometry> LIBRARIES tl::expected Eigen3::Eigen)
-if(POSEWIRE_BUILD_RENDER)
+if(POSEWIRE_BUILD_RENDER OR POSEWIRE_BUILD_APP)
   find_package(glm REQUIRED)
   posewire_precompile(render HEADERS ${standard} <glm/glm.hpp> <glm/gtc/quaternion.hpp> LIBRARIES tl::expected glm::glm)
 endif()
@@ -17,8 +17,11 @@ set(window <QAction> <QApplication> <QClipboard> <QComboBox> <QDateTime> <QDialo
   <QSplitter> <QString> <QStringList> <QStyledItemDelegate> <QTableView> <QTimer> <QToolButton> <QTreeView> <QVBoxLayout>
   <QWidget>)
 if(POSEWIRE_BUILD_APP)
-  find_package(Qt6 6.4 REQUIRED COMPONENTS Core Network Widgets)
+  find_package(Qt6 6.4 REQUIRED COMPONENTS Core Network)
   posewire_precompile(network HEADERS ${standard} ${network} LIBRARIES tl::expected Qt6::Network)
+endif()
+if(POSEWIRE_BUILD_WINDOW)
+  find_package(Qt6 6.4 REQUIRED COMPONENTS Widgets)
   posewire_precompile(window HEADERS ${standard} ${window} LIBRARIES tl::expected Qt6::Widgets)
 endif()
 if(POSEWIRE_BUILD_TESTS)
@@ -26,6 +29,8 @@ if(POSEWIRE_BUILD_TESTS)
   if(POSEWIRE_BUILD_APP)
     posewire_precompile(network_test HEADERS ${standard} <gmock/gmock.h> <gtest/gtest.h> ${network}
       LIBRARIES tl::expected GTest::gmock Qt6::Network)
+  endif()
+  if(POSEWIRE_BUILD_WINDOW)
     posewire_precompile(window_test HEADERS ${standard} <gmock/gmock.h> <gtest/gtest.h> ${window}
       LIBRARIES tl::expected GTest::gmock Qt6::Widgets)
   endif()

@@ -4,8 +4,8 @@
 // this computer; receiving and accounting together stay under a tenth of a core; memory stays flat once the
 // history is full.
 //   design_load [--check] [--brief]
-#include "app/gui/driver/program_health.h"
 #include "app/gui/window/main_window.h"
+#include "app/system/process_figures.h"
 #include "tests/bench/udp_bench.h"
 
 #include <QApplication>
@@ -40,7 +40,7 @@ public:
     void look() {
         const MonitorHealth health = m_driver.monitorHealth();
         m_share += health.receiverShare.value_or(0) + health.followShare;
-        m_memory.push_back(static_cast<double>(processMemoryBytes().value_or(0)));
+        m_memory.push_back(static_cast<double>(system::processMemoryBytes().value_or(0)));
     }
     [[nodiscard]] double share() const { return m_share / static_cast<double>(m_memory.size()); }
     /// The most memory in the last tenth against the most in the tenth before the middle.

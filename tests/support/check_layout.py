@@ -25,18 +25,19 @@ MAY_INCLUDE = [
     ("packaging/mannequin", ["render/mesh"]),
     ("packaging/help", ["core/export", "app/gui/help", "app/gui/window"]),
     ("app/usage", []),
-    ("app/net", ["core"]),
+    ("app/system", []),
+    ("app/net", ["core", "app/system"]),
     ("app/figure", ["core", "render/mesh"]),
-    ("app/cli", ["core", "app/net", "app/figure", "app/usage"]),
+    ("app/cli", ["core", "app/net", "app/figure", "app/system", "app/usage"]),
     ("app/gui/theme", []),
     ("app/gui/help", ["core", "app/gui/theme"]),
     ("app/gui/models", ["core", "app/gui/*", "app/gui/theme"]),
     ("app/gui/plots", ["app/gui/theme"]),
     ("app/gui/panels", ["core", "app/gui/*", "app/gui/theme", "app/gui/models", "app/gui/plots"]),
-    ("app/gui/driver", ["core", "app/net", "app/gui/*"]),
-    ("app/gui/viewport", ["core", "render", "app/net", "app/gui/*", "app/gui/theme", "app/gui/models"]),
+    ("app/gui/driver", ["core", "app/net", "app/system", "app/gui/*"]),
+    ("app/gui/viewport", ["core", "render", "app/net", "app/system", "app/gui/*", "app/gui/theme", "app/gui/models"]),
     ("app/gui/inputs", ["core", "app/net", "app/gui/*", "app/gui/theme", "app/gui/models", "app/gui/panels", "app/gui/driver"]),
-    ("app/gui", ["core", "app/net", "app/figure", "app/usage"]),
+    ("app/gui", ["core", "app/net", "app/figure", "app/system", "app/usage"]),
 ]
 # What a folder must not include, although the table above would let it, or although it is no file of ours.
 FORBIDDEN = [
@@ -47,6 +48,11 @@ FORBIDDEN = [
     ("app/cli", r"<QWidget|<QApplication|<QtWidgets|<sys/socket", "widgets or sockets"),
     ("app/gui", r"<sys/socket|<netinet|<QUdpSocket|<QTcpS", "sockets"),
 ]
+# What only one system has is called in a unit that says so by its name, with a twin for the others beside it.
+OF_A_SYSTEM = re.compile(r"<(unistd|fcntl|io|poll|signal|pthread|windows|winsock2|psapi|shellapi|iphlpapi|mstcpip|ws2tcpip|ifaddrs|"
+                         r"sys/\w+|netinet/\w+|arpa/\w+|net/if|linux/\w+)\.h>")
+SAYS_ITS_SYSTEM = re.compile(r"_(posix|linux|windows)\.cpp$")
+LINUX_TWINS_OF_QT = ("app/net/interface_watch.cpp", "app/net/kernel_socket.cpp", "app/net/kernel_socket.h", "app/net/recvmmsg_loop.cpp")
 # Core may format text with snprintf; printing is what the rule is about.
 ALLOWED_LINES = {("core/model", "<cstdio>")}
 # What a sender wrote is plain text wherever it is shown: what would let Qt guess otherwise has one place. A tooltip is a
@@ -103,6 +109,9 @@ def breaches(path, text):
         own = panel and pathlib.PurePath(path).stem.startswith(panel.group(1).removesuffix("panel"))
         if panel and not own and not path.startswith(MAY_INCLUDE_PANELS):
             found.append(f"{path}: only panels.cpp and main_window.cpp may include {target}")
+        if path.startswith(("core/", "app/")) and OF_A_SYSTEM.match(include) and path not in LINUX_TWINS_OF_QT \
+                and not SAYS_ITS_SYSTEM.search(path):
+            found.append(f"{path}: only a unit named after a system may include {include}")
         for folder, pattern, what in FORBIDDEN:
             allowed_here = any(path.startswith(p + "/") and line == include for p, line in ALLOWED_LINES)
             if path.startswith(folder + "/") and re.match(pattern, include) and not allowed_here:
@@ -138,6 +147,9 @@ def self_test():
         ("core/model/session/a.h", head + '#include "core/model/body/segments.h"\n', 0),
         ("render/a.h", head + '#include "core/wire/header.h"\n', 1),
         ("app/gui/a.cpp", gpl + "#include <epoxy/gl.h>\n", 1),
+        ("app/gui/a.cpp", gpl + "#include <unistd.h>\n", 1),
+        ("core/log/a.cpp", head.replace("#pragma once\n", "") + "#include <sys/mman.h>\n", 1),
+        ("core/log/a_linux.cpp", head.replace("#pragma once\n", "") + "#include <sys/mman.h>\n", 0),
         ("app/gui/panels/a.cpp", gpl + '#include "app/gui/commands.h"\n', 0),
         ("app/gui/panels/a.cpp", gpl + '#include "app/gui/window/main_window.h"\n', 1),
         ("app/gui/panels/a_panel.cpp", gpl + '#include "app/gui/panels/b_panel.h"\n', 1),

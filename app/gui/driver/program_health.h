@@ -9,16 +9,6 @@
 
 namespace posewire::gui {
 
-/// Processor time that all threads of this process took so far, in seconds.
-[[nodiscard]] std::optional<double> processCpuSeconds();
-
-/// Main memory that this process has now, in bytes; nothing where the system does not report it.
-[[nodiscard]] std::optional<std::uint64_t> processMemoryBytes();
-
-/// Milliseconds since the operating system started this process; where that is not known, since the
-/// program's static objects were made. Good to 10 ms.
-[[nodiscard]] double processAgeMs();
-
 /// Makes figures of what this program does out of counters that only grow.
 class HealthMeter {
 public:

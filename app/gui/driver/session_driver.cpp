@@ -4,6 +4,7 @@
 #include "app/gui/logging.h"
 #include "app/gui/saving.h"
 #include "app/net/datagram_sender.h"
+#include "app/system/process_figures.h"
 #include "core/performer/performer.h"
 #include "core/wire/codec.h"
 
@@ -177,8 +178,8 @@ void SessionDriver::measureHealth() {
     const log::Moment now = m_clock.monotonic();
     if (m_meter.isDue(now)) {
         net::Receiver& receiver = m_receiving.receiver();
-        m_meter.add({now, receiver.cpuSeconds(), processCpuSeconds(), receiver.takeBufferFill(),
-                     processMemoryBytes(), m_pictures});
+        m_meter.add({now, receiver.cpuSeconds(), system::processCpuSeconds(), receiver.takeBufferFill(),
+                     system::processMemoryBytes(), m_pictures});
     }
 }
 

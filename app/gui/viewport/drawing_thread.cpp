@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/viewport/drawing_thread.h"
 
+#include "app/system/process_figures.h"
 #include "render/quality_ladder.h"
 
 #include <algorithm>
 #include <utility>
-
-#ifdef __linux__
-#include <sys/resource.h>
-#include <sys/syscall.h>
-#include <unistd.h>
-#endif
 
 namespace posewire::gui {
 
@@ -23,15 +18,6 @@ using render::Simplification;
 constexpr std::chrono::milliseconds kStillAfter(250);
 /// The longest that a step which leaves out every other picture waits.
 constexpr std::chrono::milliseconds kLongestPause(150);
-
-/// Software OpenGL takes all the processor it is given: receiving and the window go first. The threads that
-/// the driver starts inherit this.
-void yieldToOthers() {
-#ifdef __linux__
-    constexpr int kNice = 8;
-    setpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)), kNice);
-#endif
-}
 
 /// Of any pane.
 bool hasCameraMoved(const SceneFrame& frame, const SceneFrame& before) {
@@ -148,7 +134,7 @@ void DrawingThread::giveBack(render::Image image) {
 }
 
 void DrawingThread::run(const std::stop_token& stop) {
-    yieldToOthers();
+    system::yieldToOthers(); // software OpenGL takes all the processor it is given
     auto renderer = render::OffscreenRenderer::create();
     if (!renderer) {
         Result failed;

@@ -57,11 +57,14 @@ TEST(Outputs, ReplaceNoFileUnasked) {
 TEST(Outputs, AreNeverTheInput) {
     const std::string input = smallRecording();
     const std::string before = textOfFile(input);
-    const std::string link = newPath();
     const std::string twin = newPath();
-    fs::create_symlink(input, link);
     fs::create_hard_link(input, twin);
-    for (const std::string& out : {input, link, twin}) {
+    std::vector<std::string> names{input, twin};
+#ifndef _WIN32 // where a link needs a right that few have
+    names.push_back(newPath());
+    fs::create_symlink(input, names.back());
+#endif
+    for (const std::string& out : names) {
         for (auto arguments : writing(input, out)) {
             arguments.emplace_back("--force");
             expectRefusal(runProgram(arguments), out + ": is ");
@@ -80,13 +83,14 @@ TEST(Outputs, AreNotTwoInOneFile) {
 TEST(Outputs, LeaveNothingWhereTheyFail) {
     const std::string folder = newPath();
     fs::create_directory(folder);
-    const ProgramRun run = runProgram({"encode", "/dev/zero", "-o", folder + "/x"});
+    const std::string input = fileWith(std::string(std::size_t{5} << 20, '\0'));
+    const ProgramRun run = runProgram({"encode", input, "-o", folder + "/x"});
     expectRefusal(run, "longer than 4 MiB");
     EXPECT_TRUE(fs::is_empty(folder));
 }
 
 TEST(Outputs, MayBeDevices) {
-    for (const auto& arguments : writing(smallRecording(), "/dev/null")) {
+    for (const auto& arguments : writing(smallRecording(), nullDevice())) {
         EXPECT_LE(runProgram(arguments).status, 1) << arguments[0];
     }
     const std::string line = textOfFile(posewire::test::sourcePath("tests/golden/25_time_code_bare.json"));

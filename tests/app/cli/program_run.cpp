@@ -43,6 +43,14 @@ std::string fileWith(const std::string& content) {
     return path;
 }
 
+std::string nullDevice() {
+#ifdef _WIN32
+    return "NUL";
+#else
+    return "/dev/null";
+#endif
+}
+
 std::string asText(const std::vector<std::byte>& bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }

@@ -24,6 +24,9 @@ struct ProgramRun {
 /// A path where no file is yet; in a folder that is gone after the test program.
 [[nodiscard]] std::string newPath();
 
+/// What takes all that is written to it.
+[[nodiscard]] std::string nullDevice();
+
 [[nodiscard]] std::string asText(const std::vector<std::byte>& bytes);
 [[nodiscard]] std::string textOfFile(const std::filesystem::path& path);
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/net/connection_help.h"
+#include "tests/support/temporary_folder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
@@ -201,16 +201,12 @@ TEST(LocalAddresses, KnowTheLoopback) {
 
 class FirewallTest : public ::testing::Test {
 protected:
-    FirewallTest() {
-        std::string name = (std::filesystem::temp_directory_path() / "posewire-XXXXXX").string();
-        root = ::mkdtemp(name.data());
-    }
     ~FirewallTest() override { std::filesystem::remove_all(root); }
     void write(const std::string& path, const std::string& text) const {
         std::filesystem::create_directories((root / path).parent_path());
         std::ofstream(root / path) << text;
     }
-    std::filesystem::path root;
+    std::filesystem::path root = posewire::test::newTemporaryFolder("firewall");
 };
 
 TEST_F(FirewallTest, IsSeenOnlyWhereItIsSwitchedOn) {

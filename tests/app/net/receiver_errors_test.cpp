@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/net/listening.h"
+#include "app/net/port_holder.h"
 #include "app/net/receiver.h"
 #include "tests/app/net/net_fixture.h"
 

@@ -103,7 +103,8 @@ TEST_P(PcapngFile, TakesStampsOfCenturiesAndNoneThatNoDurationReaches) {
     const auto at = [&](std::int64_t seconds) {
         return stampRead(0, option(kOffset, number(static_cast<std::uint64_t>(seconds), 8)));
     };
-    for (const std::int64_t seconds : {-7'258'118'400, -2'208'988'800, -1L, 4'294'967'296, 9'151'488'000}) {
+    for (const std::int64_t seconds : std::initializer_list<std::int64_t>{-7'258'118'400, -2'208'988'800, -1,
+                                                                          4'294'967'296, 9'151'488'000}) {
         EXPECT_EQ(at(seconds), Stamp(std::chrono::seconds(seconds))) << seconds;
     }
     for (const std::int64_t seconds : {-7'258'118'401, 9'151'488'001, 32'503'680'000}) {

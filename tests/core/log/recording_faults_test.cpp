@@ -171,7 +171,8 @@ TEST(RecordingTexts, SayEveryOriginAndAreUnderstoodAgain) {
             const PacketFlags flags{(bits & 1) != 0, (bits & 2) != 0, (bits & 4) != 0, (bits & 8) != 0};
             for (const std::optional<std::string>& address :
                  {std::optional<std::string>{}, {""}, {"a; truncated"}, {"x; from y"}, {"\u00e9\n"}}) {
-                for (const std::int64_t setBy : {0L, 1L, -1L, 1'500'000'000L, -3'600'000'000'001L}) {
+                for (const std::int64_t setBy :
+                     std::initializer_list<std::int64_t>{0, 1, -1, 1'500'000'000, -3'600'000'000'001}) {
                     const RecordedOrigin origin{transport, flags, address, Duration(setBy)};
                     EXPECT_EQ(parseOrigin(originText(origin)), origin) << originText(origin);
                     EXPECT_EQ(parseOrigin(originText(origin) + "!").has_value(), address.has_value());

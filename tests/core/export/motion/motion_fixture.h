@@ -5,6 +5,7 @@
 #include "core/model/accounting/stream_figures.h"
 #include "core/model/session/session.h"
 #include "core/performer/performer.h"
+#include "tests/support/temporary_folder.h"
 
 #include <gmock/gmock.h>
 
@@ -26,10 +27,6 @@ class MotionTest : public testing::Test {
 protected:
     static constexpr log::Stamp kStart{1'700'000'000s};
 
-    MotionTest() {
-        std::string name = std::filesystem::temp_directory_path() / "motion-XXXXXX";
-        m_folder = ::mkdtemp(name.data());
-    }
     ~MotionTest() override { std::filesystem::remove_all(m_folder); }
 
     using Sends = std::function<bool(const wire::Datagram&)>;
@@ -109,7 +106,7 @@ protected:
         return exported && !exported->empty() ? textOf(exported->front().path) : std::string();
     }
 
-    [[nodiscard]] std::string path(const std::string& name) const { return m_folder / name; }
+    [[nodiscard]] std::string path(const std::string& name) const { return (m_folder / name).string(); }
     static std::string textOf(const std::string& path) {
         std::ostringstream text;
         text << std::ifstream(path, std::ios::binary).rdbuf();
@@ -118,7 +115,7 @@ protected:
     [[nodiscard]] std::vector<std::string> filesLeft() const {
         std::vector<std::string> names;
         for (const auto& entry : std::filesystem::directory_iterator(m_folder)) {
-            names.push_back(entry.path().filename());
+            names.push_back(entry.path().filename().string());
         }
         std::ranges::sort(names);
         return names;
@@ -140,7 +137,7 @@ protected:
 
     log::PacketLog m_log;
     model::Session m_session{m_log};
-    std::filesystem::path m_folder;
+    std::filesystem::path m_folder = test::newTemporaryFolder("motion");
 
 private:
     void note(const wire::Datagram& datagram) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/cli/interruption.h"
+#include "app/system/interruption.h"
 
 #include <array>
 #include <atomic>
@@ -9,7 +9,7 @@
 #include <signal.h>
 #include <time.h>
 
-namespace posewire::cli {
+namespace posewire::system {
 namespace {
 
 constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP};
@@ -70,4 +70,4 @@ bool Interruption::hasCome() {
     return hasInterruptionCome;
 }
 
-} // namespace posewire::cli
+} // namespace posewire::system

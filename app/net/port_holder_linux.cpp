@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/net/port_holder.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+namespace posewire::net {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Targets of the links in /proc/PID/fd that belong to sockets that listen on the port, from one of the
+/// kernel's tables.
+void collectSockets(const std::string& table, std::string_view state, std::uint16_t port,
+                    std::vector<std::string>& sockets) {
+    std::ifstream file(table);
+    std::string line;
+    std::getline(file, line); // the headings
+    while (std::getline(file, line)) {
+        std::istringstream columns(line);
+        std::string slot, local, remote, stateNow, skipped, inode;
+        columns >> slot >> local >> remote >> stateNow;
+        for (int i = 0; i < 5; ++i) {
+            columns >> skipped; // queues, timer, retransmits, user, timeout
+        }
+        columns >> inode;
+        const std::size_t colon = local.rfind(':');
+        if (columns && stateNow == state && colon != std::string::npos &&
+            std::strtoul(local.c_str() + colon + 1, nullptr, 16) == port) {
+            sockets.push_back("socket:[" + inode + "]");
+        }
+    }
+}
+
+bool holdsAnyOf(const fs::path& process, const std::vector<std::string>& sockets) {
+    std::error_code denied;
+    for (fs::directory_iterator entry(process / "fd", denied), end; !denied && entry != end;
+         entry.increment(denied)) {
+        std::error_code vanished;
+        const std::string target = fs::read_symlink(entry->path(), vanished).string();
+        if (!vanished && std::ranges::find(sockets, target) != sockets.end()) {
+            return true;
+        }
+    }
+    return false;
+}
+
+} // namespace
+
+std::optional<Process> holderOfPort(std::uint16_t port, bool isTcp) {
+    // States in the kernel's tables; a UDP socket without a peer is listed as closed.
+    constexpr std::string_view udpUnconnected = "07";
+    constexpr std::string_view tcpListening = "0A";
+    const std::string table = isTcp ? "/proc/net/tcp" : "/proc/net/udp";
+    std::vector<std::string> sockets;
+    for (const char* version : {"", "6"}) {
+        collectSockets(table + version, isTcp ? tcpListening : udpUnconnected, port, sockets);
+    }
+    if (sockets.empty()) {
+        return std::nullopt;
+    }
+    std::error_code missing;
+    for (fs::directory_iterator entry("/proc", missing), end; !missing && entry != end;
+         entry.increment(missing)) {
+        const std::string id = entry->path().filename().string();
+        if (id.find_first_not_of("0123456789") == std::string::npos && holdsAnyOf(entry->path(), sockets)) {
+            std::ifstream file(entry->path() / "comm");
+            Process process{{}, std::strtoll(id.c_str(), nullptr, 10)};
+            std::getline(file, process.name);
+            return process;
+        }
+    }
+    return std::nullopt;
+}
+
+} // namespace posewire::net
