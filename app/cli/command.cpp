@@ -75,7 +75,7 @@ CLI::Validator notEmpty() {
 }
 
 /// What numbers it takes; empty where it is none.
-std::string rangeOf(CLI::Option& option) {
+std::string rangeText(CLI::Option& option) {
     try {
         return option.get_validator(kRange)->get_description();
     } catch (const CLI::OptionNotFound&) {
@@ -115,7 +115,7 @@ usage::Option usageOf(CLI::Option& option) {
     for (const std::string& name : option.get_lnames()) {
         usage.names.push_back("--" + name);
     }
-    usage.range = rangeOf(option);
+    usage.range = rangeText(option);
     usage.form = option.nonpositional() ? option.get_type_name() : option.get_single_name();
     if (!usage.range.empty()) {
         usage.form.resize(usage.form.size() - usage.range.size() - 1); // ":0 to 1"

@@ -68,7 +68,7 @@ tl::expected<const MotionFormat*, std::string> formatOf(const ExportOptions& opt
 }
 
 /// From the first datagram on.
-model::TimeRange rangeOf(const ExportOptions& options, const model::SessionView& session) {
+model::TimeRange exportedRange(const ExportOptions& options, const model::SessionView& session) {
     const auto stampAt = [&](double seconds) {
         return session.firstStamp() + log::Duration(std::llround(seconds * 1e9));
     };
@@ -163,7 +163,7 @@ ExitStatus writeMotion(const ExportOptions& options, const MotionFormat& format,
     if (!keys) {
         return console.unusable(keys.error());
     }
-    const MotionSource source = exporting::motionSourceOf(session, rangeOf(options, session), *keys);
+    const MotionSource source = exporting::motionSourceOf(session, exportedRange(options, session), *keys);
     if (options.output == "-" && !format.holdsSeveral && source.characters.size() > 1) {
         return console.unusable(std::string("standard output holds one file, and ") + format.suffix +
                                 " has one for each character; choose one with --characters");

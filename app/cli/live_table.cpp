@@ -58,7 +58,7 @@ std::string right(const std::string& text, std::size_t width) {
 
 /// A line with a cell for each column.
 template <class Cell>
-std::string row(std::string_view name, Cell cell) {
+std::string tableRow(std::string_view name, Cell cell) {
     std::string line = left(name, kNameWidth);
     for (const Column& column : kColumns) {
         line += right(cell(column), column.width);
@@ -68,7 +68,7 @@ std::string row(std::string_view name, Cell cell) {
 
 std::string streamLine(const model::Stream& stream) {
     const model::StreamFigures figures = model::figuresOf(stream);
-    return row("    " + wire::typeTitle(stream.key.type), [&](const Column& column) {
+    return tableRow("    " + wire::typeTitle(stream.key.type), [&](const Column& column) {
         return figures.has(column.figure) ? exporting::figureText(figures, column.figure, column.decimals)
                                           : std::string();
     });
@@ -103,7 +103,7 @@ std::vector<std::string> liveTable(const model::SessionView& session, const expo
         lines.emplace_back("No MXTP datagram so far.");
         return lines;
     }
-    lines.push_back(row("", [](const Column& column) { return std::string(column.title); }));
+    lines.push_back(tableRow("", [](const Column& column) { return std::string(column.title); }));
     for (const model::Sender& sender : session.senders()) {
         if (!exporting::hasSentMxtp(sender)) {
             continue;

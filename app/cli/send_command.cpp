@@ -163,7 +163,7 @@ std::string motionList() {
     return list;
 }
 
-void addPlaces(Arguments arguments, SendOptions& options) {
+void addTargets(Arguments arguments, SendOptions& options) {
     arguments.beginGroup("Target and duration");
     arguments.add("--to", options.to, "target; may be given several times")
         .form("HOST:PORT")
@@ -278,7 +278,7 @@ Command addSendCommand(CommandLine& program) {
     auto options = std::make_shared<SendOptions>();
     Arguments arguments =
         program.addCommand("send", "Send a synthetic performance or a recording to the network");
-    addPlaces(arguments, *options);
+    addTargets(arguments, *options);
     addPerformer(arguments, *options);
     addFaults(arguments, *options);
     addTruth(arguments, *options, addFile(arguments, *options));

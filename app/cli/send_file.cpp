@@ -84,7 +84,7 @@ tl::expected<void, log::FileError> sendOnce(const std::string& path, RecordSende
     return log::readFile(**file, std::ref(sender));
 }
 
-ExitStatus conclude(const std::string& path, const RecordSender& sender, Console& console) {
+ExitStatus concludeFile(const std::string& path, const RecordSender& sender, Console& console) {
     if (!sender.failure().empty()) {
         return console.unusable(sender.failure());
     }
@@ -120,7 +120,7 @@ ExitStatus sendFile(const SendOptions& options, std::vector<SendLine>& lines, Co
         records.beginAgain();
     }
     records.finish();
-    return worse(reading, conclude(options.file, records, console));
+    return worse(reading, concludeFile(options.file, records, console));
 }
 
 } // namespace posewire::cli

@@ -21,7 +21,7 @@ namespace posewire::gui {
 namespace {
 
 /// Of the files, raised when the meaning of something in them changes.
-constexpr int kSchema = 1;
+constexpr int kLayoutSchema = 1;
 constexpr int kLeastCharacters = 54;
 constexpr int kLeastLines = 13; ///< a title, tabs, a bar, column titles and some rows
 constexpr double kDefaultExtent = 0.22;
@@ -133,9 +133,9 @@ tl::expected<DockLayout, QString> parseLayout(const QByteArray& json) {
         return tl::unexpected(tr("not a layout: %1").arg(document.error()));
     }
     // The first ones had no version.
-    if (const int schema = (*document)["schema"].toInt(1); schema < 1 || schema > kSchema) {
+    if (const int schema = (*document)["schema"].toInt(1); schema < 1 || schema > kLayoutSchema) {
         return tl::unexpected(
-            tr("its version is %1, this program reads version %2").arg(schema).arg(kSchema));
+            tr("its version is %1, this program reads version %2").arg(schema).arg(kLayoutSchema));
     }
     DockLayout layout;
     layout.name = (*document)["name"].toString().left(kLongestName);

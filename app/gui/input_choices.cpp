@@ -49,7 +49,7 @@ std::optional<InputAddress> inputOf(const QJsonObject& object) {
     return input;
 }
 
-QJsonObject jsonOf(const InputAddress& input) {
+QJsonObject inputJson(const InputAddress& input) {
     QJsonObject object{{"protocol", kindName(input.kind)}, {"host", input.address}, {"port", input.port}};
     if (!input.groups.isEmpty()) {
         object["groups"] = QJsonArray::fromStringList(input.groups);
@@ -64,7 +64,7 @@ QJsonObject jsonOf(const InputChoices& choices) {
     if (choices.inputs) {
         QJsonArray inputs;
         for (const InputAddress& input : *choices.inputs) {
-            inputs.append(jsonOf(input));
+            inputs.append(inputJson(input));
         }
         object["inputs"] = inputs;
     }

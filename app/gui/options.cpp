@@ -120,10 +120,9 @@ struct Reader {
     }
 
     void readAllInputs() {
-        using Kind = InputAddress::Kind;
-        readInputs(Kind::Udp, options.udpPorts);
-        readInputs(Kind::TcpListener, options.tcpInputs);
-        readInputs(Kind::TcpConnection, options.tcpInputs);
+        readInputs(InputAddress::Kind::Udp, options.udpPorts);
+        readInputs(InputAddress::Kind::TcpListener, options.tcpInputs);
+        readInputs(InputAddress::Kind::TcpConnection, options.tcpInputs);
         const QStringList groups = parser.values(QStringLiteral("multicast"));
         if (!groups.isEmpty() && options.udpPorts.empty()) {
             options.udpPorts.push_back({});

@@ -15,8 +15,6 @@ namespace {
 /// Who holds a port, where that is not known.
 constexpr std::string_view kByAnother = "by another program";
 
-using Kind = NetError::Kind;
-
 NetResult<std::unique_ptr<QUdpSocket>> bindOne(const QHostAddress& address, const Endpoint& endpoint,
                                                int bufferBytes) {
     auto socket = std::make_unique<QUdpSocket>();
@@ -32,9 +30,10 @@ NetResult<std::vector<QHostAddress>> groupsOf(const std::vector<std::string>& te
     for (const std::string& text : texts) {
         const QHostAddress group(QString::fromStdString(text));
         if (!group.isMulticast()) {
-            return netError(Kind::BadEndpoint, "\"" + text +
-                                                   "\" is not a multicast group; those are 224.0.0.0 to "
-                                                   "239.255.255.255 and addresses that begin with ff");
+            return netError(NetError::Kind::BadEndpoint,
+                            "\"" + text +
+                                "\" is not a multicast group; those are 224.0.0.0 to "
+                                "239.255.255.255 and addresses that begin with ff");
         }
         groups.push_back(group);
     }
@@ -50,7 +49,7 @@ NetResult<UdpSockets> bindGroups(Endpoint endpoint, const std::vector<QHostAddre
         const bool isAskedFor = std::ranges::find(groups, protocol, &QHostAddress::protocol) != groups.end();
         auto socket = bindOne(isIpv4 ? QHostAddress::AnyIPv4 : QHostAddress::AnyIPv6, endpoint, bufferBytes);
         if (!socket) {
-            if (isAskedFor || socket.error().kind == Kind::PortInUse) {
+            if (isAskedFor || socket.error().kind == NetError::Kind::PortInUse) {
                 return tl::unexpected(socket.error());
             }
             continue; // a computer without IPv6
@@ -79,7 +78,7 @@ NetResult<UdpSockets> bindAll(const Endpoint& endpoint, const std::vector<std::s
         return bindGroups({{}, endpoint.port}, *groups, bufferBytes);
     }
     if (!groups->empty() && !endpoint.host.empty()) {
-        return netError(Kind::BadEndpoint,
+        return netError(NetError::Kind::BadEndpoint,
                         "a port of " + endpoint.host +
                             " alone receives no multicast; leave the address out to join a group");
     }
@@ -101,7 +100,7 @@ NetResult<QHostAddress> listenAddress(const std::string& host) {
     const QHostAddress address =
         host.empty() ? QHostAddress(QHostAddress::Any) : QHostAddress(QString::fromStdString(host));
     if (address.isNull()) {
-        return netError(Kind::BadEndpoint,
+        return netError(NetError::Kind::BadEndpoint,
                         "\"" + host + "\" is not an IP address to listen on; write one, or leave it out");
     }
     return address;
@@ -113,22 +112,24 @@ NetError listenError(const std::string& protocol, const Endpoint& endpoint,
                              (endpoint.host.empty() ? std::string() : " of " + endpoint.host);
     switch (error) {
     case QAbstractSocket::AddressInUseError:
-        return {Kind::PortInUse, port + " is in use " + std::string(kByAnother) +
-                                     "; close that program or choose another port"};
+        return {NetError::Kind::PortInUse, port + " is in use " + std::string(kByAnother) +
+                                               "; close that program or choose another port"};
     case QAbstractSocket::SocketAccessError:
-        return {Kind::NoPermission, port + " needs administrator rights; choose a port from 1024 up"};
+        return {NetError::Kind::NoPermission,
+                port + " needs administrator rights; choose a port from 1024 up"};
     case QAbstractSocket::SocketAddressNotAvailableError:
-        return {Kind::AddressNotHere, endpoint.host + " is not an address of this computer; leave it out to "
-                                                      "listen on all addresses"};
+        return {NetError::Kind::AddressNotHere, endpoint.host +
+                                                    " is not an address of this computer; leave it out to "
+                                                    "listen on all addresses"};
     default:
-        return {Kind::Other, "cannot listen on " + port + ": " + systemText.toStdString() +
-                                 "; choose another port or address"};
+        return {NetError::Kind::Other, "cannot listen on " + port + ": " + systemText.toStdString() +
+                                           "; choose another port or address"};
     }
 }
 
 NetError withHolder(NetError error, std::uint16_t port, bool isTcp) {
     const std::size_t place = error.text.find(kByAnother);
-    if (error.kind != Kind::PortInUse || place == std::string::npos) {
+    if (error.kind != NetError::Kind::PortInUse || place == std::string::npos) {
         return error;
     }
     if (const auto holder = holderOfPort(port, isTcp)) {

@@ -6,7 +6,7 @@
 namespace posewire::usage {
 namespace {
 
-std::string quoted(std::string_view text) {
+std::string fishQuoted(std::string_view text) {
     std::string out = "'";
     for (const char c : text) {
         if (c == '\'' || c == '\\') {
@@ -18,7 +18,7 @@ std::string quoted(std::string_view text) {
 }
 
 /// ` -s o -l output`
-std::string namesOf(const Option& option) {
+std::string fishNamesOf(const Option& option) {
     std::string text;
     for (const std::string& name : option.names) {
         text += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
@@ -27,10 +27,10 @@ std::string namesOf(const Option& option) {
 }
 
 /// What may follow the option: a value (-r), and files (-F) or not (-f).
-std::string valueOf(const Option& option) {
+std::string fishValueOf(const Option& option) {
     std::string text = !needsValue(option) ? "" : takesFile(option) ? " -r -F" : " -r -f";
     if (const std::vector<std::string> choices = choicesOf(option); !choices.empty()) {
-        text += " -a " + quoted(joined(choices, " "));
+        text += " -a " + fishQuoted(joined(choices, " "));
     }
     return text;
 }
@@ -40,8 +40,8 @@ std::string optionLines(const std::string& start, const std::vector<Option>& opt
     std::string text;
     for (const Option& option : options) {
         if (!isArgument(option)) {
-            text +=
-                start + namesOf(option) + valueOf(option) + " -d " + quoted(shortText(option.text)) + '\n';
+            text += start + fishNamesOf(option) + fishValueOf(option) + " -d " +
+                    fishQuoted(shortText(option.text)) + '\n';
         }
     }
     return text;
@@ -65,8 +65,8 @@ std::string fishCompletion(const Program& program) {
     const std::string first = start + " -n __fish_use_subcommand";
     text += first + " -f\n" + optionLines(first, program.options);
     for (const Command& command : program.commands) {
-        const std::string then = start + " -n " + quoted("__fish_seen_subcommand_from " + command.name);
-        text += first + " -a " + command.name + " -d " + quoted(shortText(command.text)) + '\n';
+        const std::string then = start + " -n " + fishQuoted("__fish_seen_subcommand_from " + command.name);
+        text += first + " -a " + command.name + " -d " + fishQuoted(shortText(command.text)) + '\n';
         text += filesLine(then, command.options) + optionLines(then, command.options);
     }
     return text;

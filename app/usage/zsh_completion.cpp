@@ -7,7 +7,7 @@ namespace posewire::usage {
 namespace {
 
 /// In single quotes, as they stand in a script.
-std::string quoted(std::string_view text) {
+std::string zshQuoted(std::string_view text) {
     std::string out = "'";
     for (const char c : text) {
         out += c == '\'' ? std::string("'\\''") : std::string(1, c);
@@ -28,14 +28,14 @@ std::string escaped(std::string_view text) {
 }
 
 /// `:FILE:_files`, `:E|J:(E J)`, `:SECONDS: `: what is asked for, and what completes it.
-std::string valueOf(const Option& option) {
+std::string zshValueOf(const Option& option) {
     const std::vector<std::string> choices = choicesOf(option);
     const std::string title = ':' + escaped(option.form) + ':';
     const std::string list = '(' + joined(choices, " ") + ')';
     if (!choices.empty() && takesFile(option)) {
         // A colon would begin the next value.
-        return title + "{_alternative " + quoted("choices\\:choice\\:" + list) + ' ' +
-               quoted("files\\:file\\:_files") + '}';
+        return title + "{_alternative " + zshQuoted("choices\\:choice\\:" + list) + ' ' +
+               zshQuoted("files\\:file\\:_files") + '}';
     }
     return title + (!choices.empty() ? list : takesFile(option) ? "_files" : " ");
 }
@@ -52,12 +52,13 @@ std::string specifications(const Option& option, const std::string& indent) {
         line += option.form.empty() ? "" : name.starts_with("--") ? "=" : "+";
         line += '[' + escaped(shortText(option.text)) + ']';
         if (!option.form.empty()) {
-            line += (needsValue(option) ? "" : ":") + valueOf(option);
+            line += (needsValue(option) ? "" : ":") + zshValueOf(option);
         }
-        text += indent + quoted(line) + " \\\n";
+        text += indent + zshQuoted(line) + " \\\n";
     }
     if (isArgument(option)) {
-        text += indent + quoted(option.isRepeatable ? "*" + valueOf(option) : valueOf(option)) + " \\\n";
+        text +=
+            indent + zshQuoted(option.isRepeatable ? "*" + zshValueOf(option) : zshValueOf(option)) + " \\\n";
     }
     return text;
 }
@@ -75,7 +76,7 @@ std::string commandCases(const std::vector<Command>& commands) {
     std::string list;
     std::string cases;
     for (const Command& command : commands) {
-        list += "            " + quoted(command.name + ':' + shortText(command.text)) + '\n';
+        list += "            " + zshQuoted(command.name + ':' + shortText(command.text)) + '\n';
         cases += "        " + command.name + ")\n" +
                  arguments("_arguments -S", command.options, "            ") +
                  "                && ret=0\n            ;;\n";

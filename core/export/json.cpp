@@ -58,7 +58,7 @@ Json tagsOf(const std::string& text) {
 
 /// A message's or item's fields as an object.
 template <class T, wire::Form F>
-Json objectOf(const T& value) {
+Json fieldsOf(const T& value) {
     Json object = Json::object();
     wire::forEachField<T, F>([&]<class FieldType>(const FieldType& field) {
         const auto& member = value.*FieldType::kMember;
@@ -66,7 +66,7 @@ Json objectOf(const T& value) {
         if constexpr (requires { FieldType::kItemForm; }) {
             Json& list = object[key] = Json::array();
             for (const auto& item : member) {
-                list.push_back(objectOf<typename FieldType::Item, FieldType::kItemForm>(item));
+                list.push_back(fieldsOf<typename FieldType::Item, FieldType::kItemForm>(item));
             }
         } else if constexpr (requires { FieldType::kKind; }) {
             const bool isTags = field.about.unit == wire::Unit::TagLines;
@@ -124,7 +124,7 @@ Json bodyOf(const wire::Body& body) {
         object["raw"] = wire::hexadecimal(raw->bytes);
     }
     wire::visitMessage(body,
-                       [&]<wire::Form F, class T>(const T& message) { object = objectOf<T, F>(message); });
+                       [&]<wire::Form F, class T>(const T& message) { object = fieldsOf<T, F>(message); });
     return object;
 }
 

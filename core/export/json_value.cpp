@@ -12,30 +12,30 @@
 namespace posewire::exporting {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Written = nlohmann::ordered_json;
 
-Json jsonOf(const JsonValue& value);
+Written jsonOf(const JsonValue& value);
 
 struct ToJson {
-    Json operator()(std::monostate) const { return nullptr; }
-    Json operator()(const JsonValue::List& values) const {
-        Json list = Json::array();
+    Written operator()(std::monostate) const { return nullptr; }
+    Written operator()(const JsonValue::List& values) const {
+        Written list = Written::array();
         for (const JsonValue& value : values) {
             list.push_back(jsonOf(value));
         }
         return list;
     }
-    Json operator()(const JsonValue::Object& members) const {
-        Json object = Json::object();
+    Written operator()(const JsonValue::Object& members) const {
+        Written object = Written::object();
         for (const auto& [key, value] : members) {
             object[key] = jsonOf(value);
         }
         return object;
     }
-    Json operator()(const auto& scalar) const { return scalar; }
+    Written operator()(const auto& scalar) const { return scalar; }
 };
 
-Json jsonOf(const JsonValue& value) {
+Written jsonOf(const JsonValue& value) {
     return std::visit(ToJson{}, value.value());
 }
 
@@ -63,7 +63,7 @@ JsonValue& JsonValue::operator[](std::string_view key) {
 }
 
 std::string JsonValue::text(int indent) const {
-    return jsonOf(*this).dump(indent, ' ', false, Json::error_handler_t::replace);
+    return jsonOf(*this).dump(indent, ' ', false, Written::error_handler_t::replace);
 }
 
 } // namespace posewire::exporting

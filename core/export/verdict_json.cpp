@@ -14,7 +14,7 @@ JsonValue timeJson(const model::SessionView& session, log::Stamp stamp) {
 }
 
 template <class ToJson>
-JsonValue listOf(const std::vector<std::uint8_t>& values, ToJson toJson) {
+JsonValue numberList(const std::vector<std::uint8_t>& values, ToJson toJson) {
     JsonValue::List list;
     for (const std::uint8_t value : values) {
         list.push_back(toJson(value));
@@ -63,9 +63,9 @@ JsonValue incidentJson(const model::SessionView& session, const model::ListedInc
             {"source", incident.sender == log::kNoSender
                            ? JsonValue()
                            : JsonValue(std::string(session.addressOf(incident.sender).exact()))},
-            {"characters", listOf(incident.characters(), [](std::uint8_t id) { return JsonValue(id); })},
-            {"types",
-             listOf(incident.types(), [](std::uint8_t type) { return JsonValue(wire::typeDigits(type)); })},
+            {"characters", numberList(incident.characters(), [](std::uint8_t id) { return JsonValue(id); })},
+            {"types", numberList(incident.types(),
+                                 [](std::uint8_t type) { return JsonValue(wire::typeDigits(type)); })},
             {"samples", incident.samples},
             {"count", incident.count},
             {"text", model::headlineOf(session, listed)},

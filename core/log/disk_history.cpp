@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::chrono::milliseconds kPause{50};
+constexpr std::chrono::milliseconds kHistoryPause{50};
 constexpr std::uint64_t kLeastFile = std::uint64_t{1} << 20;
 
 // "history-<process>-<file>.pcapng": the process is for whoever looks into the folder, no more. Its number
@@ -73,7 +73,7 @@ void DiskHistory::run(const std::stop_token& stop) {
             return;
         }
         std::unique_lock lock(m_mutex);
-        m_changed.wait_for(lock, stop, kPause, [] { return false; });
+        m_changed.wait_for(lock, stop, kHistoryPause, [] { return false; });
     }
 }
 

@@ -16,7 +16,7 @@ namespace {
 
 using Kind = FileStatus::Kind;
 
-constexpr int kStandardInput = 0;
+constexpr int kInputDescriptor = 0;
 constexpr const char* kStays = "what was written before can be read";
 constexpr const char* kIsGone = "the file was not written";
 
@@ -28,7 +28,7 @@ tl::unexpected<FileError> unwritable(const std::string& path, int error) {
 tl::expected<void, FileError> checkInUse(const std::string& path, const FileStatus& status,
                                          const OutputRules& rules) {
     for (const std::string& other : rules.inUse) {
-        const auto used = other == "-" ? statusOf(kStandardInput) : statusOf(other);
+        const auto used = other == "-" ? statusOf(kInputDescriptor) : statusOf(other);
         if (used && used->holdsData() && used->isSameFileAs(status)) {
             const std::string which = other == path  ? ": is an input as well"
                                       : other == "-" ? ": is the same file as standard input"

@@ -21,7 +21,7 @@ constexpr double kHalfWidth = 3.8;
 constexpr int kPerGroup = 4;
 constexpr double kGroupSpacing = 5.0;
 
-enum Key : std::uint64_t {
+enum WalkKey : std::uint64_t {
     kAmplitude,
     kArmSwing,
     kArmAbduction,
@@ -42,7 +42,7 @@ WalkStyle styleFor(const KeyedRandom& random) {
     return style;
 }
 
-KeyedRandom randomOf(const MotionSettings& settings) {
+KeyedRandom walkRandom(const MotionSettings& settings) {
     return KeyedRandom(settings.seed).fork(static_cast<std::uint64_t>(settings.character)).fork(0x77616c6bU);
 }
 
@@ -111,8 +111,10 @@ private:
 };
 
 WalkMotion::WalkMotion(const MotionSettings& settings)
-    : m_body(settings.body), m_path(pathFor(settings)), m_clip(settings.body, styleFor(randomOf(settings))) {
-    const KeyedRandom random = randomOf(settings);
+    : m_body(settings.body),
+      m_path(pathFor(settings)),
+      m_clip(settings.body, styleFor(walkRandom(settings))) {
+    const KeyedRandom random = walkRandom(settings);
     // All start a little after the crossing, the first on the way to the near lobe.
     m_startDistance = m_path.length() * (startShareFor(settings) + 0.04);
     m_startPhase = random.uniform(kPhase);

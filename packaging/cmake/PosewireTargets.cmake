@@ -59,6 +59,16 @@ if(POSEWIRE_FUZZ)
   add_compile_options(-fsanitize=fuzzer-no-link)
 endif()
 
+# Where everything is compiled anew, headers cost more than code: several sources of a target make one unit then. Who
+# works on a part compiles its sources one by one. Types of an unnamed namespace are not those of another unit.
+if(POSEWIRE_UNITY)
+  add_compile_options(-Wno-subobject-linkage)
+endif()
+
+function(posewire_unite target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${POSEWIRE_UNITY} UNITY_BUILD_BATCH_SIZE 8)
+endfunction()
+
 # posewire_precompile(kind HEADERS … [LIBRARIES …]): headers of others that most units of a kind include, compiled once.
 # Targets name their kind as PRECOMPILED; their units still include what they use.
 function(posewire_precompile kind)
@@ -97,6 +107,7 @@ function(posewire_library name)
   add_library(posewire::${alias} ALIAS ${name})
   target_include_directories(${name} PUBLIC "${PROJECT_SOURCE_DIR}")
   target_link_libraries(${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
+  posewire_unite(${name})
   posewire_use_precompiled(${name} "${ARG_PRECOMPILED}")
 endfunction()
 
@@ -109,6 +120,7 @@ function(posewire_test name)
   target_compile_options(${name} PRIVATE ${test_options})
   target_include_directories(${name} PRIVATE "${PROJECT_SOURCE_DIR}")
   target_link_libraries(${name} PRIVATE ${ARG_LIBRARIES} posewire::test::support GTest::gmock GTest::gtest_main)
+  posewire_unite(${name})
   if(NOT ARG_PRECOMPILED)
     set(ARG_PRECOMPILED test)
   endif()

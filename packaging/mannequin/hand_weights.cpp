@@ -56,10 +56,6 @@ double distanceTo(const Chain& chain, const glm::dvec3& point) {
     return nearest;
 }
 
-double ramp(double width, double x) {
-    return smoothstep(-width, width, x);
-}
-
 /// How much each digit has of a point; the nearest has most.
 std::array<double, kDigits.size()> digitShares(const glm::dvec3& point) {
     std::array<double, kDigits.size()> away{};

@@ -26,6 +26,10 @@ double smoothstep(double from, double to, double x) {
     return t * t * (3.0 - 2.0 * t);
 }
 
+double ramp(double width, double x) {
+    return smoothstep(-width, width, x);
+}
+
 double smoothUnion(double a, double b, double radius) {
     const double h = std::max(radius - std::abs(a - b), 0.0) / radius;
     return std::min(a, b) - h * h * radius * 0.25;

@@ -14,6 +14,9 @@ namespace posewire::render::mannequin {
 /// 0 up to `from`, 1 from `to` on, and a cubic in between; `from` may be larger than `to`.
 double smoothstep(double from, double to, double x);
 
+/// 0 below, 1 above, over ±width around zero.
+double ramp(double width, double x);
+
 /// Minimum and maximum with a polynomial fillet where the arguments differ by less than `radius`.
 double smoothUnion(double a, double b, double radius);
 double smoothIntersection(double a, double b, double radius);

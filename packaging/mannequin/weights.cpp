@@ -26,11 +26,6 @@ std::size_t onSide(Segment right, Side side) {
     return right + (side == Side::Left ? kLeftAfterRight : 0U);
 }
 
-/// 0 below, 1 above, over ±width around zero.
-double ramp(double width, double x) {
-    return smoothstep(-width, width, x);
-}
-
 /// The twist joint takes what the segment does not: all of the weight at the near end of the bone, none at
 /// the far end.
 void shareWithTwist(Weights& weights, Segment right, Side side, double twistShare) {

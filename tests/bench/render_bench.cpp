@@ -45,7 +45,7 @@ void operator delete(void* room, std::size_t /*size*/) noexcept {
 namespace {
 
 using namespace posewire::render;
-using posewire::render::testing::Pose;
+using posewire::render::test::Pose;
 
 constexpr int kWidth = 1280;
 constexpr int kHeight = 720;
@@ -80,15 +80,15 @@ Pose walking(int character, int picture) {
     const auto about = [](float angle, const glm::vec3& axis) { return glm::angleAxis(angle, axis); };
     const glm::vec3 x(1, 0, 0);
     const glm::vec3 y(0, 1, 0);
-    return testing::poseFrom({{LeftUpperArm, about(swing, y) * about(-1.2F, x)},
-                              {RightUpperArm, about(-swing, y) * about(1.2F, x)},
-                              {LeftForeArm, about(-0.4F, y)},
-                              {RightForeArm, about(-0.4F, y)},
-                              {LeftUpperLeg, about(-swing, y)},
-                              {RightUpperLeg, about(swing, y)},
-                              {LeftLowerLeg, about(std::max(swing, 0.0F), y)},
-                              {RightLowerLeg, about(std::max(-swing, 0.0F), y)},
-                              {T8, about(0.3F * swing, glm::vec3(0, 0, 1))}});
+    return test::poseFrom({{LeftUpperArm, about(swing, y) * about(-1.2F, x)},
+                           {RightUpperArm, about(-swing, y) * about(1.2F, x)},
+                           {LeftForeArm, about(-0.4F, y)},
+                           {RightForeArm, about(-0.4F, y)},
+                           {LeftUpperLeg, about(-swing, y)},
+                           {RightUpperLeg, about(swing, y)},
+                           {LeftLowerLeg, about(std::max(swing, 0.0F), y)},
+                           {RightLowerLeg, about(std::max(-swing, 0.0F), y)},
+                           {T8, about(0.3F * swing, glm::vec3(0, 0, 1))}});
 }
 
 class Stage {
@@ -123,8 +123,8 @@ public:
         m_axes.clear();
         for (int i = 0; i < m_count; ++i) {
             const auto index = static_cast<std::size_t>(i);
-            const Pose pose = testing::placed(walking(i, picture), place(i));
-            m_palettes[index] = testing::paletteOf(pose);
+            const Pose pose = test::placed(walking(i, picture), place(i));
+            m_palettes[index] = test::paletteOf(pose);
             m_characters[index].palette = m_palettes[index];
             for (std::size_t segment = 0; hasAxes && segment < kSegmentCount; ++segment) {
                 m_axes.push_back({pose.positions[segment], pose.orientations[segment], 0.12F, 0.85F});

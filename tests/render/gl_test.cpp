@@ -23,7 +23,7 @@ constexpr int kTooLarge = 1 << 20;
 class GlTest : public ::testing::Test {
 protected:
     void SetUp() override {
-        render::testing::useSoftwareOpenGl();
+        render::test::useSoftwareOpenGl();
         auto created = OffscreenContext::create();
         ASSERT_TRUE(created.has_value()) << created.error();
         m_context.emplace(std::move(*created));

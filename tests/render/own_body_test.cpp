@@ -9,7 +9,7 @@
 #include <glm/trigonometric.hpp>
 #include <gtest/gtest.h>
 
-namespace posewire::render::testing {
+namespace posewire::render::test {
 namespace {
 
 OwnBody bodyOf(const Rig& rig, const RestChoice& choice = {}) {
@@ -285,4 +285,4 @@ TEST(OwnBody, RefusesPalettesOfAnotherSize) {
 }
 
 } // namespace
-} // namespace posewire::render::testing
+} // namespace posewire::render::test

@@ -2,7 +2,7 @@
 #include "tests/render/rig.h"
 #include "tests/render/studio.h"
 
-namespace posewire::render::testing {
+namespace posewire::render::test {
 namespace {
 
 /// A weave of two colours, finer along the bones.
@@ -136,4 +136,4 @@ TEST_F(OwnPicture, SkinsByTheShaderAsByTheReference) {
 }
 
 } // namespace
-} // namespace posewire::render::testing
+} // namespace posewire::render::test

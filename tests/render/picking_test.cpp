@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-namespace posewire::render::testing {
+namespace posewire::render::test {
 namespace {
 
 const SegmentCapsules& mannequinCapsules() {
@@ -120,4 +120,4 @@ TEST(SegmentCapsules, AreAbsentWhereNoVertexFollowsASegment) {
 }
 
 } // namespace
-} // namespace posewire::render::testing
+} // namespace posewire::render::test

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest-spi.h>
 
-namespace posewire::render::testing {
+namespace posewire::render::test {
 namespace {
 
 class Picture : public Studio {
@@ -246,4 +246,4 @@ TEST_F(Picture, FailsWhereTheBaselineShowsSomethingElse) {
 }
 
 } // namespace
-} // namespace posewire::render::testing
+} // namespace posewire::render::test

@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-namespace posewire::render::testing {
+namespace posewire::render::test {
 namespace {
 
 constexpr glm::vec3 kX{1.0F, 0.0F, 0.0F};
@@ -188,4 +188,4 @@ Pose grounded(const Pose& pose, const SkinnedMesh& mesh, const NullPose& nullPos
     return lowest == positions.end() ? pose : placed(pose, {0.0F, 0.0F, -lowest->z});
 }
 
-} // namespace posewire::render::testing
+} // namespace posewire::render::test

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace posewire::render::testing {
+namespace posewire::render::test {
 
 /// A pose in the world, for the null pose it was made with.
 struct Pose {
@@ -46,4 +46,4 @@ std::vector<DualQuaternion> fist(const Pose& pose);
 /// Puts the lowest vertex of the skinned mesh on the floor.
 Pose grounded(const Pose& pose, const SkinnedMesh& mesh, const NullPose& nullPose = kReferenceNullPose);
 
-} // namespace posewire::render::testing
+} // namespace posewire::render::test

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <array>
 
-namespace posewire::render::testing {
+namespace posewire::render::test {
 namespace {
 
 /// The ways to draw the same with less.
@@ -198,4 +198,4 @@ TEST(MakeDisjoint, LeavesOutWhatHasNoSize) {
 }
 
 } // namespace
-} // namespace posewire::render::testing
+} // namespace posewire::render::test

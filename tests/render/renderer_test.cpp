@@ -7,7 +7,7 @@
 #include <random>
 #include <thread>
 
-namespace posewire::render::testing {
+namespace posewire::render::test {
 namespace {
 
 class RendererTest : public Studio {
@@ -410,4 +410,4 @@ TEST(RenderQualityTest, SparesSoftwareRenderersAndUsesGraphicsProcessors) {
 }
 
 } // namespace
-} // namespace posewire::render::testing
+} // namespace posewire::render::test

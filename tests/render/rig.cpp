@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-namespace posewire::render::testing {
+namespace posewire::render::test {
 namespace {
 
 constexpr int kSides = 10;
@@ -148,4 +148,4 @@ glm::vec3 placeOf(const OwnBody& body, std::span<const DualQuaternion> palette, 
     return transformPoint(palette[joint], scale * body.joints[joint].origin);
 }
 
-} // namespace posewire::render::testing
+} // namespace posewire::render::test

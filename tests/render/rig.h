@@ -3,7 +3,7 @@
 
 #include "render/mesh/own_body.h"
 
-namespace posewire::render::testing {
+namespace posewire::render::test {
 
 /// A character of tubes as another program might have left it: bones by Mixamo's names, three in the spine,
 /// arms and legs away from the T-pose.
@@ -24,4 +24,4 @@ struct Rig {
 glm::vec3 placeOf(const OwnBody& body, std::span<const DualQuaternion> palette, Segment segment,
                   float scale = 1.0F);
 
-} // namespace posewire::render::testing
+} // namespace posewire::render::test

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace posewire::render::testing {
+namespace posewire::render::test {
 
 void Studio::SetUp() {
     useSoftwareOpenGl();
@@ -66,4 +66,4 @@ glm::ivec3 pixelAt(const Image& image, const Camera& camera, const glm::vec3& po
     return pixel(image, std::clamp(x, 0, image.width - 1), std::clamp(y, 0, image.height - 1));
 }
 
-} // namespace posewire::render::testing
+} // namespace posewire::render::test

@@ -11,7 +11,7 @@
 
 #include <gtest/gtest.h>
 
-namespace posewire::render::testing {
+namespace posewire::render::test {
 
 inline constexpr glm::vec3 kBlue{0.20F, 0.45F, 0.75F};
 inline constexpr glm::vec3 kOrange{0.914F, 0.392F, 0.090F};
@@ -52,4 +52,4 @@ glm::ivec3 pixel(const Image& image, int x, int y);
 /// The pixel at which a point appears.
 glm::ivec3 pixelAt(const Image& image, const Camera& camera, const glm::vec3& point);
 
-} // namespace posewire::render::testing
+} // namespace posewire::render::test

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace posewire::render::testing {
+namespace posewire::render::test {
 namespace {
 
 constexpr int kTolerance = 2;
@@ -67,4 +67,4 @@ void useSoftwareOpenGl() {
     setenv("LIBGL_ALWAYS_SOFTWARE", "1", 0);
 }
 
-} // namespace posewire::render::testing
+} // namespace posewire::render::test

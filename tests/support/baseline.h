@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace posewire::render::testing {
+namespace posewire::render::test {
 
 /// Fails the running test unless the picture is that of tests/baselines/<name>.png: at most 0.05 % of its
 /// pixels may be off by more than 2/255, which is what processors without AVX were found to differ by. On
@@ -18,4 +18,4 @@ void expectMatchesBaseline(const Image& image, const std::string& name);
 /// context.
 void useSoftwareOpenGl();
 
-} // namespace posewire::render::testing
+} // namespace posewire::render::test

@@ -16,7 +16,7 @@ namespace posewire::gui {
 namespace {
 
 /// Read before all of it must have been looked at: much less than the smallest log holds.
-constexpr std::uint64_t kPacketsAtOnce = 8'192;
+constexpr std::uint64_t kPacketsInStep = 8'192;
 constexpr std::uint64_t kBytesAtOnce = std::uint64_t{4} << 20;
 
 /// Longer jumps of the time code are taken for a new beginning.
@@ -119,7 +119,7 @@ void FileImport::run(const std::stop_token& stop, log::Stamp end) {
         log::Arrival whole = arrival;
         whole.sender = m_log.senders().intern(sender);
         take(record, whole);
-        if (m_packetsRead % kPacketsAtOnce == 0 || m_bytesRead - bytesInStep >= kBytesAtOnce) {
+        if (m_packetsRead % kPacketsInStep == 0 || m_bytesRead - bytesInStep >= kBytesAtOnce) {
             bytesInStep = m_bytesRead;
             keepStep(stop);
         }

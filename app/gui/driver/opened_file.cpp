@@ -9,7 +9,7 @@ namespace posewire::gui {
 namespace {
 
 /// At once, so that the time that was given is kept to.
-constexpr std::size_t kPacketsAtOnce = 1'000;
+constexpr std::size_t kPacketsInTurn = 1'000;
 
 /// Of a file that is read again where it is wanted.
 constexpr std::size_t kMemoryCap = std::size_t{64} << 20;
@@ -31,7 +31,7 @@ bool OpenedFile::follow(log::Duration most) {
     const log::Moment begin = m_clock.monotonic();
     const std::uint64_t before = m_session.end();
     const bool isAtEnd = isShownAtEnd();
-    while (m_session.followFile(now, kPacketsAtOnce) && m_clock.monotonic() - begin < most) {
+    while (m_session.followFile(now, kPacketsInTurn) && m_clock.monotonic() - begin < most) {
     }
     if (isAtEnd) {
         showEnd();

@@ -44,12 +44,12 @@ QLabel* proseLabel(QWidget* parent) {
 }
 
 Health healthOf(net::Finding::Kind kind) {
-    using Kind = net::Finding::Kind;
+    using Found = net::Finding::Kind;
     switch (kind) {
-    case Kind::CannotOpen:
+    case Found::CannotOpen:
         return Health::Error;
-    case Kind::OtherTransport:
-    case Kind::FirewallOn:
+    case Found::OtherTransport:
+    case Found::FirewallOn:
         return Health::Unknown;
     default:
         return Health::Warning;
@@ -57,19 +57,19 @@ Health healthOf(net::Finding::Kind kind) {
 }
 
 HelpTopic topicOf(net::Finding::Kind kind) {
-    using Kind = net::Finding::Kind;
+    using Found = net::Finding::Kind;
     switch (kind) {
-    case Kind::NoInput:
+    case Found::NoInput:
         return HelpTopic::NoInput;
-    case Kind::CannotOpen:
+    case Found::CannotOpen:
         return HelpTopic::CannotListen;
-    case Kind::NotMxtp:
-    case Kind::GarbledPeer:
+    case Found::NotMxtp:
+    case Found::GarbledPeer:
         return HelpTopic::NotMxtp;
-    case Kind::NotJoined:
+    case Found::NotJoined:
         return HelpTopic::GroupNotJoined;
-    case Kind::NotReachable:
-    case Kind::SilentPeer:
+    case Found::NotReachable:
+    case Found::SilentPeer:
         return HelpTopic::TcpTrouble;
     default:
         return HelpTopic::NothingArrives;

@@ -24,7 +24,7 @@ namespace posewire::gui {
 
 namespace {
 
-constexpr int kTableRows = 6;
+constexpr int kTargetRows = 6;
 
 /// "::1" has colons of its own: the port of an IPv6 address follows brackets.
 bool isBareAddress(const QString& text) {
@@ -91,7 +91,7 @@ void RelayPage::layOut() {
     auto* about = dimText(tr("Every received datagram is forwarded by UDP, unchanged, to each target that "
                              "is on. Receiving never waits for this. Files are not forwarded."),
                           this);
-    m_table->setMinimumHeight(m_table->heightForRows(kTableRows));
+    m_table->setMinimumHeight(m_table->heightForRows(kTargetRows));
     m_target->setPlaceholderText(tr("host:port, such as 192.168.1.40:%1").arg(kDefaultPort));
     m_note->setWordWrap(true);
     m_note->setAlignment(Qt::AlignTop);

@@ -41,7 +41,7 @@ const model::Stream* leadingStream(const model::Character& character) {
 }
 
 /// Now on the wire; of a recording at the cursor.
-double ageOf(const model::SessionView& view, log::Stamp newest) {
+double characterAge(const model::SessionView& view, log::Stamp newest) {
     const log::Stamp now = view.isRecording() ? view.cursorStamp() : view.now();
     return std::max(0.0, log::secondsOf(now - newest));
 }
@@ -211,7 +211,7 @@ void CharacterModel::refresh() {
         row.key = key;
         row.verdict = m_view.verdict(key);
         row.restarts = m_view.restartsOf(key);
-        row.ageS = ageOf(m_view, m_view.find(key)->lastStamp);
+        row.ageS = characterAge(m_view, m_view.find(key)->lastStamp);
         if (const model::Stream* leading = leadingStream(*m_view.find(key))) {
             row.nominalHz = m_rates.of(*leading);
             row.measuredHz = measuredHz(*leading, row.ageS, m_view.isRecording());
@@ -315,7 +315,7 @@ void CharacterDetailModel::refresh(const std::optional<model::CharacterKey>& key
         for (const model::Stream* stream : character->streams) {
             DetailRow row;
             row.key = stream->key;
-            row.ageS = ageOf(m_view, stream->accounting.lastStamp());
+            row.ageS = characterAge(m_view, stream->accounting.lastStamp());
             row.nominalHz = rates.of(*stream);
             if (wire::isSampled(stream->key.type)) {
                 row.measuredHz = measuredHz(*stream, row.ageS, m_view.isRecording());

@@ -21,10 +21,6 @@ using wire::RefersTo;
 
 constexpr std::int32_t kNone = -1;
 
-std::size_t at(std::int32_t node) {
-    return static_cast<std::size_t>(node);
-}
-
 Health worse(Health a, Health b) {
     const auto rank = [](Health health) {
         return health == Health::Error ? 2 : health == Health::Warning ? 1 : 0;
@@ -137,7 +133,7 @@ FieldDocument::FieldDocument(const log::Packet& packet, model::LengthUnit unit)
     }
     m_children.resize(m_tree.nodes.size() + 1);
     for (std::int32_t i = 0; i < count(); ++i) {
-        m_children[at(node(i).parent + 1)].push_back(i);
+        m_children[nodeIndex(node(i).parent + 1)].push_back(i);
     }
     readContext();
     findProblems(packet);
@@ -227,7 +223,7 @@ std::optional<std::uint32_t> FieldDocument::numberOf(std::int32_t item, RefersTo
 }
 
 std::span<const std::int32_t> FieldDocument::children(std::int32_t node) const {
-    return m_children.empty() ? std::span<const std::int32_t>() : m_children[at(node + 1)];
+    return m_children.empty() ? std::span<const std::int32_t>() : m_children[nodeIndex(node + 1)];
 }
 
 std::int32_t FieldDocument::itemOf(std::int32_t node) const {
@@ -389,13 +385,13 @@ void FieldDocument::markNodes() {
     m_own.assign(m_tree.nodes.size(), Health::Unknown);
     for (const FieldProblem& problem : m_problems) {
         if (problem.node >= 0) {
-            m_own[at(problem.node)] = worse(m_own[at(problem.node)], problem.level);
+            m_own[nodeIndex(problem.node)] = worse(m_own[nodeIndex(problem.node)], problem.level);
         }
     }
     m_within = m_own;
     for (std::size_t i = m_tree.nodes.size(); i-- > 0;) {
         if (const std::int32_t parent = m_tree.nodes[i].parent; parent >= 0) {
-            m_within[at(parent)] = worse(m_within[at(parent)], m_within[i]);
+            m_within[nodeIndex(parent)] = worse(m_within[nodeIndex(parent)], m_within[i]);
         }
     }
 }

@@ -29,6 +29,11 @@ struct FieldProblem {
     std::int32_t node = -1; ///< of the tree, -1 where it concerns the whole packet
 };
 
+/// Of a node in what is kept for each.
+inline std::size_t nodeIndex(std::int32_t node) {
+    return static_cast<std::size_t>(node);
+}
+
 /// One packet taken apart: a copy of its bytes, the tree of its fields with what they need to be explained,
 /// and what is wrong with it. Nodes are indices in tree().nodes.
 class FieldDocument {

@@ -13,10 +13,6 @@ namespace {
 
 using wire::NodeKind;
 
-std::size_t at(std::int32_t node) {
-    return static_cast<std::size_t>(node);
-}
-
 bool isStructure(NodeKind kind) {
     return kind == NodeKind::Group || kind == NodeKind::Item;
 }
@@ -87,8 +83,8 @@ void FieldModel::setOnlyDifferences(bool isOnly) {
 
 void FieldModel::match() {
     const std::int32_t count = m_document->count();
-    m_counterparts.assign(at(count), -1);
-    m_differs.assign(at(count), false);
+    m_counterparts.assign(nodeIndex(count), -1);
+    m_differs.assign(nodeIndex(count), false);
     m_differences = 0;
     if (m_other == nullptr) {
         return;
@@ -99,11 +95,11 @@ void FieldModel::match() {
     }
     for (std::int32_t i = 0; i < count; ++i) {
         const auto found = places.find(m_document->lastingPath(i));
-        m_counterparts[at(i)] = found == places.end() ? -1 : found->second;
+        m_counterparts[nodeIndex(i)] = found == places.end() ? -1 : found->second;
         if (!isStructure(m_document->node(i).kind) && !differenceText(i).isEmpty()) {
             m_differences += m_document->node(i).kind == NodeKind::Part ? 0 : 1;
             for (std::int32_t k = i; k >= 0; k = m_document->node(k).parent) {
-                m_differs[at(k)] = true;
+                m_differs[nodeIndex(k)] = true;
             }
         }
     }
@@ -112,14 +108,14 @@ void FieldModel::match() {
 void FieldModel::arrange() {
     clearPlaces();
     for (std::int32_t i = 0; i < m_document->count(); ++i) {
-        if (m_other == nullptr || !m_onlyDifferences || m_differs[at(i)]) {
+        if (m_other == nullptr || !m_onlyDifferences || m_differs[nodeIndex(i)]) {
             place(i, m_document->node(i).parent);
         }
     }
 }
 
 QString FieldModel::differenceText(std::int32_t node) const {
-    const std::int32_t other = m_counterparts[at(node)];
+    const std::int32_t other = m_counterparts[nodeIndex(node)];
     return other < 0 ? tr("only here") : difference(*m_document, node, *m_other, other);
 }
 
@@ -130,9 +126,9 @@ QString FieldModel::titleOf(std::int32_t node) const {
 }
 
 QString FieldModel::otherText(std::int32_t node) const {
-    return m_other == nullptr || m_counterparts[at(node)] < 0
+    return m_other == nullptr || m_counterparts[nodeIndex(node)] < 0
                ? QString()
-               : convertedValue(*m_other, m_counterparts[at(node)]);
+               : convertedValue(*m_other, m_counterparts[nodeIndex(node)]);
 }
 
 QString FieldModel::helpOf(std::int32_t node) const {
@@ -148,7 +144,7 @@ QVariant FieldModel::colour(std::int32_t node, int column) const {
     if (own != Health::Unknown && column <= kWire) {
         return healthColour(own);
     }
-    if (column == kDifference || (column == kValue && m_other != nullptr && m_differs[at(node)])) {
+    if (column == kDifference || (column == kValue && m_other != nullptr && m_differs[nodeIndex(node)])) {
         return theme().warning;
     }
     const NodeKind kind = m_document->node(node).kind;

@@ -20,7 +20,7 @@ QString millimetres(const std::optional<double>& metres) {
     return metres ? fixed(*metres * kMillimetres, kMillimetreDecimals) : dash();
 }
 
-QString vectorText(const std::optional<Eigen::Vector3d>& metres) {
+QString placeText(const std::optional<Eigen::Vector3d>& metres) {
     return metres ? QStringLiteral("x %1, y %2, z %3 mm")
                         .arg(signedFixed(metres->x() * kMillimetres, kMillimetreDecimals),
                              signedFixed(metres->y() * kMillimetres, kMillimetreDecimals),
@@ -66,7 +66,7 @@ QString segmentText(int wireId) {
 using SegmentRow = NullPoseSegmentRow;
 using PointRow = NullPosePointRow;
 using Length = model::SegmentLength;
-using Scale = wire::SegmentScale;
+using SegmentScale = wire::SegmentScale;
 
 std::vector<SegmentRow> segmentRows(const NullPoseReading& reading) {
     std::vector<SegmentRow> rows;
@@ -88,8 +88,8 @@ std::vector<PointRow> pointRows(const NullPoseReading& reading) {
     return rows;
 }
 
-std::vector<Scale> scaleRows(const NullPoseReading& reading) {
-    return reading.scale() == nullptr ? std::vector<Scale>() : reading.scale()->segments;
+std::vector<SegmentScale> scaleRows(const NullPoseReading& reading) {
+    return reading.scale() == nullptr ? std::vector<SegmentScale>() : reading.scale()->segments;
 }
 
 TableColumn<SegmentRow> positionColumn(const QString& title, const QString& help, int axis) {
@@ -108,7 +108,7 @@ TableColumn<SegmentRow> distanceColumn(const QString& title, const QString& help
     };
     return TableColumn<SegmentRow>::numbers(title, help, text)
         .withColour(colour)
-        .withToolTip([distance](const SegmentRow& row) { return vectorText(row.*distance); });
+        .withToolTip([distance](const SegmentRow& row) { return placeText(row.*distance); });
 }
 
 std::vector<TableColumn<SegmentRow>> segmentColumns() {
@@ -214,13 +214,13 @@ std::vector<TableColumn<Length>> lengthColumns() {
     };
 }
 
-std::vector<TableColumn<Scale>> scaleColumns() {
-    using Column = TableColumn<Scale>;
-    const auto offset = [](const Scale& segment, int axis) {
+std::vector<TableColumn<SegmentScale>> scaleColumns() {
+    using Column = TableColumn<SegmentScale>;
+    const auto offset = [](const SegmentScale& segment, int axis) {
         return static_cast<double>(segment.offset[static_cast<std::size_t>(axis)]);
     };
     const auto matrix = [](const QString& betweenRows) {
-        return [betweenRows](const Scale& segment) { return matrixText(segment.matrix, betweenRows); };
+        return [betweenRows](const SegmentScale& segment) { return matrixText(segment.matrix, betweenRows); };
     };
     const QString help = tr("Offset from the default position; the specification names no unit");
     return {
@@ -228,9 +228,9 @@ std::vector<TableColumn<Scale>> scaleColumns() {
             .dimmed(),
         Column::words(tr("Segment"), {},
                       [](const auto& segment) { return segmentText(static_cast<int>(segment.id)); }),
-        coordinateColumn<Scale>(tr("x"), help, 0, offset),
-        coordinateColumn<Scale>(tr("y"), help, 1, offset),
-        coordinateColumn<Scale>(tr("z"), help, 2, offset),
+        coordinateColumn<SegmentScale>(tr("x"), help, 0, offset),
+        coordinateColumn<SegmentScale>(tr("y"), help, 1, offset),
+        coordinateColumn<SegmentScale>(tr("z"), help, 2, offset),
         Column::words(tr("Matrix"), tr("Rotation and scale relative to the default, row by row as sent"),
                       matrix(QStringLiteral(" ; ")))
             .withToolTip(matrix(QStringLiteral("\n"))),

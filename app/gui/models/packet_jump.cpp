@@ -70,7 +70,7 @@ std::optional<std::uint64_t> newestIn(model::SessionView& view, const PacketsBeh
 }
 
 /// The newest up to the cursor; where there is none, the newest there is.
-std::optional<std::uint64_t> newestOf(model::SessionView& view, const PacketsBehind& behind) {
+std::optional<std::uint64_t> newestBehind(model::SessionView& view, const PacketsBehind& behind) {
     const auto filter = filter::Filter::compile(behind.filter.toStdString());
     if (!filter || view.end() == 0) {
         return std::nullopt;
@@ -89,7 +89,7 @@ bool isListed(model::SessionView& view, const QString& filter, std::uint64_t pac
 }
 
 bool showPackets(model::SessionView& view, Commands& commands, const PacketsBehind& behind, PacketLook look) {
-    const auto packet = behind.packet ? behind.packet : newestOf(view, behind);
+    const auto packet = behind.packet ? behind.packet : newestBehind(view, behind);
     if (!packet || !view.packet(*packet)) {
         return false;
     }

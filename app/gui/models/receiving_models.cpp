@@ -141,12 +141,12 @@ std::vector<InputColumn> inputColumns() {
 
 using RelayColumn = TableColumn<RelayState>;
 
-RelayColumn countColumn(const QString& title, const QString& help, std::uint64_t RelayState::*count) {
+RelayColumn relayCount(const QString& title, const QString& help, std::uint64_t RelayState::*count) {
     return RelayColumn::numbers(title, help, [count](const auto& relay) { return grouped(relay.*count); });
 }
 
 RelayColumn troubleColumn(const QString& title, const QString& help, std::uint64_t RelayState::*count) {
-    return countColumn(title, help, count).withColour([count](const RelayState& relay) {
+    return relayCount(title, help, count).withColour([count](const RelayState& relay) {
         return relay.*count > 0 ? QVariant(theme().warning) : QVariant();
     });
 }
@@ -161,7 +161,7 @@ std::vector<RelayColumn> relayColumns() {
         RelayColumn::numbers(tr("Port"), {},
                              [](const auto& relay) { return QString::number(relay.target.port); }),
         valueColumn(RelayColumn{.title = tr("State")}, relayStage),
-        countColumn(tr("Sent"), tr("Datagrams forwarded"), &RelayState::sent),
+        relayCount(tr("Sent"), tr("Datagrams forwarded"), &RelayState::sent),
         troubleColumn(
             tr("Refused"),
             tr("Datagrams that this system did not take (no way there, or too long for UDP), or that "
@@ -171,7 +171,7 @@ std::vector<RelayColumn> relayColumns() {
                       tr("Datagrams left out because forwarding had fallen too far behind, or while it was "
                          "found out whether they come back"),
                       &RelayState::skipped),
-        countColumn(tr("Behind"), tr("Packets received that wait to be forwarded"), &RelayState::behind),
+        relayCount(tr("Behind"), tr("Packets received that wait to be forwarded"), &RelayState::behind),
     };
 }
 

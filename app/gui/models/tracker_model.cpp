@@ -227,7 +227,7 @@ PropertyValue TrackerModel::state(const wire::Tracker& tracker) const {
 namespace {
 
 /// Components in columns of equal width, so that they do not dance.
-QString components(std::span<const float> values, int decimals) {
+QString componentText(std::span<const float> values, int decimals) {
     constexpr qsizetype kWidest = 6; // "−0.276", "−180.0", "−39.24"
     QStringList texts;
     for (const float value : values) {
@@ -239,7 +239,7 @@ QString components(std::span<const float> values, int decimals) {
 QString eulerText(const wire::Tracker& tracker) {
     const Eigen::Vector3d radians =
         model::eulerFromQuaternion(model::normalizedOrIdentity(model::toQuaternion(tracker.orientation)));
-    return components(model::toFloats(Eigen::Vector3d(radians * model::kDegreesPerRadian)), 1);
+    return componentText(model::toFloats(Eigen::Vector3d(radians * model::kDegreesPerRadian)), 1);
 }
 
 PropertyValue fieldNorm(const TrackerModel& trackers, const wire::Tracker& tracker) {
@@ -281,17 +281,17 @@ std::vector<Property> trackerFacts(const TrackerModel& trackers) {
     };
     const auto vector = [&](const QString& label, const QString& help, wire::Vec3 wire::Tracker::*quantity) {
         return sent(label, help,
-                    [quantity](const auto& tracker) { return components(tracker.*quantity, 2); });
+                    [quantity](const auto& tracker) { return componentText(tracker.*quantity, 2); });
     };
     const auto inertial = [&](const QString& label, const QString& help,
                               wire::Vec3 wire::Tracker::*quantity) {
         return sent(label, help, [&trackers, quantity](const auto& tracker) {
-            return trackers.hasInertialData() ? components(tracker.*quantity, 2)
+            return trackers.hasInertialData() ? componentText(tracker.*quantity, 2)
                                               : tr("not in the 44-byte form");
         });
     };
     return {sent(tr("Orientation w x y z"), tr("Quaternion w x y z, world from tracker"),
-                 [](const auto& tracker) { return components(tracker.orientation, 3); }),
+                 [](const auto& tracker) { return componentText(tracker.orientation, 3); }),
             sent(tr("Euler x y z °"), tr("About fixed x, then y, then z, in the Z-up world"), eulerText),
             vector(tr("Free acceleration m/s²"), tr("x y z in the world, gravity taken away"),
                    &wire::Tracker::freeAcceleration),

@@ -22,29 +22,30 @@ namespace posewire::gui {
 
 namespace {
 
-using Do = ActionsOf<CharactersPanel>;
+using CharacterDo = ActionsOf<CharactersPanel>;
 
 constexpr const char* kMenu = QT_TRANSLATE_NOOP("Action", "&View/&Characters");
 
-const ActionInfo kActions[] = {
+const ActionInfo kCharacterActions[] = {
     {"troubleFirst", kMenu, QT_TRANSLATE_NOOP("Action", "&Trouble first"), "",
-     Do::call<&CharactersPanel::toggleTroubleFirst>, Do::is<&CharactersPanel::isTroubleFirst>},
+     CharacterDo::call<&CharactersPanel::toggleTroubleFirst>,
+     CharacterDo::is<&CharactersPanel::isTroubleFirst>},
     {"characterDetail", kMenu, QT_TRANSLATE_NOOP("Action", "&Detail of the selected"), "",
-     Do::call<&CharactersPanel::toggleDetail>, Do::is<&CharactersPanel::isDetailShown>},
+     CharacterDo::call<&CharactersPanel::toggleDetail>, CharacterDo::is<&CharactersPanel::isDetailShown>},
     {"frameCharacter", kMenu, QT_TRANSLATE_NOOP("Action", "&Frame selected"), "",
-     Do::call<&CharactersPanel::frameSelected>},
+     CharacterDo::call<&CharactersPanel::frameSelected>},
     {"soloCharacter", kMenu, QT_TRANSLATE_NOOP("Action", "&Solo selected, or show all"), "",
-     Do::call<&CharactersPanel::soloSelected>},
+     CharacterDo::call<&CharactersPanel::soloSelected>},
     {"toggleCharacter", kMenu, QT_TRANSLATE_NOOP("Action", "&Hide or show selected"), "",
-     Do::call<&CharactersPanel::toggleSelected>},
+     CharacterDo::call<&CharactersPanel::toggleSelected>},
     {"packetsOfCharacter", kMenu, QT_TRANSLATE_NOOP("Action", "&Packets of selected"), "",
-     Do::call<&CharactersPanel::showPacketsOfSelected>},
+     CharacterDo::call<&CharactersPanel::showPacketsOfSelected>},
     {"incidentsOfCharacter", kMenu, QT_TRANSLATE_NOOP("Action", "&Incidents of selected"), "",
-     Do::call<&CharactersPanel::showIncidentsOfSelected>},
+     CharacterDo::call<&CharactersPanel::showIncidentsOfSelected>},
     {"showEnded", kMenu, QT_TRANSLATE_NOOP("Action", "&Ended senders"), "",
-     Do::call<&CharactersPanel::toggleEnded>, Do::is<&CharactersPanel::isEndedShown>},
+     CharacterDo::call<&CharactersPanel::toggleEnded>, CharacterDo::is<&CharactersPanel::isEndedShown>},
     {"forgetEnded", kMenu, QT_TRANSLATE_NOOP("Action", "F&orget ended senders"), "",
-     Do::call<&CharactersPanel::forgetEnded>},
+     CharacterDo::call<&CharactersPanel::forgetEnded>},
 };
 
 QToolButton* toggle(const QString& name, const QString& text, const QString& toolTip, QWidget* parent) {
@@ -81,7 +82,7 @@ private:
 };
 
 std::span<const ActionInfo> CharactersPanel::actionTable() {
-    return kActions;
+    return kCharacterActions;
 }
 
 CharactersPanel::CharactersPanel(model::SessionView& view, Commands& commands, const ProgramView& program,

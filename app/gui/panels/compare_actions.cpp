@@ -7,7 +7,7 @@ namespace posewire::gui {
 
 namespace {
 
-using Do = ActionsOf<ComparePanel>;
+using CompareDo = ActionsOf<ComparePanel>;
 using exporting::AlignBy;
 using model::DifferenceFrame;
 using By = ComparePanel::By;
@@ -29,7 +29,7 @@ bool isAlignedBy(const ComparePanel& panel) {
 
 template <int choice>
 constexpr ActionInfo alignment(const char* id, const char* text) {
-    return {id, kCompare, text, "", Do::call<alignBy<choice>>, Do::is<isAlignedBy<choice>>};
+    return {id, kCompare, text, "", CompareDo::call<alignBy<choice>>, CompareDo::is<isAlignedBy<choice>>};
 }
 
 template <DifferenceFrame frame>
@@ -38,24 +38,24 @@ constexpr ActionInfo overlay(const char* id, const char* text) {
             kCompare,
             text,
             "",
-            Do::call<&ComparePanel::setFrame, frame>,
-            Do::is<&ComparePanel::frame, frame>};
+            CompareDo::call<&ComparePanel::setFrame, frame>,
+            CompareDo::is<&ComparePanel::frame, frame>};
 }
 
-constexpr ActionInfo kActions[] = {
+constexpr ActionInfo kCompareActions[] = {
     {"saveDifferences", kFile, QT_TRANSLATE_NOOP("Action", "Save di&fferences…"), "",
-     Do::call<&ComparePanel::save>},
+     CompareDo::call<&ComparePanel::save>},
     alignment<-1>("alignAutomatically", QT_TRANSLATE_NOOP("Action", "Align auto&matically")),
     alignment<0>("alignByTimeCode", QT_TRANSLATE_NOOP("Action", "Align by &time code")),
     alignment<1>("alignBySample", QT_TRANSLATE_NOOP("Action", "Align by &sample counter")),
     alignment<2>("alignByBegin", QT_TRANSLATE_NOOP("Action", "Align the &beginnings")),
     lineIn(kCompare),
     {"nudgeEarlier", kCompare, QT_TRANSLATE_NOOP("Action", "Second one a sample &earlier"), "[",
-     Do::call<&ComparePanel::nudge, -1>},
+     CompareDo::call<&ComparePanel::nudge, -1>},
     {"nudgeLater", kCompare, QT_TRANSLATE_NOOP("Action", "Second one a sample &later"), "]",
-     Do::call<&ComparePanel::nudge, 1>},
+     CompareDo::call<&ComparePanel::nudge, 1>},
     {"nudgeNone", kCompare, QT_TRANSLATE_NOOP("Action", "Wit&hout offset"), "",
-     Do::call<&ComparePanel::clearOffset>},
+     CompareDo::call<&ComparePanel::clearOffset>},
     lineIn(kCompare),
     overlay<DifferenceFrame::World>("compareAsSent", QT_TRANSLATE_NOOP("Action", "Compare &as sent")),
     overlay<DifferenceFrame::Heading>("compareOnTheSpot",
@@ -63,18 +63,18 @@ constexpr ActionInfo kActions[] = {
     overlay<DifferenceFrame::Pelvis>("compareWithoutPelvis",
                                      QT_TRANSLATE_NOOP("Action", "Compare without the &pelvis")),
     {"compareBeside", kCompare, QT_TRANSLATE_NOOP("Action", "&Draw it beside"), "",
-     Do::call<&ComparePanel::toggleBeside>, Do::is<&ComparePanel::isBeside>},
+     CompareDo::call<&ComparePanel::toggleBeside>, CompareDo::is<&ComparePanel::isBeside>},
     lineIn(kCompare),
     {"compareAgain", kCompare, QT_TRANSLATE_NOOP("Action", "&Work out the range again"), "",
-     Do::call<&ComparePanel::workAgain>},
+     CompareDo::call<&ComparePanel::workAgain>},
     {"compareStop", kCompare, QT_TRANSLATE_NOOP("Action", "St&op working it out"), "",
-     Do::call<&ComparePanel::stopWork>},
+     CompareDo::call<&ComparePanel::stopWork>},
 };
 
 } // namespace
 
 std::span<const ActionInfo> ComparePanel::actionTable() {
-    return kActions;
+    return kCompareActions;
 }
 
 void ComparePanel::save() {

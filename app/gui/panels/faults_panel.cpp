@@ -13,7 +13,7 @@ namespace posewire::gui {
 
 namespace {
 
-constexpr int kMessageMs = 6000;
+constexpr int kRefusalMs = 6000;
 
 } // namespace
 
@@ -23,7 +23,7 @@ FaultsPanel::FaultsPanel(model::SessionView& view, Commands& commands, QWidget* 
       m_span(new ElidedLabel(Qt::AlignLeft | Qt::AlignVCenter, this)),
       m_choice(new SpanBar(view, commands, this)),
       m_table(new TableView(tr("Faults"), commands, this)),
-      m_message(new PassingMessage(kMessageMs, this)) {
+      m_message(new PassingMessage(kRefusalMs, this)) {
     const int margin = CellDelegate::margin(fontMetrics());
     auto* head = spacedRow({margin, margin / 2, margin, margin / 2}, margin);
     head->addWidget(m_span, 1);

@@ -9,35 +9,37 @@ namespace posewire::gui {
 
 namespace {
 
-using Do = ActionsOf<InspectorPanel>;
+using InspectorDo = ActionsOf<InspectorPanel>;
 using Comparison = InspectorPanel::Comparison;
 
-constexpr const char* kGo = "&Go";
-constexpr const char* kCompare = QT_TRANSLATE_NOOP("Action", "&Edit/Co&mpare packet");
+constexpr const char* kGoMenu = "&Go";
+constexpr const char* kComparePacket = QT_TRANSLATE_NOOP("Action", "&Edit/Co&mpare packet");
 
-constexpr ActionInfo kActions[] = {
-    {"holdPacket", kGo, QT_TRANSLATE_NOOP("Action", "&Hold this packet"), "",
-     Do::call<&InspectorPanel::toggleHold>, Do::is<&InspectorPanel::isHeld>},
-    {"compareNot", kCompare, QT_TRANSLATE_NOOP("Action", "Do &not compare"), "",
-     Do::call<&InspectorPanel::compare, Comparison::None>,
-     Do::is<&InspectorPanel::comparison, Comparison::None>},
-    {"comparePrevious", kCompare, QT_TRANSLATE_NOOP("Action", "With the &previous packet of its stream"), "",
-     Do::call<&InspectorPanel::compare, Comparison::Previous>,
-     Do::is<&InspectorPanel::comparison, Comparison::Previous>},
-    {"compareReference", kCompare, QT_TRANSLATE_NOOP("Action", "With the &reference"), "",
-     Do::call<&InspectorPanel::compare, Comparison::Reference>,
-     Do::is<&InspectorPanel::comparison, Comparison::Reference>},
-    lineIn(kCompare),
-    {"setReference", kCompare, QT_TRANSLATE_NOOP("Action", "&Set this packet as reference"), "",
-     Do::call<&InspectorPanel::setReference>},
-    {"onlyDifferences", kCompare, QT_TRANSLATE_NOOP("Action", "Only &differences"), "",
-     Do::call<&InspectorPanel::toggleOnlyDifferences>, Do::is<&InspectorPanel::isOnlyDifferences>},
+constexpr ActionInfo kInspectorActions[] = {
+    {"holdPacket", kGoMenu, QT_TRANSLATE_NOOP("Action", "&Hold this packet"), "",
+     InspectorDo::call<&InspectorPanel::toggleHold>, InspectorDo::is<&InspectorPanel::isHeld>},
+    {"compareNot", kComparePacket, QT_TRANSLATE_NOOP("Action", "Do &not compare"), "",
+     InspectorDo::call<&InspectorPanel::compare, Comparison::None>,
+     InspectorDo::is<&InspectorPanel::comparison, Comparison::None>},
+    {"comparePrevious", kComparePacket,
+     QT_TRANSLATE_NOOP("Action", "With the &previous packet of its stream"), "",
+     InspectorDo::call<&InspectorPanel::compare, Comparison::Previous>,
+     InspectorDo::is<&InspectorPanel::comparison, Comparison::Previous>},
+    {"compareReference", kComparePacket, QT_TRANSLATE_NOOP("Action", "With the &reference"), "",
+     InspectorDo::call<&InspectorPanel::compare, Comparison::Reference>,
+     InspectorDo::is<&InspectorPanel::comparison, Comparison::Reference>},
+    lineIn(kComparePacket),
+    {"setReference", kComparePacket, QT_TRANSLATE_NOOP("Action", "&Set this packet as reference"), "",
+     InspectorDo::call<&InspectorPanel::setReference>},
+    {"onlyDifferences", kComparePacket, QT_TRANSLATE_NOOP("Action", "Only &differences"), "",
+     InspectorDo::call<&InspectorPanel::toggleOnlyDifferences>,
+     InspectorDo::is<&InspectorPanel::isOnlyDifferences>},
 };
 
 } // namespace
 
 std::span<const ActionInfo> InspectorPanel::actionTable() {
-    return kActions;
+    return kInspectorActions;
 }
 
 void InspectorPanel::fillCompareMenu() {

@@ -62,7 +62,7 @@ constexpr auto kUnit = &SenderOverride::positionUnit;
 constexpr const char* kRevisions = QT_TRANSLATE_NOOP("Action", "&Input/&Revision of the sender");
 constexpr const char* kUnits = QT_TRANSLATE_NOOP("Action", "&Input/&Units of positions");
 
-constexpr ActionInfo kActions[] = {
+constexpr ActionInfo kMetadataActions[] = {
     entry<kRevision, kAutomatic>("revisionAutomatic", kRevisions, QT_TRANSLATE_NOOP("Action", "&Automatic")),
     entry<kRevision, Revision::E>("revisionE", kRevisions, QT_TRANSLATE_NOOP("Action", "&E")),
     entry<kRevision, Revision::JOrK>("revisionJ", kRevisions, QT_TRANSLATE_NOOP("Action", "&J or K")),
@@ -182,7 +182,7 @@ MetadataPanel::MetadataPanel(model::SessionView& view, Commands& commands, QWidg
 }
 
 std::span<const ActionInfo> MetadataPanel::actionTable() {
-    return kActions;
+    return kMetadataActions;
 }
 
 void MetadataPanel::refresh() {

@@ -18,7 +18,7 @@ constexpr std::size_t kMostCopied = 100'000;
 
 constexpr const char* kEdit = QT_TRANSLATE_NOOP("Action", "&Edit");
 constexpr const char* kCopy = QT_TRANSLATE_NOOP("Action", "&Edit/Co&py packets");
-constexpr const char* kSavedFilters = QT_TRANSLATE_NOOP("Action", "&Edit/Saved fil&ters");
+constexpr const char* kSavedFiltersMenu = QT_TRANSLATE_NOOP("Action", "&Edit/Saved fil&ters");
 constexpr const char* kCell = QT_TRANSLATE_NOOP("Action", "&Edit/&Apply cell as filter");
 constexpr const char* kTimes = QT_TRANSLATE_NOOP("Action", "&View/&Packet times");
 constexpr const char* kGo = QT_TRANSLATE_NOOP("Action", "&Go");
@@ -57,7 +57,7 @@ struct PacketsPanel::Actions {
         lineIn(kEdit),
         {"filter", kEdit, QT_TRANSLATE_NOOP("Action", "&Filter packets"), "Ctrl+L",
          Do::callIn<&PacketsPanel::m_filter, &FilterBar::focusLine>},
-        listIn(kSavedFilters, Do::listOf<&PacketsPanel::m_filter, &FilterBar::listSaved>),
+        listIn(kSavedFiltersMenu, Do::listOf<&PacketsPanel::m_filter, &FilterBar::listSaved>),
         {"saveFilter", kEdit, QT_TRANSLATE_NOOP("Action", "&Save filter as a button…"), "",
          Do::callIn<&PacketsPanel::m_filter, &FilterBar::saveCurrent>},
         {"filterByCell", kCell, QT_TRANSLATE_NOOP("Action", "&Only this"), "Ctrl+Shift+L",

@@ -12,7 +12,7 @@ namespace posewire::gui {
 
 namespace {
 
-constexpr int kMessageMs = 6000;
+constexpr int kNoticeMs = 6000;
 constexpr int kPollMs = 20;
 
 } // namespace
@@ -24,7 +24,7 @@ PacketsPanel::PacketsPanel(model::SessionView& view, Commands& commands, QWidget
       m_find(new FindBar(this)),
       m_list(new PacketView(tr("Packets"), this)),
       m_clear(new QPushButton(tr("Clear the filter"), m_list)),
-      m_message(new PassingMessage(kMessageMs, this)) {
+      m_message(new PassingMessage(kNoticeMs, this)) {
     auto* column = tightColumn(this);
     column->addWidget(m_filter);
     column->addWidget(m_find);

@@ -16,7 +16,7 @@ namespace posewire::gui {
 namespace {
 
 constexpr int kFactsShown = 4;
-constexpr int kMessageMs = 6000;
+constexpr int kCopiedMs = 6000;
 
 } // namespace
 
@@ -30,7 +30,7 @@ StatisticsPanel::StatisticsPanel(model::SessionView& view, Commands& commands, c
       m_facts(new TableView(tr("This computer"), commands, this)),
       m_filterToRange(new QAction(tr("Show only the packets of this range"), this)),
       m_parts(new QSplitter(Qt::Vertical, this)),
-      m_message(new PassingMessage(kMessageMs, this)) {
+      m_message(new PassingMessage(kCopiedMs, this)) {
     setUpStreams();
     m_facts->showFacts(m_computer, QStringLiteral("Foreign datagrams"));
     m_facts->setMinimumHeight(m_facts->heightForRows(1));

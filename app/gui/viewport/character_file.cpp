@@ -81,7 +81,8 @@ std::vector<render::TextureImage> texturesOf(const render::ImportedCharacter& ch
             problem = tr("it is no picture of a kind that is known here");
         }
         if (image.isNull()) {
-            *remarks += tr("Without its texture %1: %2.").arg(shown(model::ForeignText(texture.name)), problem);
+            *remarks +=
+                tr("Without its texture %1: %2.").arg(shown(model::ForeignText(texture.name)), problem);
         }
         textures.push_back(image.isNull() ? render::TextureImage{} : texelsOf(image));
     }

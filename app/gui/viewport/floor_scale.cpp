@@ -15,12 +15,12 @@
 namespace posewire::gui {
 namespace {
 
-constexpr double kApart = 64;     ///< logical pixels between two numbers, at the least
-constexpr float kLevel = 0.02F;   ///< radians: a view along the floor
-constexpr int kMostNumbers = 14;  ///< on each side of the origin
-constexpr float kFarthest = 5.0F; ///< of what is numbered, times the camera's distance
+constexpr double kNumbersApart = 64;    ///< logical pixels between two numbers, at the least
+constexpr float kLevel = 0.02F;         ///< radians: a view along the floor
+constexpr int kMostNumbers = 14;        ///< on each side of the origin
+constexpr float kFarthestNumber = 5.0F; ///< of what is numbered, times the camera's distance
 
-float aspectOf(const SceneFrame& frame) {
+float frameAspect(const SceneFrame& frame) {
     return static_cast<float>(frame.width) / static_cast<float>(frame.height);
 }
 
@@ -42,7 +42,7 @@ QRectF roomOf(const Figure& figure, const SceneFrame& frame) {
     bounds.max += glm::vec3(kFlesh);
     QRectF room;
     for (int corner = 0; corner < 8; ++corner) {
-        if (const auto place = frame.camera.project(bounds.corner(corner), aspectOf(frame))) {
+        if (const auto place = frame.camera.project(bounds.corner(corner), frameAspect(frame))) {
             const QPointF point(static_cast<double>(place->x), static_cast<double>(place->y));
             room = room.isNull() ? QRectF(point, QSizeF(1e-6, 1e-6))
                                  : room.united(QRectF(point, QSizeF(1e-6, 1e-6)));
@@ -63,7 +63,7 @@ std::vector<QRectF> roomsOf(const SceneFrame& frame) {
 
 void addNumber(const glm::vec3& place, const QString& text, std::span<const QRectF> rooms,
                SceneFrame& frame) {
-    const auto screen = frame.camera.project(place, aspectOf(frame));
+    const auto screen = frame.camera.project(place, frameAspect(frame));
     const auto isCovered = [&](const QRectF& room) {
         return room.contains(static_cast<double>(screen->x), static_cast<double>(screen->y));
     };
@@ -75,12 +75,13 @@ void addNumber(const glm::vec3& place, const QString& text, std::span<const QRec
 /// "x 1 m" where the axis crosses the lines of the grid.
 void addFloorNumbers(SceneFrame& frame) {
     const std::vector<QRectF> rooms = roomsOf(frame);
-    const double step = std::max(1.0, scaleStep(metresPerPixel(frame), kApart));
+    const double step = std::max(1.0, scaleStep(metresPerPixel(frame), kNumbersApart));
     for (const auto& [name, axis] : {std::pair{tr("x"), 0}, std::pair{tr("y"), 1}}) {
         for (int i = -kMostNumbers; i <= kMostNumbers; ++i) {
             glm::vec3 place(0.0F);
             place[axis] = static_cast<float>(i * step);
-            const bool isNear = glm::distance(place, frame.camera.target) < kFarthest * frame.camera.distance;
+            const bool isNear =
+                glm::distance(place, frame.camera.target) < kFarthestNumber * frame.camera.distance;
             if (i != 0 && isNear) {
                 addNumber(place, name + QLatin1Char(' ') + metres(i * step, step), rooms, frame);
             }
@@ -92,9 +93,9 @@ void addFloorNumbers(SceneFrame& frame) {
 void addRules(SceneFrame& frame) {
     const render::Camera& camera = frame.camera;
     const double pixel = metresPerPixel(frame);
-    const double step = scaleStep(pixel, kApart);
+    const double step = scaleStep(pixel, kNumbersApart);
     const double halfHeight = pixel * frame.height / static_cast<double>(frame.pixelRatio) / 2;
-    const double halfWidth = halfHeight * static_cast<double>(aspectOf(frame));
+    const double halfWidth = halfHeight * static_cast<double>(frameAspect(frame));
     const glm::vec3 right = camera.right();
     const double middle = static_cast<double>(glm::dot(camera.target, right));
     const glm::vec3 depth = camera.target - static_cast<float>(middle) * right;

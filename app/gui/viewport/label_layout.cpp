@@ -16,7 +16,7 @@ namespace {
 
 constexpr qreal kApart = 3;
 /// From the edge of the picture.
-constexpr qreal kEdge = 2;
+constexpr qreal kLabelEdge = 2;
 /// A plate farther from its head than this has a line to it.
 constexpr qreal kLeader = 6;
 /// What may lie this much deeper is as near, metres.
@@ -44,10 +44,10 @@ QRectF plateAt(const LabelPlace& place, const QSizeF& size, const QPointF& offse
     const QPointF middle = place.anchor + offset;
     QRectF plate(std::round(middle.x() - size.width() / 2), std::round(middle.y() - size.height()),
                  std::ceil(size.width()), std::ceil(size.height()));
-    plate.moveLeft(std::clamp(plate.left(), view.left() + kEdge,
-                              std::max(view.left() + kEdge, view.right() - kEdge - plate.width())));
-    plate.moveTop(std::clamp(plate.top(), view.top() + kEdge,
-                             std::max(view.top() + kEdge, view.bottom() - kEdge - plate.height())));
+    plate.moveLeft(std::clamp(plate.left(), view.left() + kLabelEdge,
+                              std::max(view.left() + kLabelEdge, view.right() - kLabelEdge - plate.width())));
+    plate.moveTop(std::clamp(plate.top(), view.top() + kLabelEdge,
+                             std::max(view.top() + kLabelEdge, view.bottom() - kLabelEdge - plate.height())));
     return plate;
 }
 

@@ -19,7 +19,7 @@ namespace posewire::gui {
 
 namespace {
 
-constexpr int kEdge = 12;
+constexpr int kBannerEdge = 12;
 
 /// Characters of whom the same is to be said.
 struct Group {
@@ -154,10 +154,10 @@ void PoseBanner::showNotes() {
 }
 
 void PoseBanner::place(const QSize& viewport) {
-    const int width = std::min(viewport.width() - 2 * kEdge, fontMetrics().height() * 34);
+    const int width = std::min(viewport.width() - 2 * kBannerEdge, fontMetrics().height() * 34);
     const QSize wanted = layout()->hasHeightForWidth() ? QSize(width, layout()->totalHeightForWidth(width))
                                                        : layout()->sizeHint();
-    setGeometry(kEdge, viewport.height() - kEdge - wanted.height(), width, wanted.height());
+    setGeometry(kBannerEdge, viewport.height() - kBannerEdge - wanted.height(), width, wanted.height());
 }
 
 void PoseBanner::paintEvent(QPaintEvent* /*event*/) {

@@ -72,7 +72,8 @@ MainWindow::MainWindow(SessionDriver& driver, const SettingsFile& file, const Se
     connectHelp();
     m_driver.setThresholds(m_settings.alerts.thresholds);
     m_driver.setDisplayFilter(m_settings.filter);
-    connect(&m_viewport->ownCharacters(), &OwnCharacters::failed, this, &MainWindow::say);
+    connect(&m_viewport->ownCharacters(), &OwnCharacters::failed, this,
+            [this](const QString& problem) { say(problem); });
     m_viewport->restoreState(m_settings.viewport);
     m_viewport->setComparison(m_driver.comparison());
     new PressingKeys(this);

@@ -29,7 +29,7 @@ namespace posewire::gui {
 
 namespace {
 
-constexpr std::chrono::milliseconds kLook{100};
+constexpr std::chrono::milliseconds kProgressLook{100};
 constexpr int kMostRows = 8; // of characters, before the list scrolls
 
 } // namespace
@@ -80,7 +80,7 @@ MotionExportDialog::MotionExportDialog(model::SessionView& view, QWidget* parent
     connect(m_button, &QPushButton::clicked, this, &MotionExportDialog::toggle);
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
     offerHelp(*this, *buttons, placeOf(HelpTopic::MotionExport));
-    m_watch->setInterval(kLook);
+    m_watch->setInterval(kProgressLook);
     connect(m_watch, &QTimer::timeout, this, &MotionExportDialog::watch);
     describe();
     showState({});

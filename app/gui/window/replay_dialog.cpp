@@ -25,7 +25,7 @@ namespace posewire::gui {
 
 namespace {
 
-constexpr std::chrono::milliseconds kLook{200};
+constexpr std::chrono::milliseconds kReplayLook{200};
 constexpr int kOverTcp = 1; // of the transports
 
 bool isRunning(const SessionDriver& driver) {
@@ -101,7 +101,7 @@ ReplayDialog::ReplayDialog(SessionDriver& driver, QWidget* parent)
     offerHelp(*this, *buttons, placeOf(HelpTopic::Replay));
     auto* look = new QTimer(this);
     connect(look, &QTimer::timeout, this, &ReplayDialog::refresh);
-    look->start(kLook);
+    look->start(kReplayLook);
     refresh();
 }
 

@@ -28,7 +28,7 @@ namespace {
 
 constexpr double kTimeScale = 1.3;
 
-QToolButton* framedButton(QAction* action, QWidget* parent) {
+QToolButton* buttonOf(QAction* action, QWidget* parent) {
     auto* button = new QToolButton(parent);
     button->setProperty("framed", true);
     button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
@@ -43,11 +43,11 @@ TransportBar::TransportBar(model::SessionView& session, const Actions& actions, 
     : QWidget(parent),
       m_session(&session),
       m_actions(actions),
-      m_record(framedButton(actions.record, this)),
-      m_pause(framedButton(actions.pause, this)),
-      m_live(framedButton(actions.live, this)),
+      m_record(buttonOf(actions.record, this)),
+      m_pause(buttonOf(actions.pause, this)),
+      m_live(buttonOf(actions.live, this)),
       m_past(new TimeControls(actions.time, this)),
-      m_add(framedButton(actions.inputs, this)),
+      m_add(buttonOf(actions.inputs, this)),
       m_relay(new ColourText(ColourText::Look::Pill, this)),
       m_time(plainLabel(this)),
       m_detail(dimLabel({}, this)),

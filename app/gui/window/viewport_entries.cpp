@@ -12,7 +12,7 @@ namespace posewire::gui {
 namespace {
 
 using Window = MainWindow;
-using Do = ActionsOf<MainWindow>;
+using ViewDo = ActionsOf<MainWindow>;
 
 void nextAxes(Window& window) {
     constexpr int kModes = 3;
@@ -55,12 +55,12 @@ void selectCharacter(Window& window) {
 template <int index>
 constexpr ActionInfo selectEntry(const char* id, const char* text, const char* shortcut) {
     return {id, QT_TRANSLATE_NOOP("Action", "&View/&Select character"), text, shortcut,
-            Do::call<selectCharacter<index>>};
+            ViewDo::call<selectCharacter<index>>};
 }
 template <render::StandardView view>
 constexpr ActionInfo viewEntry(const char* id, const char* text, const char* shortcut) {
     return {id, QT_TRANSLATE_NOOP("Action", "&View/&Camera"), text, shortcut,
-            Do::callIn<&Window::viewport, &ViewportWidget::face, view>};
+            ViewDo::callIn<&Window::viewport, &ViewportWidget::face, view>};
 }
 
 template <int index>
@@ -80,12 +80,12 @@ void keepView(Window& window) {
 template <int index>
 constexpr ActionInfo showViewEntry(const char* id, const char* text, const char* shortcut) {
     return {id, QT_TRANSLATE_NOOP("Action", "&View/&Camera/&Go to view"), text, shortcut,
-            Do::call<showView<index>>};
+            ViewDo::call<showView<index>>};
 }
 template <int index>
 constexpr ActionInfo keepViewEntry(const char* id, const char* text, const char* shortcut) {
     return {id, QT_TRANSLATE_NOOP("Action", "&View/&Camera/&Keep view"), text, shortcut,
-            Do::call<keepView<index>>};
+            ViewDo::call<keepView<index>>};
 }
 
 template <int count>
@@ -94,8 +94,8 @@ constexpr ActionInfo splitEntry(const char* id, const char* text, const char* sh
             QT_TRANSLATE_NOOP("Action", "&View/Sp&lit view"),
             text,
             shortcut,
-            Do::callIn<&Window::viewport, &ViewportWidget::split, count>,
-            Do::isIn<&Window::viewport, &ViewportWidget::viewCount, count>};
+            ViewDo::callIn<&Window::viewport, &ViewportWidget::split, count>,
+            ViewDo::isIn<&Window::viewport, &ViewportWidget::viewCount, count>};
 }
 
 template <Overlay overlay>
@@ -110,12 +110,8 @@ template <Overlay overlay>
 constexpr ActionInfo overlayEntry() {
     constexpr const OverlayEntry& entry = kOverlayTable[static_cast<std::size_t>(overlay)];
     static_assert(entry.overlay == overlay);
-    return {entry.key,
-            QT_TRANSLATE_NOOP("Action", "&View/O&verlays"),
-            entry.title,
-            "",
-            Do::call<toggleOverlay<overlay>>,
-            Do::is<isOverlayOn<overlay>>};
+    return {entry.key, QT_TRANSLATE_NOOP("Action", "&View/O&verlays"), entry.title,
+            "",        ViewDo::call<toggleOverlay<overlay>>,           ViewDo::is<isOverlayOn<overlay>>};
 }
 
 const ActionInfo kEntries[] = {
@@ -127,14 +123,14 @@ const ActionInfo kEntries[] = {
     viewEntry<render::StandardView::ThreeQuarter>("viewThreeQuarter",
                                                   QT_TRANSLATE_NOOP("Action", "T&hree-quarter"), "Alt+6"),
     {"relativeViews", "&View/&Camera", QT_TRANSLATE_NOOP("Action", "Relative to the &pelvis"), "",
-     Do::callIn<&Window::viewport, &ViewportWidget::toggleRelativeViews>,
-     Do::isIn<&Window::viewport, &ViewportWidget::hasRelativeViews, true>},
+     ViewDo::callIn<&Window::viewport, &ViewportWidget::toggleRelativeViews>,
+     ViewDo::isIn<&Window::viewport, &ViewportWidget::hasRelativeViews, true>},
     lineIn("&View/&Camera"),
     {"orthographic", "&View/&Camera", QT_TRANSLATE_NOOP("Action", "&Orthographic"), "O",
-     Do::callIn<&Window::viewport, &ViewportWidget::toggleProjection>,
-     Do::isIn<&Window::viewport, &ViewportWidget::projection, render::Projection::Orthographic>},
+     ViewDo::callIn<&Window::viewport, &ViewportWidget::toggleProjection>,
+     ViewDo::isIn<&Window::viewport, &ViewportWidget::projection, render::Projection::Orthographic>},
     {"frame", "&View/&Camera", QT_TRANSLATE_NOOP("Action", "Fr&ame all"), "F",
-     Do::callIn<&Window::viewport, &ViewportWidget::frameAll>},
+     ViewDo::callIn<&Window::viewport, &ViewportWidget::frameAll>},
     showViewEntry<0>("showView1", QT_TRANSLATE_NOOP("Action", "View &1"), "Alt+7"),
     showViewEntry<1>("showView2", QT_TRANSLATE_NOOP("Action", "View &2"), "Alt+8"),
     showViewEntry<2>("showView3", QT_TRANSLATE_NOOP("Action", "View &3"), "Alt+9"),
@@ -147,8 +143,8 @@ const ActionInfo kEntries[] = {
     splitEntry<2>("splitTwo", QT_TRANSLATE_NOOP("Action", "&Two side by side"), "Ctrl+Alt+2"),
     splitEntry<4>("splitFour", QT_TRANSLATE_NOOP("Action", "&Four views"), "Ctrl+Alt+4"),
     {"nextView", "&View/Sp&lit view", QT_TRANSLATE_NOOP("Action", "&Next view"), "Ctrl+Alt+N",
-     Do::callIn<&Window::viewport, &ViewportWidget::activateNext>},
-    {"axes", "&View", QT_TRANSLATE_NOOP("Action", "&Axes: all, selected, none"), "A", Do::call<nextAxes>},
+     ViewDo::callIn<&Window::viewport, &ViewportWidget::activateNext>},
+    {"axes", "&View", QT_TRANSLATE_NOOP("Action", "&Axes: all, selected, none"), "A", ViewDo::call<nextAxes>},
     overlayEntry<Overlay::SegmentNames>(),
     overlayEntry<Overlay::JointAngles>(),
     overlayEntry<Overlay::Markers>(),
@@ -159,20 +155,20 @@ const ActionInfo kEntries[] = {
     overlayEntry<Overlay::Acceleration>(),
     overlayEntry<Overlay::Trails>(),
     {"scale", "&View/O&verlays", QT_TRANSLATE_NOOP("Action", "Metres on the f&loor"), "",
-     Do::callIn<&Window::viewport, &ViewportWidget::toggleScale>,
-     Do::isIn<&Window::viewport, &ViewportWidget::hasScale, true>},
+     ViewDo::callIn<&Window::viewport, &ViewportWidget::toggleScale>,
+     ViewDo::isIn<&Window::viewport, &ViewportWidget::hasScale, true>},
     {"segmentCard", "&View/O&verlays", QT_TRANSLATE_NOOP("Action", "&Values of a segment"), "",
-     Do::callIn<&Window::viewport, &ViewportWidget::toggleCard>,
-     Do::isIn<&Window::viewport, &ViewportWidget::hasCard, true>},
+     ViewDo::callIn<&Window::viewport, &ViewportWidget::toggleCard>,
+     ViewDo::isIn<&Window::viewport, &ViewportWidget::hasCard, true>},
     {"ownCharacter", "&View", QT_TRANSLATE_NOOP("Action", "O&wn character…"), "",
-     Do::call<&Window::editOwnCharacter>},
+     ViewDo::call<&Window::editOwnCharacter>},
     {"interpolation", "&View", QT_TRANSLATE_NOOP("Action", "&Interpolate between samples"), "",
-     Do::callIn<&Window::viewport, &ViewportWidget::toggleInterpolation>,
-     Do::isIn<&Window::viewport, &ViewportWidget::isInterpolating, true>},
+     ViewDo::callIn<&Window::viewport, &ViewportWidget::toggleInterpolation>,
+     ViewDo::isIn<&Window::viewport, &ViewportWidget::isInterpolating, true>},
     {"lift", "&View", QT_TRANSLATE_NOOP("Action", "&Place bodies below the floor on it"), "",
-     Do::call<toggleLifted>, Do::is<isAnyLifted>},
-    {"ghost", "&View", QT_TRANSLATE_NOOP("Action", "Null pose as &ghost"), "Shift+G", Do::call<toggleGhost>,
-     Do::is<isGhostOn>},
+     ViewDo::call<toggleLifted>, ViewDo::is<isAnyLifted>},
+    {"ghost", "&View", QT_TRANSLATE_NOOP("Action", "Null pose as &ghost"), "Shift+G",
+     ViewDo::call<toggleGhost>, ViewDo::is<isGhostOn>},
     selectEntry<0>("select1", QT_TRANSLATE_NOOP("Action", "First"), "1"),
     selectEntry<1>("select2", QT_TRANSLATE_NOOP("Action", "Second"), "2"),
     selectEntry<2>("select3", QT_TRANSLATE_NOOP("Action", "Third"), "3"),

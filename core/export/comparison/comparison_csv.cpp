@@ -25,8 +25,8 @@ std::vector<std::string> titles(std::span<const SegmentFigures> segments) {
     return cells;
 }
 
-std::vector<std::string> row(const ComparedPair& pair, std::span<const SegmentFigures> segments,
-                             log::Stamp begin) {
+std::vector<std::string> csvRow(const ComparedPair& pair, std::span<const SegmentFigures> segments,
+                                log::Stamp begin) {
     std::vector<std::string> cells{fixed(log::secondsOf(pair.first->stamp - begin), 4),
                                    std::to_string(pair.first->sample), std::to_string(pair.first->timeCode)};
     cells.push_back(pair.second != nullptr ? std::to_string(pair.second->sample) : std::string());
@@ -57,7 +57,7 @@ tl::expected<void, log::FileError> writeComparisonCsv(const ComparisonTask& task
         task,
         [&](const ComparedPair& pair) {
             begin = begin.value_or(pair.first->stamp);
-            out.write(csvLine(row(pair, segments, *begin)));
+            out.write(csvLine(csvRow(pair, segments, *begin)));
         },
         [&](double share) { return !out.hasFailed() && (!progress || progress(share)); });
     return !walked && !out.hasFailed() ? walked : out.finish();

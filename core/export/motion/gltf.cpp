@@ -27,7 +27,7 @@ constexpr int kFloat = 5126;
 constexpr int kArrayBuffer = 34962;
 constexpr int kElementArrayBuffer = 34963;
 
-JsonValue listOf(const Vector3d& vector) {
+JsonValue vectorList(const Vector3d& vector) {
     return List{static_cast<float>(vector.x()), static_cast<float>(vector.y()),
                 static_cast<float>(vector.z())};
 }
@@ -113,7 +113,7 @@ struct Animated {
 };
 
 /// The null pose that the joints make, also where none was sent.
-model::BodyOrigins bodyOf(const Animated& one) {
+model::BodyOrigins originsOf(const Animated& one) {
     model::BodyOrigins body = one.character.body;
     for (const SkeletonJoint& joint : one.skeleton.joints) {
         const auto position = static_cast<std::size_t>(joint.position);
@@ -128,7 +128,7 @@ model::BodyOrigins bodyOf(const Animated& one) {
 
 void addJoints(const Animated& one, std::size_t firstNode, Document& document, List& roots) {
     for (const SkeletonJoint& joint : one.skeleton.joints) {
-        JsonValue node{{"name", joint.name}, {"translation", listOf(model::yUpFromZUp(joint.offset))}};
+        JsonValue node{{"name", joint.name}, {"translation", vectorList(model::yUpFromZUp(joint.offset))}};
         if (!joint.children.empty()) {
             List children;
             for (const std::size_t child : joint.children) {
@@ -281,7 +281,7 @@ private:
         addKeys(one, firstNode, document);
         const bool isWholeBody = one.skeleton.layout.body == model::kBodySegmentCount;
         if (m_task.makeBody && isWholeBody) {
-            one.mesh = m_task.makeBody(bodyOf(one));
+            one.mesh = m_task.makeBody(originsOf(one));
         }
         if (!one.mesh.positions.empty()) {
             document.roots.emplace_back(addBody(one, firstNode, document));

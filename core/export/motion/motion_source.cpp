@@ -21,7 +21,7 @@ std::optional<model::NullPose> nullPoseOf(const model::SessionView& session, con
     return std::nullopt;
 }
 
-MotionCharacter::Part partOf(const model::SessionView& session, const model::CharacterKey& key) {
+MotionCharacter::Part streamPart(const model::SessionView& session, const model::CharacterKey& key) {
     MotionCharacter::Part part{key};
     if (const model::Sender* sender = session.find(key.sender)) {
         for (std::size_t i = 0; i < kPoseTypes.size(); ++i) {
@@ -48,7 +48,7 @@ MotionSource motionSourceOf(const model::SessionView& session, const model::Time
         character.hasReceipt = sender == nullptr || sender->info.transport != log::Transport::File;
         character.colour = session.colour(key);
         for (const model::Character* one : session.lineage(key)) {
-            character.parts.push_back(partOf(session, one->key));
+            character.parts.push_back(streamPart(session, one->key));
         }
         character.nullPose = nullPoseOf(session, character, source.endPacket);
         character.body = character.nullPose ? model::bodyOf(*character.nullPose) : session.bodyOrigins(key);

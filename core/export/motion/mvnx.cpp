@@ -70,7 +70,7 @@ void appendAll(std::initializer_list<double> values, std::string& text) {
     }
 }
 
-void appendVector(const Eigen::Vector3d& vector, std::string& text) {
+void appendNumbers(const Eigen::Vector3d& vector, std::string& text) {
     appendAll({vector.x(), vector.y(), vector.z()}, text);
 }
 
@@ -117,13 +117,13 @@ public:
         }
         text += "</orientation>\n<position>";
         for (std::size_t i = 0; i < kBody; ++i) {
-            appendVector(frame.pose->segments[i].position, text);
+            appendNumbers(frame.pose->segments[i].position, text);
         }
         std::array<Eigen::Vector3d, kJoints> angles;
         model::jointAngles(turns, angles);
         text += "</position>\n<jointAngle>";
         for (const Eigen::Vector3d& angle : angles) {
-            appendVector(angle * model::kDegreesPerRadian, text);
+            appendNumbers(angle * model::kDegreesPerRadian, text);
         }
         out.write(text + "</jointAngle>\n</frame>\n");
     }
@@ -179,7 +179,7 @@ private:
         for (const model::NullPose::Point& point : m_character.nullPose->points) {
             if (point.segment == segment && point.position.allFinite()) {
                 text += "<point label=\"" + xmlText(point.name) + "\"><pos_b>";
-                appendVector(point.position, text);
+                appendNumbers(point.position, text);
                 text += "</pos_b></point>\n";
             }
         }
@@ -213,7 +213,7 @@ private:
         }
         text += "</orientation>\n<position>";
         for (const Eigen::Vector3d& place : m_character.body.places) {
-            appendVector(place, text);
+            appendNumbers(place, text);
         }
         text += "</position>\n</frame>\n";
     }

@@ -34,10 +34,6 @@ std::uint64_t mostWaiting(const Stream& stream) {
     return stream.accounting.depth().samples / 4;
 }
 
-bool isBetween(std::uint32_t sample, const Gap& gap) {
-    return distance(sample, gap.fromSample) > 0 && distance(gap.toSample, sample) > 0;
-}
-
 /// Adds a value; the oldest goes where there are too many.
 template <class Value>
 void keepNewest(std::deque<Value>& values, const Value& value, std::size_t most) {
@@ -462,7 +458,7 @@ const Gap* Attribution::recount(Stream& stream, std::optional<std::uint32_t> aro
     for (auto gap = m_gaps.rbegin(); gap != m_gaps.rend() && own < kMostBack && looked < kMostLooked;
          ++gap, ++looked) {
         own += gap->stream == stream.key ? 1 : 0;
-        if (gap->stream == stream.key && (!around || isBetween(*around, *gap))) {
+        if (gap->stream == stream.key && (!around || gap->isAround(*around))) {
             recount(*gap, stream);
             if (around) {
                 return &*gap;

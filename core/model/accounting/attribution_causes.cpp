@@ -9,11 +9,7 @@ namespace posewire::model {
 namespace {
 
 // Other streams brought what is missing about when it should have come.
-constexpr log::Duration kNear = std::chrono::milliseconds(150);
-
-bool isBetween(std::uint32_t sample, const Gap& gap) {
-    return distance(sample, gap.fromSample) > 0 && distance(gap.toSample, sample) > 0;
-}
+constexpr log::Duration kMeanwhile = std::chrono::milliseconds(150);
 
 } // namespace
 
@@ -62,7 +58,7 @@ void Attribution::findCause(Gap& gap, const Stream& stream) const {
             return decide(LossCause::Network, Gap::Evidence::Partial, neighbour);
         }
     }
-    const TimeRange when{gap.fromStamp - kNear, gap.toStamp + kNear};
+    const TimeRange when{gap.fromStamp - kMeanwhile, gap.toStamp + kMeanwhile};
     for (const Stream* other : sender.streams) {
         if (other->key == gap.stream) {
             continue;
@@ -93,7 +89,7 @@ const Attribution::Damage* Attribution::damageWithin(const Gap& gap) const {
         if (damage->packet < gap.fromPacket) {
             break;
         }
-        if (damage->stream == gap.stream && isBetween(damage->sample, gap)) {
+        if (damage->stream == gap.stream && gap.isAround(damage->sample)) {
             return &*damage;
         }
     }

@@ -6,6 +6,10 @@
 
 namespace posewire::model {
 
+bool Gap::isAround(std::uint32_t sample) const {
+    return distance(sample, fromSample) > 0 && distance(toSample, sample) > 0;
+}
+
 std::string Gap::evidenceText() const {
     const std::int64_t lastedMs = (toStamp - fromStamp) / std::chrono::milliseconds(1);
     switch (evidence) {

@@ -40,6 +40,7 @@ struct Gap {
     std::uint64_t incident = 0;      ///< that its loss is told in; 0 for none
     std::uint8_t otherType = 0;      ///< of the evidence OtherStream
 
+    [[nodiscard]] bool isAround(std::uint32_t sample) const;
     /// One sentence with figures.
     [[nodiscard]] std::string evidenceText() const;
 };

@@ -8,7 +8,7 @@
 namespace posewire::model {
 namespace {
 
-constexpr std::size_t kMostParts = 120;
+constexpr std::size_t kMostSpans = 120;
 
 log::Duration roundedUp(log::Duration value, log::Duration unit) {
     const log::Duration rest = value % unit;
@@ -58,8 +58,8 @@ void readSpread(const StreamAccounting& stream, const TimeRange& air, RateFigure
     if (whole.to - whole.from < std::chrono::seconds(1)) {
         return;
     }
-    std::array<RangePart, kMostParts> counted{};
-    RangeParts parts = partsOf(whole, kMostParts, std::chrono::seconds(1), resolution);
+    std::array<RangePart, kMostSpans> counted{};
+    RangeParts parts = partsOf(whole, kMostSpans, std::chrono::seconds(1), resolution);
     while (parts.count > 0 && parts.beginOf(parts.count) > whole.to) {
         --parts.count;
     }

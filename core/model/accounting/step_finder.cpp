@@ -49,8 +49,8 @@ std::uint32_t mostFrequent(Differences differences) {
 
 constexpr std::uint32_t kMostUnlikely = 8;
 
-/// Spacing on one side of a change.
-struct Spacing {
+/// What is usual before a change, or after it.
+struct Side {
     std::uint32_t step = 0;
     std::uint32_t usual = 0; ///< where there is no step
 
@@ -89,8 +89,8 @@ std::uint32_t nextStep(Differences differences, std::uint32_t held) {
 }
 
 std::size_t placeOfChange(Differences differences, std::uint32_t before, std::uint32_t after) {
-    const Spacing old{before, 0};
-    const Spacing next{after, mostFrequent(newest(differences, kStepDifferences / 2))};
+    const Side old{before, 0};
+    const Side next{after, mostFrequent(newest(differences, kStepDifferences / 2))};
     std::int64_t score = 0;
     std::int64_t least = INT64_MAX;
     std::size_t place = 0;

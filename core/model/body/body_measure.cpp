@@ -12,12 +12,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr std::size_t kBody = kBodySegmentCount;
-
-std::size_t parentOf(std::size_t segment) {
-    return static_cast<std::size_t>(bodySegments()[segment].parent);
-}
-
 Vector3d referenceBone(std::size_t segment) {
     return referenceOrigins()[segment] - referenceOrigins()[parentOf(segment)];
 }
@@ -64,10 +58,10 @@ void BodyMeasure::addLength(std::size_t segment, double length) {
 void BodyMeasure::addWhole(const wire::Datagram& datagram, LengthUnit unit) {
     CharacterPose pose;
     if (!poseFromMessage(datagram, referenceOrigins(), unit, pose) || pose.isObjects ||
-        pose.sources.size() < kBody) {
+        pose.sources.size() < kBodySegments) {
         return;
     }
-    for (std::size_t i = 1; i < kBody; ++i) {
+    for (std::size_t i = 1; i < kBodySegments; ++i) {
         const std::size_t parent = parentOf(i);
         if (pose.isPresent(i) && pose.sources[parent].weaker() == Provenance::Sent) {
             const SegmentPose& from = pose.segments[parent];
@@ -78,10 +72,10 @@ void BodyMeasure::addWhole(const wire::Datagram& datagram, LengthUnit unit) {
 }
 
 void BodyMeasure::addUnity(const wire::PoseUnity& message, LengthUnit unit) {
-    if (message.segments.size() < kBody) {
+    if (message.segments.size() < kBodySegments) {
         return;
     }
-    for (std::size_t i = 1; i < kBody; ++i) {
+    for (std::size_t i = 1; i < kBodySegments; ++i) {
         addBone(i,
                 poseFromUnity(message.segments[static_cast<std::size_t>(unityPlaces()[i])], unit).position);
     }
@@ -89,13 +83,13 @@ void BodyMeasure::addUnity(const wire::PoseUnity& message, LengthUnit unit) {
 }
 
 void BodyMeasure::addPositions(const wire::LinearKinematics& message, LengthUnit unit) {
-    if (message.segments.size() < kBody) {
+    if (message.segments.size() < kBodySegments) {
         return;
     }
     const auto place = [&](std::size_t i) {
         return Vector3d(toVector(message.segments[i].position) * metresPer(unit));
     };
-    for (std::size_t i = 1; i < kBody; ++i) {
+    for (std::size_t i = 1; i < kBodySegments; ++i) {
         addLength(i, (place(i) - place(parentOf(i))).norm());
     }
     ++m_poses;
@@ -140,7 +134,7 @@ void BodyMeasure::addMarkers(const wire::PointPositions& message, LengthUnit uni
 std::optional<BodyOrigins> BodyMeasure::body() const {
     double measured = 0;
     double reference = 0;
-    for (std::size_t i = 1; i < kBody; ++i) {
+    for (std::size_t i = 1; i < kBodySegments; ++i) {
         if (m_bones[i].count > 0) {
             measured += (m_bones[i].sum / m_bones[i].count).norm();
             reference += referenceBone(i).norm();
@@ -151,7 +145,7 @@ std::optional<BodyOrigins> BodyMeasure::body() const {
     }
     const double scale = reference > 0 ? measured / reference : m_markerScales / m_markerPoses;
     BodyOrigins body{{}, 0, BodySource::Poses, {}};
-    for (std::size_t i = 1; i < kBody; ++i) {
+    for (std::size_t i = 1; i < kBodySegments; ++i) {
         const Vector3d bone = m_bones[i].count > 0 ? Vector3d(m_bones[i].sum / m_bones[i].count)
                                                    : Vector3d(scale * referenceBone(i));
         body.places[i] = body.places[parentOf(i)] + bone;

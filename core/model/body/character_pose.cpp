@@ -9,8 +9,6 @@
 namespace posewire::model {
 namespace {
 
-constexpr std::size_t kBody = kBodySegmentCount;
-
 /// A quaternion of no length tells nothing.
 bool isRotation(const std::array<float, 4>& wire) {
     const double length = toQuaternion(wire).norm();
@@ -97,12 +95,12 @@ bool read(const Items& items, const wire::Header& header, CharacterPose& pose, T
 bool readUnity(const wire::PoseUnity& message, const wire::Header& header,
                std::span<const Eigen::Vector3d> origins, LengthUnit unit, CharacterPose& pose) {
     constexpr double kAgreement = 0.03; // metres: more than joints open
-    prepare(pose, header, segmentLayout(header, kBody));
-    if (message.segments.size() < kBody || origins.size() < kBody) {
+    prepare(pose, header, segmentLayout(header, kBodySegments));
+    if (message.segments.size() < kBodySegments || origins.size() < kBodySegments) {
         return false;
     }
     const auto& places = unityPlaces();
-    for (std::size_t i = 0; i < kBody; ++i) {
+    for (std::size_t i = 0; i < kBodySegments; ++i) {
         const auto& item = message.segments[static_cast<std::size_t>(places[i])];
         const SegmentPose local = poseFromUnity(item, unit);
         const int parent = bodySegments()[i].parent;
@@ -182,7 +180,7 @@ void addMarkers(const wire::PointPositions& message, LengthUnit unit, const Body
 /// What was sent of a pose for the solver.
 PoseEvidence evidenceOf(const CharacterPose& pose) {
     PoseEvidence evidence;
-    for (std::size_t i = 0; i < std::min(pose.segments.size(), kBody); ++i) {
+    for (std::size_t i = 0; i < std::min(pose.segments.size(), kBodySegments); ++i) {
         if (pose.sources[i].position != Provenance::None) {
             evidence.positions[i] = pose.segments[i].position;
         }
@@ -203,8 +201,8 @@ bool holdsAnything(const PoseEvidence& evidence) {
 /// Where something is missing of the body; false where all is.
 bool complete(const BodyOrigins& body, CharacterPose& pose) {
     const auto isWhole = [](const SegmentSource& source) { return source.weaker() != Provenance::None; };
-    if (pose.isObjects || pose.sources.size() < kBody ||
-        std::all_of(pose.sources.begin(), pose.sources.begin() + kBody, isWhole)) {
+    if (pose.isObjects || pose.sources.size() < kBodySegments ||
+        std::all_of(pose.sources.begin(), pose.sources.begin() + kBodySegments, isWhole)) {
         return true;
     }
     const PoseEvidence evidence = evidenceOf(pose);
@@ -213,7 +211,7 @@ bool complete(const BodyOrigins& body, CharacterPose& pose) {
     }
     const SolvedBody solved = solveBody(evidence, body);
     pose.isPlaceAssumed = solved.isPlaceAssumed;
-    for (std::size_t i = 0; i < kBody; ++i) {
+    for (std::size_t i = 0; i < kBodySegments; ++i) {
         if (!isWhole(pose.sources[i])) {
             pose.segments[i] = solved.segments[i];
             pose.sources[i] = solved.sources[i];
@@ -258,8 +256,8 @@ bool solve(std::span<const PosePart> parts, const BodyOrigins& body, CharacterPo
         takeOthers(sent, 0, pose);
         return true;
     }
-    std::copy_n(sent.positions.begin(), kBody, evidence.positions.begin());
-    std::copy_n(sent.orientations.begin(), kBody, evidence.orientations.begin());
+    std::copy_n(sent.positions.begin(), kBodySegments, evidence.positions.begin());
+    std::copy_n(sent.orientations.begin(), kBodySegments, evidence.orientations.begin());
     if (!holdsAnything(evidence)) {
         return false;
     }
@@ -267,7 +265,7 @@ bool solve(std::span<const PosePart> parts, const BodyOrigins& body, CharacterPo
     std::ranges::copy(solved.segments, pose.segments.begin());
     std::ranges::copy(solved.sources, pose.sources.begin());
     pose.isPlaceAssumed = solved.isPlaceAssumed;
-    takeOthers(sent, kBody, pose);
+    takeOthers(sent, kBodySegments, pose);
     return true;
 }
 
@@ -311,7 +309,7 @@ bool isOfObjects(const wire::Header& header, std::span<const std::uint32_t> ids)
     constexpr std::size_t kMostUncounted = 8;
     const bool isCounted = header.countedSegments() == ids.size() && header.bodySegments != 0;
     const std::size_t count = isCounted ? header.bodySegments : ids.size();
-    if (count == 0 || count >= kBody || (!isCounted && count > kMostUncounted)) {
+    if (count == 0 || count >= kBodySegments || (!isCounted && count > kMostUncounted)) {
         return false;
     }
     return std::all_of(ids.begin(), ids.begin() + static_cast<std::ptrdiff_t>(count),

@@ -68,7 +68,7 @@ Quaterniond isbFrame(int segment) {
     }
 }
 
-Quaterniond headingOf(const Quaterniond& orientation) {
+Quaterniond turnOf(const Quaterniond& orientation) {
     const Vector3d forward = orientation * Vector3d::UnitX();
     return Quaterniond(Eigen::AngleAxisd(std::atan2(forward.y(), forward.x()), Vector3d::UnitZ()));
 }
@@ -81,7 +81,7 @@ const std::array<JointDefinition, kJointCount>& jointDefinitions() {
 
 Vector3d jointAngle(const JointDefinition& joint, const Quaterniond& parent, const Quaterniond& child) {
     const Quaterniond parentFrame =
-        joint.isVertical ? headingOf(child) : Quaterniond(parent * isbFrame(joint.parentSegment()));
+        joint.isVertical ? turnOf(child) : Quaterniond(parent * isbFrame(joint.parentSegment()));
     const Quaterniond childFrame = child * isbFrame(joint.childSegment());
     const Eigen::Matrix3d r = (parentFrame.conjugate() * childFrame).normalized().toRotationMatrix();
     const double abduction = std::asin(std::clamp(-r(1, 2), -1.0, 1.0));

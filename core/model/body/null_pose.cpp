@@ -38,7 +38,7 @@ bool isDifferentBody(const NullPose& a, const NullPose& b) {
     });
 }
 
-ForeignText nameOf(const std::string& bytes) {
+ForeignText textOf(const std::string& bytes) {
     ForeignText name(bytes);
     if (bytes.size() > NullPose::kMostNameBytes) {
         name.forgetExact();
@@ -182,11 +182,11 @@ NullPoseAssembler::Part NullPoseAssembler::take(const wire::NullPose& part, std:
     }
     std::vector<NullPose::Segment> segments;
     for (const wire::NullPoseSegment& each : part.segments) {
-        segments.push_back({nameOf(each.name), toVector(each.position)});
+        segments.push_back({textOf(each.name), toVector(each.position)});
     }
     std::vector<NullPose::Point> points;
     for (const wire::NullPosePoint& each : part.points) {
-        points.push_back({each.segment, each.point, nameOf(each.name), each.flags, toVector(each.position)});
+        points.push_back({each.segment, each.point, textOf(each.name), each.flags, toVector(each.position)});
     }
     const std::size_t sent = segments.size() + points.size();
     const Part taken{0, insert(std::move(segments), segment, m_bytes, m_arriving.segments),

@@ -8,8 +8,6 @@
 namespace posewire::model {
 namespace {
 
-constexpr std::size_t kBody = kBodySegmentCount;
-
 bool holds(const CharacterPose& pose, std::uint8_t type) {
     return std::ranges::find(pose.types, type) != pose.types.end();
 }
@@ -24,7 +22,7 @@ std::string namesOf(const CharacterPose& pose, const std::vector<int>& segments)
 
 std::vector<int> segmentsWhere(const CharacterPose& pose, const auto& isSo) {
     std::vector<int> segments;
-    for (std::size_t i = 0; i < std::min(pose.sources.size(), kBody); ++i) {
+    for (std::size_t i = 0; i < std::min(pose.sources.size(), kBodySegments); ++i) {
         if (isSo(pose.sources[i])) {
             segments.push_back(static_cast<int>(i));
         }

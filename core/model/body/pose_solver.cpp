@@ -38,10 +38,6 @@ const std::array<Hinge, 6>& hinges() {
     return all;
 }
 
-std::size_t parentOf(std::size_t segment) {
-    return static_cast<std::size_t>(bodySegments()[segment].parent);
-}
-
 bool isSpine(std::size_t segment) {
     return segment >= segment::kL5 && segment <= segment::kT12;
 }

@@ -10,7 +10,7 @@ namespace {
 using enum Side;
 using namespace segment;
 
-constexpr std::array<Segment, kBodySegmentCount> kBody{{
+constexpr std::array<Segment, kBodySegmentCount> kBodyTable{{
     {1, "Pelvis", "Pelvis", -1, Centre},
     {2, "L5", "L5", 0, Centre},
     {3, "L3", "L3", 1, Centre},
@@ -75,7 +75,7 @@ std::string_view named(const Naming& naming, const SegmentLayout& layout, int po
     }
     switch (place->kind) {
     case SegmentKind::Body:
-        return kBody[index].*naming.body;
+        return kBodyTable[index].*naming.body;
     case SegmentKind::Prop:
         return kPropNames[index];
     case SegmentKind::LeftFinger:
@@ -127,7 +127,11 @@ constexpr std::array<int, kBodySegmentCount> kUnityPlaces = inverse(kUnityOrder)
 } // namespace
 
 const std::array<Segment, kBodySegmentCount>& bodySegments() {
-    return kBody;
+    return kBodyTable;
+}
+
+std::size_t parentOf(std::size_t segment) {
+    return static_cast<std::size_t>(kBodyTable[segment].parent);
 }
 const std::array<HandSegment, kHandSegmentCount>& handSegments() {
     return kHand;
@@ -189,7 +193,7 @@ int segmentParent(const SegmentLayout& layout, int position) {
     }
     const auto index = static_cast<std::size_t>(place->index);
     if (place->kind == SegmentKind::Body) {
-        return kBody[index].parent;
+        return kBodyTable[index].parent;
     }
     if (kHand[index].parent >= 0) {
         return position - place->index + kHand[index].parent;
@@ -199,15 +203,16 @@ int segmentParent(const SegmentLayout& layout, int position) {
 }
 
 std::optional<int> findBodySegment(std::string_view name) {
-    const auto found = std::ranges::find(kBody, name, &Segment::name);
-    return found == kBody.end() ? std::nullopt : std::optional(static_cast<int>(found - kBody.begin()));
+    const auto found = std::ranges::find(kBodyTable, name, &Segment::name);
+    return found == kBodyTable.end() ? std::nullopt
+                                     : std::optional(static_cast<int>(found - kBodyTable.begin()));
 }
 
 int mirrored(int bodySegment) {
     constexpr int kArmLength = kLeftShoulder - kRightShoulder;
     constexpr int kLegLength = kLeftUpperLeg - kRightUpperLeg;
     const int length = bodySegment < kRightUpperLeg ? kArmLength : kLegLength;
-    const Side side = kBody[static_cast<std::size_t>(bodySegment)].side;
+    const Side side = kBodyTable[static_cast<std::size_t>(bodySegment)].side;
     return side == Centre ? bodySegment : bodySegment + (side == Right ? length : -length);
 }
 

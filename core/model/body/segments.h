@@ -9,6 +9,8 @@
 namespace posewire::model {
 
 inline constexpr int kBodySegmentCount = 23;
+/// The same, for sizes and places.
+inline constexpr std::size_t kBodySegments = kBodySegmentCount;
 inline constexpr int kMaxPropCount = 4;
 inline constexpr int kHandSegmentCount = 20;
 inline constexpr int kFingerSegmentCount = 2 * kHandSegmentCount;
@@ -57,6 +59,9 @@ struct Segment {
 
 /// The 23 body segments in wire order (Table 1 of the specification; parents as in every known receiver).
 const std::array<Segment, kBodySegmentCount>& bodySegments();
+
+/// Of a body segment that has one: all but the pelvis.
+std::size_t parentOf(std::size_t segment);
 
 /// A segment of one hand.
 struct HandSegment {

@@ -18,7 +18,7 @@ namespace {
 
 using State = ListedIncident::State;
 
-constexpr std::size_t kUnknown = static_cast<std::size_t>(LossCause::Unknown);
+constexpr std::size_t kUnknownCause = static_cast<std::size_t>(LossCause::Unknown);
 
 /// "03:28:07", as the receiving computer's clock shows it.
 std::string clockText(log::WallTime time) {
@@ -154,7 +154,7 @@ std::vector<ListedIncident> unlistedOf(const SessionView& session) {
     for (const auto& [sender, sums] : untold(session)) {
         for (std::size_t cause = 0; cause < kLossCauses; ++cause) {
             if (sums[cause] != 0) {
-                all.push_back(cause == kUnknown
+                all.push_back(cause == kUnknownCause
                                   ? provisionalOf(session, sender, sums[cause])
                                   : forgottenOf(sender, static_cast<LossCause>(cause), sums[cause]));
             }

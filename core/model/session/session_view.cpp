@@ -21,7 +21,7 @@ constexpr std::size_t kPartSearch = 256;
 /// gathering is done anew for each that asks.
 constexpr std::size_t kMostPartBytes = 256 * 1024;
 /// Decoded values, and the poses made of them, are about so much larger than what was sent.
-constexpr std::size_t kPerSentByte = 4;
+constexpr std::size_t kPerKeptByte = 4;
 
 bool isTooLarge(const log::Packet& packet) {
     const auto header = wire::decodeHeader(packet.bytes);
@@ -90,14 +90,14 @@ StreamCounts SessionView::countsOf(const CharacterKey& key, const TimeRange& ran
 MemoryFigures SessionView::memory() const {
     MemoryFigures figures = m_ingest.memory();
     const auto messages = std::ranges::find(figures.parts, "messages", &MemoryFigures::Part::key);
-    messages->bytes += kPerSentByte * m_decoded->bytes;
+    messages->bytes += kPerKeptByte * m_decoded->bytes;
     return figures;
 }
 
 SessionView::Decoded& SessionView::decoded() const {
     const bool hasFollowed = std::exchange(m_decoded->end, end()) != end();
     const bool hasRetired = std::exchange(m_decoded->retired, retired().senders) != retired().senders;
-    const bool isMuch = hasFollowed && kPerSentByte * m_decoded->bytes > kMostDecodedBytes / 4;
+    const bool isMuch = hasFollowed && kPerKeptByte * m_decoded->bytes > kMostDecodedBytes / 4;
     if (hasRetired || isMuch) {
         m_decoded->messages.clear();
         m_decoded->characters.clear();

@@ -34,7 +34,7 @@ TEST(LiveDisplay, WritesBlocksElsewhere) {
 }
 
 TEST(LiveTable, ShowsNamesAsTextOfALine) {
-    for (const std::string& name : test::hostileNames()) {
+    for (const std::string& name : posewire::test::hostileNames()) {
         log::PacketLog log{{.memoryCap = std::size_t{1} << 22, .chunkSize = std::size_t{1} << 20}};
         model::Session session{log};
         wire::Datagram datagram;
@@ -50,7 +50,7 @@ TEST(LiveTable, ShowsNamesAsTextOfALine) {
         const bool isText = wire::firstInvalidUtf8(name) == name.size(); // else it is malformed
         EXPECT_EQ(lines.size(), isText ? 5U : 2U) << name.substr(0, 80);
         for (const std::string& line : lines) {
-            EXPECT_EQ(test::harmIn(line), "") << line;
+            EXPECT_EQ(posewire::test::harmIn(line), "") << line;
             EXPECT_EQ(line.find('\n'), std::string::npos);
         }
     }

@@ -12,11 +12,11 @@
 namespace posewire::exporting {
 namespace {
 
-using Json = nlohmann::ordered_json;
-using Pointer = Json::json_pointer;
+using OrderedJson = nlohmann::ordered_json;
+using Pointer = OrderedJson::json_pointer;
 
 /// Each place in an object at which a value stands, lists cut to their first two members.
-void visit(const Json& value, const Pointer& at, const std::function<void(const Pointer&)>& take) {
+void visit(const OrderedJson& value, const Pointer& at, const std::function<void(const Pointer&)>& take) {
     if (!at.empty()) {
         take(at);
     }
@@ -32,7 +32,7 @@ void visit(const Json& value, const Pointer& at, const std::function<void(const 
 }
 
 struct EveryLine : testing::TestWithParam<std::string> {
-    Json object() const { return Json::parse(datagramJson({}, bytes)); }
+    OrderedJson object() const { return OrderedJson::parse(datagramJson({}, bytes)); }
     std::vector<std::byte> bytes = posewire::test::golden(GetParam()).bytes;
 };
 
@@ -47,24 +47,25 @@ TEST_P(EveryLine, SaysNothingElseWhenItsKeysAreSorted) {
 }
 
 TEST_P(EveryLine, SaysNothingElseWithSpacesAndUnknownKeys) {
-    Json more = object();
+    OrderedJson more = object();
     more["comment"] = "from take 7";
-    more["body"]["note"] = Json::array({1, Json::object({{"x", nullptr}})});
+    more["body"]["note"] = OrderedJson::array({1, OrderedJson::object({{"x", nullptr}})});
     const auto again = datagramFromJson(more.dump(3, '\t').append("  \n"));
     ASSERT_TRUE(again) << again.error().text;
     EXPECT_EQ(*again, bytes);
 }
 
 TEST_P(EveryLine, NamesWhatHasAnotherKind) {
-    const Json whole = object();
+    const OrderedJson whole = object();
     if (whole.contains("bytes")) {
         GTEST_SKIP() << "the bytes win";
     }
     std::size_t refused = 0;
     visit(whole, Pointer(), [&](const Pointer& at) {
-        for (const Json& other :
-             {Json(true), Json(-7.5), Json("x"), Json::array({}), Json::object(), Json(nullptr)}) {
-            Json changed = whole;
+        for (const OrderedJson& other :
+             {OrderedJson(true), OrderedJson(-7.5), OrderedJson("x"), OrderedJson::array({}),
+              OrderedJson::object(), OrderedJson(nullptr)}) {
+            OrderedJson changed = whole;
             changed[at] = other;
             const auto result = datagramFromJson(changed.dump());
             if (result) {
@@ -83,12 +84,12 @@ TEST_P(EveryLine, NamesWhatHasAnotherKind) {
 }
 
 TEST_P(EveryLine, NamesWhatIsMissingFromItsBody) {
-    const Json whole = object();
+    const OrderedJson whole = object();
     if (whole.contains("bytes")) {
         GTEST_SKIP() << "the bytes win";
     }
     visit(whole["body"], Pointer("/body"), [&](const Pointer& at) {
-        Json changed = whole;
+        OrderedJson changed = whole;
         if (!changed[at.parent_pointer()].is_object()) {
             return;
         }

@@ -3,6 +3,7 @@
 
 #include "core/model/body/null_pose.h"
 #include "core/model/body/spaces.h"
+#include "tests/core/export/csv_rows.h"
 
 #include <nlohmann/json.hpp>
 
@@ -11,31 +12,11 @@
 #include <bit>
 #include <cmath>
 #include <cstdlib>
-#include <sstream>
 
 namespace posewire::exporting {
 namespace {
 
 using Strings = std::vector<std::string>;
-
-/// Lines of cells; names of these tests that hold a comma or a line break are looked at elsewhere.
-std::vector<Strings> rowsOf(const std::string& csv) {
-    std::vector<Strings> rows;
-    std::istringstream lines(csv);
-    for (std::string line; std::getline(lines, line);) {
-        EXPECT_EQ(line.back(), '\r');
-        line.pop_back();
-        Strings cells;
-        std::string::size_type from = 0;
-        for (auto to = line.find(','); to != std::string::npos; to = line.find(',', from)) {
-            cells.push_back(line.substr(from, to - from));
-            from = to + 1;
-        }
-        cells.push_back(line.substr(from));
-        rows.push_back(cells);
-    }
-    return rows;
-}
 
 model::NullPose oddPose() {
     model::NullPose pose;

@@ -23,7 +23,7 @@ log::Duration after(std::uint32_t samples) {
 }
 
 /// What is wrong with the nesting of elements; empty where all is well.
-std::string faultOf(std::string_view html) {
+std::string faultIn(std::string_view html) {
     const std::set<std::string_view> empty{"meta", "line", "path", "rect"};
     std::vector<std::string_view> open;
     for (std::size_t at = html.find('<'); at != std::string_view::npos; at = html.find('<', at + 1)) {
@@ -82,7 +82,7 @@ TEST_F(StreamReportTest, TakesStampsOf1970ForStamps) {
 TEST_F(StreamReportTest, SaysInWordsThatAllIsWell) {
     stream(480);
     const std::string html = report();
-    EXPECT_EQ(faultOf(html), "");
+    EXPECT_EQ(faultIn(html), "");
     EXPECT_THAT(html, HasSubstr("verdict good"));
     EXPECT_THAT(html, AllOf(HasSubstr("Good for the take: 1 character."),
                             HasSubstr("480 samples expected, every one of them received.")));
@@ -92,7 +92,7 @@ TEST_F(StreamReportTest, SaysInWordsThatAllIsWell) {
 TEST_F(StreamReportTest, SaysInWordsHowMuchWasLost) {
     stream(2000, 50);
     const std::string html = report();
-    EXPECT_EQ(faultOf(html), "");
+    EXPECT_EQ(faultIn(html), "");
     EXPECT_THAT(html, HasSubstr("verdict error"));
     EXPECT_THAT(html, HasSubstr("40 of 2\u202f000 samples (2.00 %)"));
 }
@@ -108,7 +108,7 @@ TEST_F(StreamReportTest, SaysOfEveryGapWhoseItWas) {
     }
     follow();
     const std::string html = report();
-    EXPECT_EQ(faultOf(html), "");
+    EXPECT_EQ(faultIn(html), "");
     EXPECT_THAT(html, HasSubstr("<h2>Gaps</h2>"));
     EXPECT_THAT(html, HasSubstr("2 gaps."));
     EXPECT_THAT(html, HasSubstr("99–101"));
@@ -122,7 +122,7 @@ TEST_F(StreamReportTest, SaysOfEveryGapWhoseItWas) {
 
 TEST_F(StreamReportTest, SaysThatNothingCame) {
     const std::string html = report();
-    EXPECT_EQ(faultOf(html), "");
+    EXPECT_EQ(faultIn(html), "");
     EXPECT_THAT(html, HasSubstr("No MXTP datagram was received."));
 }
 
@@ -140,7 +140,7 @@ TEST_F(StreamReportTest, LetsNothingFromTheWireBecomeMarkup) {
     sendBytes(std::as_bytes(std::span("<svg onload=x>", 14)), kStart, "\"<i>\":1");
     stream(240);
     const std::string html = report({.exceeded = {"<u>"}, .settings = {{"<s>", "<q>"}}});
-    EXPECT_EQ(faultOf(html), "");
+    EXPECT_EQ(faultIn(html), "");
     for (const char* markup : {"<script", "<img", "<i>", "<u>", "<s>", "<q>", "onload=x>"}) {
         EXPECT_THAT(html, Not(HasSubstr(markup)));
     }

@@ -13,7 +13,7 @@ using testing::HasSubstr;
 using testing::IsSupersetOf;
 using testing::Not;
 
-Case packetOf(wire::Body body, std::uint32_t timeCode = 0) {
+Case packetWith(wire::Body body, std::uint32_t timeCode = 0) {
     wire::Datagram datagram;
     datagram.body = std::move(body);
     datagram.header.timeCode = timeCode;
@@ -22,7 +22,7 @@ Case packetOf(wire::Body body, std::uint32_t timeCode = 0) {
 }
 
 Case eulerPose(const wire::Vec3& position, const wire::Vec3& rotation = {}) {
-    return packetOf(wire::PoseEuler{{{1, position, rotation}}});
+    return packetWith(wire::PoseEuler{{{1, position, rotation}}});
 }
 
 std::string errorOf(std::string_view text) {
@@ -52,7 +52,7 @@ TEST(FilterUnits, ComparesCentimetresAndMetresInMetres) {
 TEST(FilterUnits, ReachesTheNumberAsItWasSent) {
     EXPECT_TRUE(matches(eulerPose({0, 0, 107}), "wire.position.z == 107 && wire.segments.position.z > 100"));
     EXPECT_FALSE(matches(pose({{0, 0, 1.07F}}), "wire.position.z > 100"));
-    const Case packet = packetOf(wire::PoseQuaternion{}, 27'837);
+    const Case packet = packetWith(wire::PoseQuaternion{}, 27'837);
     EXPECT_TRUE(
         matches(packet, "wire.timeCode == 27837 && wire.header.timeCode == 27837 && wire.sample == 0"));
     EXPECT_THAT(errorOf("wire.time > 1"), HasSubstr("There is no field `wire.time`; did you mean `time`?"));
@@ -82,7 +82,7 @@ TEST(FilterUnits, KnowsWhetherThatUnitMattersToAFilter) {
 }
 
 TEST(FilterUnits, ComparesTimesInSeconds) {
-    Case packet = packetOf(wire::PoseQuaternion{}, 27'837);
+    Case packet = packetWith(wire::PoseQuaternion{}, 27'837);
     packet.digest.deltaS = 0.25F;
     for (const char* text :
          {"timeCode == 27.837", "header.timeCode == 27837 ms", "timeCode < 1 min", "timeCode in 27 s..28 s",
@@ -96,14 +96,14 @@ TEST(FilterUnits, ComparesAnglesInDegrees) {
     const Case euler = eulerPose({}, {90, 0, 0});
     EXPECT_TRUE(matches(euler, "rotation.x == 90 && rotation.x == 90 deg && rotation.x == 90°"));
     EXPECT_TRUE(matches(euler, "rotation.x > 1.57 rad && rotation.x < 1.58 rad"));
-    const Case turning = packetOf(wire::AngularKinematics{{{1, {1, 0, 0, 0}, {3.2F, 0, 0}, {1, 0, 0}}}});
+    const Case turning = packetWith(wire::AngularKinematics{{{1, {1, 0, 0, 0}, {3.2F, 0, 0}, {1, 0, 0}}}});
     EXPECT_TRUE(matches(turning, "angularVelocity.x > 180 && angularVelocity.x > 180 deg/s"));
     EXPECT_TRUE(matches(turning, "angularVelocity.x == 3.2 rad/s && wire.angularVelocity.x == 3.2"));
     EXPECT_TRUE(matches(turning, "angularAcceleration.x > 57 °/s² && angularAcceleration.x < 58 deg/s2"));
 }
 
 TEST(FilterUnits, KnowsVelocitiesAccelerationsAndSizes) {
-    const Case packet = packetOf(wire::LinearKinematics{{{1, {}, {2, 0, 0}, {0, 0, 9.9F}}}});
+    const Case packet = packetWith(wire::LinearKinematics{{{1, {}, {2, 0, 0}, {0, 0, 9.9F}}}});
     EXPECT_TRUE(matches(packet, "velocity.x == 2 m/s && velocity.x > 7 km/h && velocity.x == 200 cm/s"));
     EXPECT_TRUE(
         matches(packet, "acceleration.z > 1 g && acceleration.z > 9.8 m/s² && acceleration.z < 10 m/s2"));

@@ -11,9 +11,9 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr std::uint32_t kMicroseconds = 0xa1b2c3d4;
-constexpr std::uint32_t kNanoseconds = 0xa1b23c4d;
-constexpr std::uint32_t kRawIp = 101;
+constexpr std::uint32_t kMicrosecondFile = 0xa1b2c3d4;
+constexpr std::uint32_t kNanosecondFile = 0xa1b23c4d;
+constexpr std::uint32_t kRawIpFile = 101;
 
 /// What was read, and whether the file was sound.
 struct Reading {
@@ -49,17 +49,18 @@ ByteVector record(const ByteVector& frame, std::size_t original, bool bigEndian 
 
 TEST(PcapFile, KeepsEveryStampThatTheFormatCanHold) {
     for (const bool bigEndian : {false, true}) {
-        for (const auto& [magic, unit] : {std::pair{kMicroseconds, Duration(1us)}, {kNanoseconds, 1ns}}) {
+        for (const auto& [magic, unit] :
+             {std::pair{kMicrosecondFile, Duration(1us)}, {kNanosecondFile, 1ns}}) {
             std::vector<Captured> packets;
             std::vector<Stamp> stamps;
-            const std::uint32_t most = magic == kMicroseconds ? 999'999 : 999'999'999;
+            const std::uint32_t most = magic == kMicrosecondFile ? 999'999 : 999'999'999;
             for (const std::uint32_t seconds : {0U, 1U, 0x7fffffffU, 0x80000000U, 0xffffffffU}) {
                 for (const std::uint32_t fraction : {0U, 1U, most}) {
                     packets.push_back({seconds, fraction, posePacket(1)});
                     stamps.emplace_back(std::chrono::seconds(seconds) + fraction * unit);
                 }
             }
-            const Reading reading = readingOf(pcap(packets, magic, kRawIp, bigEndian));
+            const Reading reading = readingOf(pcap(packets, magic, kRawIpFile, bigEndian));
             ASSERT_TRUE(reading.result);
             ASSERT_EQ(reading.packets.size(), stamps.size());
             for (std::size_t i = 0; i < stamps.size(); ++i) {
@@ -73,18 +74,19 @@ TEST(PcapFile, KeepsEveryStampThatTheFormatCanHold) {
 TEST(PcapFile, LooksAtTheLowerBitsOfTheLinkTypeOnly) {
     for (const std::uint32_t upper : {0x00000000U, 0x10000000U, 0x40000000U, 0xf0000000U}) {
         const Reading reading =
-            readingOf(pcap({{1, 2, ethernet(posePacket(7))}}, kMicroseconds, upper | 1, false));
+            readingOf(pcap({{1, 2, ethernet(posePacket(7))}}, kMicrosecondFile, upper | 1, false));
         ASSERT_EQ(reading.packets.size(), 1U) << upper;
         EXPECT_EQ(reading.packets[0].bytes, poseDatagram(7, 2));
     }
-    EXPECT_TRUE(readingOf(pcap({{1, 2, posePacket(7)}}, kMicroseconds, 0x07654321, false)).packets.empty());
+    EXPECT_TRUE(
+        readingOf(pcap({{1, 2, posePacket(7)}}, kMicrosecondFile, 0x07654321, false)).packets.empty());
 }
 
 /// A capture with a short snap length has the beginning of a packet: its datagram is cut off.
 TEST(PcapFile, GivesWhatWasCapturedOfACutPacket) {
     const ByteVector packet = posePacket(7);
     for (const bool bigEndian : {false, true}) {
-        const ByteVector header = pcap({}, kNanoseconds, kRawIp, bigEndian);
+        const ByteVector header = pcap({}, kNanosecondFile, kRawIpFile, bigEndian);
         for (const std::size_t size : {29U, 60U, 100U}) {
             const ByteVector cut(packet.begin(), packet.begin() + static_cast<std::ptrdiff_t>(size));
             const Reading reading = readingOf(joined(
@@ -98,16 +100,16 @@ TEST(PcapFile, GivesWhatWasCapturedOfACutPacket) {
 }
 
 TEST(PcapFile, ReadsEmptyFilesAndEmptyPackets) {
-    EXPECT_TRUE(readingOf(pcap({}, kMicroseconds, 1, true)).result);
+    EXPECT_TRUE(readingOf(pcap({}, kMicrosecondFile, 1, true)).result);
     const Reading reading =
-        readingOf(pcap({{0, 0, {}}, {0, 0, posePacket(1)}, {0, 0, {}}}, kMicroseconds, kRawIp, true));
+        readingOf(pcap({{0, 0, {}}, {0, 0, posePacket(1)}, {0, 0, {}}}, kMicrosecondFile, kRawIpFile, true));
     EXPECT_TRUE(reading.result);
     EXPECT_EQ(reading.packets.size(), 1U);
 }
 
 TEST(PcapFile, RefusesAPacketThatIsLongerThanAnyCanBe) {
     for (const std::uint32_t size : {0x01000001U, 0x7fffffffU, 0xffffffffU}) {
-        ByteVector file = pcap({{1, 1, posePacket(1)}}, kMicroseconds, kRawIp, true);
+        ByteVector file = pcap({{1, 1, posePacket(1)}}, kMicrosecondFile, kRawIpFile, true);
         const std::size_t first = file.size();
         file = CaptureBytes().bytes(file).zeros(8).number(size, 4).number(size, 4).zeros(100).all();
         const Reading reading = readingOf(file);
@@ -120,7 +122,7 @@ TEST(PcapFile, RefusesAPacketThatIsLongerThanAnyCanBe) {
 
 TEST(PcapFile, KeepsWhatCameBeforeAFailureOfTheDevice) {
     const ByteVector file =
-        pcap({{1, 1, posePacket(1)}, {2, 2, posePacket(2)}}, kMicroseconds, kRawIp, false);
+        pcap({{1, 1, posePacket(1)}, {2, 2, posePacket(2)}}, kMicrosecondFile, kRawIpFile, false);
     const std::size_t packet = (file.size() - 24) / 2;
     for (std::size_t size = 0; size <= file.size(); ++size) {
         const Reading reading = readingOf(std::span(file).first(size), true);
@@ -141,7 +143,7 @@ TEST(PcapFile, GivesBackGeneratedPackets) {
                                static_cast<std::uint32_t>(random() % 1'000'000'000),
                                posePacket(i, random() % 67)});
         }
-        const Reading reading = readingOf(pcap(packets, kNanoseconds, kRawIp, bigEndian));
+        const Reading reading = readingOf(pcap(packets, kNanosecondFile, kRawIpFile, bigEndian));
         ASSERT_TRUE(reading.result);
         ASSERT_EQ(reading.packets.size(), packets.size());
         for (std::size_t i = 0; i < packets.size(); ++i) {

@@ -11,7 +11,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr std::uint16_t kRawIp = 101;
+constexpr std::uint16_t kRawIpInterface = 101;
 
 enum : std::uint16_t { kEnd = 0, kComment = 1, kDropCount = 4, kResolution = 9, kOffset = 14 };
 
@@ -27,7 +27,7 @@ protected:
         return log::option(code, value, bigEndian());
     }
     [[nodiscard]] ByteVector interface(const ByteVector& options = {}, std::uint32_t snapLength = 0) const {
-        return interfaceWith(kRawIp, snapLength, options, bigEndian());
+        return interfaceWith(kRawIpInterface, snapLength, options, bigEndian());
     }
     [[nodiscard]] ByteVector packet(std::uint64_t stamp, const ByteVector& options = {},
                                     std::uint32_t onInterface = 0) const {
@@ -189,7 +189,7 @@ TEST_P(PcapngFile, CountsInterfacesWithinTheirSection) {
 }
 
 TEST_P(PcapngFile, KeepsTheNumberOfAnInterfaceThatIsTooShort) {
-    const ByteVector tooShort = block(1, number(kRawIp, 2), bigEndian());
+    const ByteVector tooShort = block(1, number(kRawIpInterface, 2), bigEndian());
     const auto seen = recordedIn(joined({section(), tooShort, interface(), packet(9, {}, 1)}));
     EXPECT_EQ(seen.size(), 1U);
 }

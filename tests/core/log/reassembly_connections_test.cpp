@@ -11,7 +11,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr std::uint32_t kRawIp = 101;
+constexpr std::uint32_t kWithoutLink = 101;
 
 ByteVector pose(std::uint32_t sample) {
     return poseDatagram(sample, 2);
@@ -20,7 +20,7 @@ ByteVector pose(std::uint32_t sample) {
 class ConnectionsTest : public testing::Test {
 protected:
     void add(const ByteVector& packet) {
-        m_reassembly.add({kRawIp, packet, 0, m_stamp});
+        m_reassembly.add({kWithoutLink, packet, 0, m_stamp});
         m_stamp += 1ms;
     }
     /// What came out since the last call: datagrams, and how much was skipped.

@@ -12,7 +12,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-struct Seen {
+struct SeenDatagram {
     std::uint64_t offset;
     ByteVector bytes;
     bool isSkipped;
@@ -30,15 +30,15 @@ public:
         m_stamp += 1ms;
     }
     void pass(Duration time) { m_stamp += time; }
-    std::vector<Seen>& finish() {
+    std::vector<SeenDatagram>& finish() {
         m_reassembly.finish();
         return m_seen;
     }
-    [[nodiscard]] const std::vector<Seen>& seen() const { return m_seen; }
+    [[nodiscard]] const std::vector<SeenDatagram>& seen() const { return m_seen; }
     [[nodiscard]] std::uint64_t offset() const { return m_offset; }
     [[nodiscard]] std::vector<ByteVector> datagrams() {
         std::vector<ByteVector> all;
-        for (const Seen& one : finish()) {
+        for (const SeenDatagram& one : finish()) {
             if (!one.isSkipped) {
                 all.push_back(one.bytes);
             }
@@ -47,14 +47,14 @@ public:
     }
     [[nodiscard]] std::size_t skippedBytes() const {
         std::size_t sum = 0;
-        for (const Seen& one : m_seen) {
+        for (const SeenDatagram& one : m_seen) {
             sum += one.isSkipped ? one.bytes.size() : 0;
         }
         return sum;
     }
 
 private:
-    std::vector<Seen> m_seen;
+    std::vector<SeenDatagram> m_seen;
     FileVisitor m_visit = [this](const FileRecord& record) {
         m_seen.push_back({record.offset,
                           {record.bytes.begin(), record.bytes.end()},
@@ -332,7 +332,7 @@ TEST(Reassembly, SurvivesDamageAnywhere) {
             packet[random() % 44] = static_cast<std::byte>(random());
             capture.add(slice(packet, 0, packet.size() - random() % 3));
         }
-        for (const Seen& one : capture.finish()) {
+        for (const SeenDatagram& one : capture.finish()) {
             EXPECT_LE(one.offset, capture.offset());
         }
     }

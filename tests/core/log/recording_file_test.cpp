@@ -40,15 +40,15 @@ private:
     std::size_t m_at = 0;
 };
 
-struct Seen {
+struct SeenRecord {
     std::uint64_t offset;
     std::size_t size;
     bool isSkipped;
-    friend bool operator==(const Seen&, const Seen&) = default;
+    friend bool operator==(const SeenRecord&, const SeenRecord&) = default;
 };
 
-std::vector<Seen> records(ByteSource& source, tl::expected<void, FileError>& result) {
-    std::vector<Seen> seen;
+std::vector<SeenRecord> records(ByteSource& source, tl::expected<void, FileError>& result) {
+    std::vector<SeenRecord> seen;
     result = readFile(source, [&](const FileRecord& record) {
         seen.push_back({record.offset, record.bytes.size(), record.flags.skipped});
         EXPECT_FALSE(record.time.has_value());
@@ -62,7 +62,7 @@ TEST(RecordingFile, GivesDatagramsWithTheirPlaces) {
     tl::expected<void, FileError> result;
     const auto seen = records(*readingFrom(stream, "standard input"), result);
     EXPECT_TRUE(result.has_value());
-    EXPECT_EQ(seen, (std::vector<Seen>{{0, 760, false}, {760, 3, true}, {763, 760, false}}));
+    EXPECT_EQ(seen, (std::vector<SeenRecord>{{0, 760, false}, {760, 3, true}, {763, 760, false}}));
 }
 
 TEST(RecordingFile, WhatBeginsLikeNoCaptureIsReadAsItIs) {
@@ -122,7 +122,7 @@ TEST(RecordingFile, ReadsTheCapturedDatagrams) {
         auto source = openFile((folder / name).string());
         ASSERT_TRUE(source.has_value()) << source.error().text;
         tl::expected<void, FileError> result;
-        EXPECT_EQ(records(**source, result), (std::vector<Seen>{{0, size, false}})) << name;
+        EXPECT_EQ(records(**source, result), (std::vector<SeenRecord>{{0, size, false}})) << name;
     }
 }
 

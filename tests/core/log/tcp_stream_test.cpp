@@ -13,7 +13,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-struct Seen {
+struct SeenSegment {
     std::uint64_t offset;
     ByteVector bytes;
     bool isSkipped;
@@ -21,7 +21,7 @@ struct Seen {
 };
 
 /// Poses with the samples 1 … count, 88 bytes each.
-ByteVector posesUpTo(std::uint32_t count) {
+ByteVector poseStream(std::uint32_t count) {
     std::vector<ByteVector> all;
     for (std::uint32_t sample = 1; sample <= count; ++sample) {
         all.push_back(poseDatagram(sample, 2));
@@ -47,7 +47,7 @@ protected:
     void finish() { m_stream.finish(); }
     [[nodiscard]] std::vector<ByteVector> datagrams() const {
         std::vector<ByteVector> all;
-        for (const Seen& one : m_seen) {
+        for (const SeenSegment& one : m_seen) {
             if (!one.isSkipped) {
                 all.push_back(one.bytes);
             }
@@ -62,10 +62,10 @@ protected:
         EXPECT_EQ(m_seen.size(), count) << "nothing was skipped";
     }
 
-    ByteVector m_sent = posesUpTo(20);
+    ByteVector m_sent = poseStream(20);
     std::uint32_t m_first = GetParam();
     std::optional<WallTime> m_time{WallTime()};
-    std::vector<Seen> m_seen;
+    std::vector<SeenSegment> m_seen;
     FileVisitor m_visit = [this](const FileRecord& record) {
         EXPECT_EQ(record.sender, (SenderInfo{"10.0.0.2:40001", Transport::Tcp, 9763}));
         m_seen.push_back(
@@ -199,7 +199,7 @@ TEST_P(TcpStreamTest, PassesOverAGapAmidADatagram) {
     add(2 * kPose + 30, 5000); // the rest of the third, then whole ones
     finish();
     std::size_t skipped = 0;
-    for (const Seen& one : m_seen) {
+    for (const SeenSegment& one : m_seen) {
         skipped += one.isSkipped ? one.bytes.size() : 0;
     }
     EXPECT_EQ(skipped, kPose - 30);

@@ -17,7 +17,7 @@
 namespace posewire::performer {
 namespace {
 
-PerformerSettings oneStream(std::uint8_t type = 24) {
+PerformerSettings streamOf(std::uint8_t type = 24) {
     PerformerSettings settings;
     settings.characters = 1;
     settings.types = {type};
@@ -34,7 +34,7 @@ struct Outcome {
     SentFigures counts;
 };
 
-Outcome outcomeOf(const FaultSettings& faults, const PerformerSettings& performance = oneStream()) {
+Outcome outcomeOf(const FaultSettings& faults, const PerformerSettings& performance = streamOf()) {
     Outcome outcome;
     outcome.sendings = performWithFaults(performance, faults, 5.0, &outcome.tally);
     outcome.received = receiveAll(outcome.sendings);
@@ -90,7 +90,7 @@ TEST_P(OneFault, ReorderedOnesAreNoMoreThanThoseHeldBack) {
 
 TEST_P(OneFault, TruncatedOnesCannotBeDecodedAndAreLost) {
     const Outcome outcome =
-        outcomeOf(with([](FaultSettings& settings) { settings.truncate = 0.1; }), oneStream(2));
+        outcomeOf(with([](FaultSettings& settings) { settings.truncate = 0.1; }), streamOf(2));
     EXPECT_EQ(outcome.received.sender.malformed + outcome.received.sender.foreign, outcome.tally.truncated);
     EXPECT_EQ(outcome.counts.samples, kSamples - outcome.tally.truncated);
     EXPECT_GT(outcome.tally.truncated, 60U);
@@ -99,7 +99,7 @@ TEST_P(OneFault, TruncatedOnesCannotBeDecodedAndAreLost) {
 
 TEST_P(OneFault, CorruptedOnesAreMalformedForeignOrStillADatagram) {
     const Outcome outcome =
-        outcomeOf(with([](FaultSettings& settings) { settings.corrupt = 0.1; }), oneStream(2));
+        outcomeOf(with([](FaultSettings& settings) { settings.corrupt = 0.1; }), streamOf(2));
     const SenderFigures& sender = outcome.received.sender;
     EXPECT_EQ(sender.datagrams + sender.malformed + sender.foreign, kSamples);
     EXPECT_LE(sender.malformed + sender.foreign, outcome.tally.corrupted);
@@ -144,12 +144,12 @@ TEST_P(OneFault, RestartsAreCountedOnceWhereverTheCounterGoes) {
 
 TEST_P(OneFault, SplitSamplesAreWholeUntilAPartIsDropped) {
     FaultSettings faults = with([](FaultSettings& settings) { settings.splits = true; });
-    const Outcome whole = outcomeOf(faults, oneStream(2));
+    const Outcome whole = outcomeOf(faults, streamOf(2));
     EXPECT_EQ(whole.counts.samples, kSamples);
     EXPECT_EQ(whole.counts.incomplete, 0U);
     EXPECT_GT(whole.tally.offered, 2 * kSamples - 1);
     faults.drop = 0.05;
-    const Outcome cut = outcomeOf(faults, oneStream(2));
+    const Outcome cut = outcomeOf(faults, streamOf(2));
     EXPECT_GT(cut.counts.incomplete, 0U);
     const std::uint64_t atTheEnds = kSamples - 1 - (cut.counts.lastSample - cut.counts.firstSample);
     EXPECT_EQ(cut.counts.samples + cut.counts.incomplete + cut.counts.lost + atTheEnds, kSamples);
@@ -162,7 +162,7 @@ TEST_P(OneFault, NoneOfThemTogetherLosesCount) {
                                         settings.truncate = 0.05;
                                     settings.jitterMs = 15;
                                 }),
-                                oneStream(2));
+                                streamOf(2));
     const SenderFigures& sender = outcome.received.sender;
     EXPECT_EQ(sender.datagrams + sender.malformed + sender.foreign, outcome.sendings.size());
     EXPECT_EQ(outcome.counts.datagrams, sender.datagrams);
@@ -203,7 +203,7 @@ TEST(StreamedTruth, IsWhatAReceiverOfTheByteStreamCounts) {
         faults.truncate = seed % 2 == 0 ? 0.05 : 0.0;
         faults.corrupt = seed > 2 ? 0.05 : 0.0;
         faults.drop = 0.02;
-        const auto sendings = performWithFaults(oneStream(2), faults, 2.0);
+        const auto sendings = performWithFaults(streamOf(2), faults, 2.0);
         StreamedTruth truth;
         for (const Sending& sending : sendings) {
             truth.add(sending);

@@ -280,7 +280,7 @@ TEST(Performer, PlaysRevisionsJAndK) {
 }
 
 TEST(Performer, SaysWhatIsWrongWithSettings) {
-    EXPECT_EQ(findProblem({}), std::nullopt);
+    EXPECT_EQ(findProblem(PerformerSettings{}), std::nullopt);
     PerformerSettings settings;
     settings.characters = 0;
     EXPECT_TRUE(findProblem(settings).has_value());

@@ -164,14 +164,14 @@ TEST_P(FieldTreeValues, NumberTheItemsOfLists) {
     }
 }
 
-const FieldNode* find(const FieldTree& tree, const std::string& path) {
+const FieldNode* findNode(const FieldTree& tree, const std::string& path) {
     const auto paths = pathsOf(tree);
     const auto found = std::ranges::find(paths, path);
     return found == paths.end() ? nullptr : &tree.nodes[static_cast<std::size_t>(found - paths.begin())];
 }
 
 std::string valueOf(const FieldTree& tree, const std::string& path) {
-    const FieldNode* node = find(tree, path);
+    const FieldNode* node = findNode(tree, path);
     return node != nullptr ? node->value : "no " + path;
 }
 
@@ -215,7 +215,7 @@ TEST(FieldTreeOfANullPose, ShowsFlagsAsHexadecimal) {
         completeHeader(datagram, HeaderEra::Counted);
         const FieldTree tree = treeOf(datagram);
         EXPECT_EQ(valueOf(tree, "points[0].flags"), shown);
-        EXPECT_EQ(find(tree, "points[0].flags")->number, flags);
+        EXPECT_EQ(findNode(tree, "points[0].flags")->number, flags);
         EXPECT_EQ(valueOf(tree, "points[0].name.length"), "7");
         EXPECT_EQ(valueOf(tree, "points count"), "1");
         EXPECT_EQ(valueOf(tree, "segments count"), "0");

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace posewire::render::testing {
+namespace posewire::render::test {
 namespace {
 
 using Names = std::map<std::string, std::string>;
@@ -148,7 +148,7 @@ TEST(BoneMapping, KnowsBiped) {
 }
 
 TEST(BoneMapping, DoesNotMindCaseOrPrefixes) {
-    for (const std::string& prefix : {"Armature_", "Rig|", "model:character:", "Bip001 "}) {
+    for (const std::string prefix : {"Armature_", "Rig|", "model:character:", "Bip001 "}) {
         std::vector<ImportedBone> bones = kMixamoSkeleton.bones();
         for (ImportedBone& bone : bones) {
             std::ranges::transform(bone.name, bone.name.begin(),
@@ -231,4 +231,4 @@ TEST(BoneMapping, RefusesOneBoneForTwoSegmentsAndLimbsThatDoNotHangTogether) {
 }
 
 } // namespace
-} // namespace posewire::render::testing
+} // namespace posewire::render::test

@@ -4,7 +4,7 @@
 #include <span>
 #include <string_view>
 
-namespace posewire::render::testing {
+namespace posewire::render::test {
 namespace {
 
 constexpr int kFloat = 5126;
@@ -112,4 +112,4 @@ std::string GltfText::text() const {
            ",\"uri\":\"data:application/octet-stream;base64," + base64(buffer.bytes) + "\"}]}";
 }
 
-} // namespace posewire::render::testing
+} // namespace posewire::render::test

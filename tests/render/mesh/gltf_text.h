@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace posewire::render::testing {
+namespace posewire::render::test {
 
 /// A glTF file in one piece of text: a triangle for each entry of `meshes`, all with the same skin of
 /// `boneCount` joints in a row, each 1 m above the one before (Y up).
@@ -26,4 +26,4 @@ struct GltfText {
     std::string text() const;
 };
 
-} // namespace posewire::render::testing
+} // namespace posewire::render::test

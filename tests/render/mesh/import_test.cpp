@@ -109,7 +109,7 @@ TEST(Import, RefusesAMeshWithoutBones) {
     EXPECT_EQ(imported.error(), "the file has no mesh with bones");
 }
 
-using testing::GltfText;
+using test::GltfText;
 
 ImportedCharacter importGltf(const GltfText& file) {
     auto imported = importText(file.text(), "gltf");

@@ -13,7 +13,7 @@ namespace posewire::render {
 namespace {
 
 std::string committedFile() {
-    std::ifstream file(test::sourcePath("resources/mannequin_medium.glb"), std::ios::binary);
+    std::ifstream file(posewire::test::sourcePath("resources/mannequin_medium.glb"), std::ios::binary);
     return {std::istreambuf_iterator<char>(file), {}};
 }
 

@@ -3,7 +3,7 @@
 
 #include <sstream>
 
-namespace posewire::render::testing {
+namespace posewire::render::test {
 namespace {
 
 std::string replaced(const std::string& line, std::string_view side) {
@@ -267,4 +267,4 @@ const Skeleton kBipedSkeleton{R"(Bip01
        Bip01 $ Toe0Nub)",
                               "L", "R"};
 
-} // namespace posewire::render::testing
+} // namespace posewire::render::test

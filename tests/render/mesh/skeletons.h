@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace posewire::render::testing {
+namespace posewire::render::test {
 
 /// Bones from lines: one more blank at the beginning than the line above is its child. Lines with a $ stand
 /// for two branches: left words in its place first, then right ones.
@@ -31,4 +31,4 @@ extern const Skeleton kRigifySkeleton;
 extern const Skeleton kMetarigSkeleton;
 extern const Skeleton kBipedSkeleton;
 
-} // namespace posewire::render::testing
+} // namespace posewire::render::test

@@ -24,18 +24,18 @@ TEST_F(FigurePictures, AWalkerPutsTheFootDown) {
     performer::Performer performer = walker({2, 12, 13});
     perform(performer, 0);
     perform(performer, 480);
-    render::testing::expectMatchesBaseline(shootLight(AxesMode::None, 0.9F), "walk_1");
+    render::test::expectMatchesBaseline(shootLight(AxesMode::None, 0.9F), "walk_1");
 }
 
 TEST_F(FigurePictures, AWalkerHalfAStepLater) {
     performer::Performer performer = walker({2, 12, 13});
     perform(performer, 0);
     perform(performer, 545);
-    render::testing::expectMatchesBaseline(shootLight(AxesMode::All, 0.9F), "walk_2_axes");
+    render::test::expectMatchesBaseline(shootLight(AxesMode::All, 0.9F), "walk_2_axes");
 }
 
 TEST_F(FigurePictures, ARealPersonInTheCapturedPose) {
-    const fs::path folder = test::capturesFolder();
+    const fs::path folder = posewire::test::capturesFolder();
     if (!fs::exists(folder / "mxtp02.bin")) {
         GTEST_SKIP() << "no recorded datagrams at " << folder << ": the captured pose is not tested";
     }
@@ -44,7 +44,7 @@ TEST_F(FigurePictures, ARealPersonInTheCapturedPose) {
         const std::vector<char> content{std::istreambuf_iterator<char>(file), {}};
         send(std::as_bytes(std::span(content)));
     }
-    render::testing::expectMatchesBaseline(shootLight(AxesMode::All, 0.0F), "captured_pose");
+    render::test::expectMatchesBaseline(shootLight(AxesMode::All, 0.0F), "captured_pose");
 }
 
 } // namespace

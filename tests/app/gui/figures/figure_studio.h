@@ -20,7 +20,7 @@ namespace posewire::gui {
 class FigureStudio : public testing::Test {
 protected:
     void SetUp() override {
-        render::testing::useSoftwareOpenGl();
+        render::test::useSoftwareOpenGl();
         auto created = render::OffscreenRenderer::create();
         ASSERT_TRUE(created.has_value()) << created.error();
         m_offscreen.emplace(std::move(*created));

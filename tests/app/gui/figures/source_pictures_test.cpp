@@ -36,7 +36,7 @@ protected:
         ASSERT_FALSE(frame.figures.empty());
         frame.camera.target.z = 0.85F;
         frame.camera.distance = 4.6F;
-        render::testing::expectMatchesBaseline(shoot(std::move(frame), kWidth, kHeight), name);
+        render::test::expectMatchesBaseline(shoot(std::move(frame), kWidth, kHeight), name);
     }
 };
 

@@ -16,7 +16,7 @@ namespace posewire::gui {
 
 namespace {
 
-using Column = model::Figure;
+using Figure = model::Figure;
 
 class StatisticsModelTest : public testing::Test {
 protected:
@@ -27,11 +27,11 @@ protected:
     QModelIndex sender(int row = 0) const { return m_model.index(row, 0); }
     QModelIndex character(int row = 0) const { return m_model.index(row, 0, sender()); }
     QModelIndex stream(int row = 0) const { return m_model.index(row, 0, character()); }
-    static QModelIndex cell(const QModelIndex& row, Column column) {
+    static QModelIndex cell(const QModelIndex& row, Figure column) {
         return row.siblingAtColumn(columnOf(column));
     }
-    static QString text(const QModelIndex& row, Column column) { return cell(row, column).data().toString(); }
-    static double number(const QModelIndex& row, Column column) {
+    static QString text(const QModelIndex& row, Figure column) { return cell(row, column).data().toString(); }
+    static double number(const QModelIndex& row, Figure column) {
         return text(row, column).remove(QChar(0x202f)).toDouble();
     }
 
@@ -49,9 +49,9 @@ protected:
 
 TEST_F(StatisticsModelTest, SpeaksWordsForShapes) {
     performSeconds(10);
-    EXPECT_EQ(text(stream(), Column::Lost), "▲ 1");
-    EXPECT_EQ(cell(stream(), Column::Lost).data(Qt::AccessibleTextRole).toString(), "warning, 1");
-    EXPECT_EQ(cell(stream(), Column::Duplicates).data(Qt::AccessibleTextRole).toString(), "0");
+    EXPECT_EQ(text(stream(), Figure::Lost), "▲ 1");
+    EXPECT_EQ(cell(stream(), Figure::Lost).data(Qt::AccessibleTextRole).toString(), "warning, 1");
+    EXPECT_EQ(cell(stream(), Figure::Duplicates).data(Qt::AccessibleTextRole).toString(), "0");
 }
 
 TEST_F(StatisticsModelTest, ShowsRateSpacingAndBandwidthOfAStream) {
@@ -61,46 +61,46 @@ TEST_F(StatisticsModelTest, ShowsRateSpacingAndBandwidthOfAStream) {
     }
     refresh();
     ASSERT_EQ(m_model.rowCount(character()), 1);
-    EXPECT_EQ(text(stream(), Column::SpacingLeast), "9.00");
-    EXPECT_EQ(text(stream(), Column::SpacingMost), "11.00");
-    EXPECT_NEAR(number(stream(), Column::SpacingMean), 10.0, 0.02);
-    EXPECT_NEAR(number(stream(), Column::SpacingDeviation), 1.0, 0.02);
-    EXPECT_NEAR(number(stream(), Column::Rate), 100.0, 0.2);
-    EXPECT_NEAR(number(stream(), Column::Bandwidth), 5.6, 0.1); // 56 bytes each
-    EXPECT_NEAR(number(stream(), Column::Jitter), 1.0, 0.1);
-    EXPECT_EQ(text(stream(), Column::Datagrams), "200");
-    EXPECT_EQ(text(stream(), Column::Lost), "0");
+    EXPECT_EQ(text(stream(), Figure::SpacingLeast), "9.00");
+    EXPECT_EQ(text(stream(), Figure::SpacingMost), "11.00");
+    EXPECT_NEAR(number(stream(), Figure::SpacingMean), 10.0, 0.02);
+    EXPECT_NEAR(number(stream(), Figure::SpacingDeviation), 1.0, 0.02);
+    EXPECT_NEAR(number(stream(), Figure::Rate), 100.0, 0.2);
+    EXPECT_NEAR(number(stream(), Figure::Bandwidth), 5.6, 0.1); // 56 bytes each
+    EXPECT_NEAR(number(stream(), Figure::Jitter), 1.0, 0.1);
+    EXPECT_EQ(text(stream(), Figure::Datagrams), "200");
+    EXPECT_EQ(text(stream(), Figure::Lost), "0");
 }
 
 TEST_F(StatisticsModelTest, ZeroIsQuietAndLossHasShapeColourAndText) {
     performSeconds(3);
-    EXPECT_EQ(cell(stream(), Column::Lost).data(Qt::ForegroundRole).value<QColor>(), theme().dim);
+    EXPECT_EQ(cell(stream(), Figure::Lost).data(Qt::ForegroundRole).value<QColor>(), theme().dim);
     performer::Performer performer(sending(1, {2}, 100.0));
     m_stage.perform(performer, 300, 600, [](std::uint64_t frame) { return frame != 520; });
     refresh();
-    EXPECT_EQ(text(stream(), Column::Lost), QStringLiteral("▲ 1"));
-    EXPECT_EQ(text(stream(), Column::LongestGap), QStringLiteral("▲ 1"));
-    EXPECT_EQ(cell(stream(), Column::Lost).data(Qt::ForegroundRole).value<QColor>(),
+    EXPECT_EQ(text(stream(), Figure::Lost), QStringLiteral("▲ 1"));
+    EXPECT_EQ(text(stream(), Figure::LongestGap), QStringLiteral("▲ 1"));
+    EXPECT_EQ(cell(stream(), Figure::Lost).data(Qt::ForegroundRole).value<QColor>(),
               healthColour(Health::Warning));
 }
 
 TEST_F(StatisticsModelTest, FiguresAreOfTheRangeThatIsChosen) {
     performSeconds(20);
-    EXPECT_EQ(text(stream(), Column::Lost), QStringLiteral("▲ 1"));
+    EXPECT_EQ(text(stream(), Figure::Lost), QStringLiteral("▲ 1"));
     const log::Stamp start = Stage::kStart;
     m_stage.commands.selectRange({0s, model::TimeRange{start + 10s, start + 15s}});
     refresh();
-    EXPECT_EQ(text(stream(), Column::Lost), "0");
-    EXPECT_EQ(text(stream(), Column::Samples), "500");
-    EXPECT_EQ(text(stream(), Column::Rate), "100.0");
-    EXPECT_EQ(text(stream(), Column::Bursts), "0");
-    EXPECT_EQ(text(sender(), Column::Samples), "500");
+    EXPECT_EQ(text(stream(), Figure::Lost), "0");
+    EXPECT_EQ(text(stream(), Figure::Samples), "500");
+    EXPECT_EQ(text(stream(), Figure::Rate), "100.0");
+    EXPECT_EQ(text(stream(), Figure::Bursts), "0");
+    EXPECT_EQ(text(sender(), Figure::Samples), "500");
     m_stage.commands.selectRange({10s, std::nullopt});
     refresh();
-    EXPECT_NEAR(number(stream(), Column::Samples), 1000, 11);
+    EXPECT_NEAR(number(stream(), Figure::Samples), 1000, 11);
     m_stage.commands.selectRange({});
     refresh();
-    EXPECT_EQ(text(stream(), Column::Lost), QStringLiteral("▲ 1"));
+    EXPECT_EQ(text(stream(), Figure::Lost), QStringLiteral("▲ 1"));
 }
 
 TEST_F(StatisticsModelTest, SaysWhoseLossItWasAlsoInARange) {
@@ -113,15 +113,15 @@ TEST_F(StatisticsModelTest, SaysWhoseLossItWasAlsoInARange) {
         }
     }
     refresh();
-    EXPECT_EQ(text(stream(), Column::LostOnNetwork), QStringLiteral("▲ 1"));
+    EXPECT_EQ(text(stream(), Figure::LostOnNetwork), QStringLiteral("▲ 1"));
     m_stage.commands.selectRange({0s, model::TimeRange{Stage::kStart + 4s, Stage::kStart + 6s}});
     refresh();
-    EXPECT_EQ(text(stream(), Column::LostOnNetwork), QStringLiteral("▲ 1"));
-    EXPECT_EQ(text(stream(), Column::LostUnknown), "0");
-    EXPECT_EQ(text(character(), Column::LostOnNetwork), QStringLiteral("▲ 1"));
+    EXPECT_EQ(text(stream(), Figure::LostOnNetwork), QStringLiteral("▲ 1"));
+    EXPECT_EQ(text(stream(), Figure::LostUnknown), "0");
+    EXPECT_EQ(text(character(), Figure::LostOnNetwork), QStringLiteral("▲ 1"));
     m_stage.commands.selectRange({0s, model::TimeRange{Stage::kStart + 6s, Stage::kStart + 9s}});
     refresh();
-    EXPECT_EQ(text(stream(), Column::LostOnNetwork), "0");
+    EXPECT_EQ(text(stream(), Figure::LostOnNetwork), "0");
 }
 
 TEST_F(StatisticsModelTest, SumsOfCharacterAndSenderAddUpAndLeaveOutWhatMakesNoSense) {
@@ -129,20 +129,20 @@ TEST_F(StatisticsModelTest, SumsOfCharacterAndSenderAddUpAndLeaveOutWhatMakesNoS
     m_stage.perform(performer, 0, 300, [](std::uint64_t frame) { return frame != 120; });
     refresh();
     EXPECT_EQ(m_model.rowCount(sender()), 2);
-    EXPECT_EQ(text(character(), Column::Lost), QStringLiteral("▲ 2"));
-    EXPECT_EQ(text(sender(), Column::Lost), QStringLiteral("▲ 4"));
-    EXPECT_EQ(text(sender(), Column::Rate), "");
-    EXPECT_EQ(text(sender(), Column::Skew), "");
-    QString datagrams = text(sender(), Column::Datagrams);
+    EXPECT_EQ(text(character(), Figure::Lost), QStringLiteral("▲ 2"));
+    EXPECT_EQ(text(sender(), Figure::Lost), QStringLiteral("▲ 4"));
+    EXPECT_EQ(text(sender(), Figure::Rate), "");
+    EXPECT_EQ(text(sender(), Figure::Skew), "");
+    QString datagrams = text(sender(), Figure::Datagrams);
     EXPECT_EQ(datagrams.remove(QChar(0x202f)).toULongLong(), m_stage.session.senders().front().datagrams);
 }
 
 TEST_F(StatisticsModelTest, MessagesWithoutSamplesHaveNoFiguresOfSamples) {
     m_stage.sendMetadata("name: Ana\n", Stage::kStart);
     refresh();
-    EXPECT_EQ(text(stream(), Column::Lost), "");
-    EXPECT_EQ(text(stream(), Column::Datagrams), "1");
-    EXPECT_EQ(text(stream(), Column::Incomplete), "0");
+    EXPECT_EQ(text(stream(), Figure::Lost), "");
+    EXPECT_EQ(text(stream(), Figure::Datagrams), "1");
+    EXPECT_EQ(text(stream(), Figure::Incomplete), "0");
 }
 
 TEST_F(StatisticsModelTest, CurveSpansTwoMinutesAndIsMarkedWhereSamplesWereLost) {
@@ -180,17 +180,17 @@ TEST_F(StatisticsModelTest, EveryColumnHasATitleAndSaysWhatItIs) {
 
 TEST_F(StatisticsModelTest, ACellIsAFilterThatThePacketListUnderstands) {
     performSeconds(6);
-    const auto filter = [&](const QModelIndex& row, Column column) {
+    const auto filter = [&](const QModelIndex& row, Figure column) {
         return statisticsFilter(m_stage.session, m_model, cell(row, column));
     };
-    EXPECT_EQ(filter(stream(), Column::Lost), "type == 02 && character == 0 && gap > 0");
-    EXPECT_EQ(filter(stream(), Column::Duplicates), "type == 02 && character == 0 && duplicate");
-    EXPECT_EQ(filter(character(), Column::Restarts), "character == 0 && restart");
-    EXPECT_EQ(filter(sender(), Column::Malformed), "source == \"192.168.10.21:52011\" && malformed");
+    EXPECT_EQ(filter(stream(), Figure::Lost), "type == 02 && character == 0 && gap > 0");
+    EXPECT_EQ(filter(stream(), Figure::Duplicates), "type == 02 && character == 0 && duplicate");
+    EXPECT_EQ(filter(character(), Figure::Restarts), "character == 0 && restart");
+    EXPECT_EQ(filter(sender(), Figure::Malformed), "source == \"192.168.10.21:52011\" && malformed");
     m_stage.sendBytes({}, m_stage.now, "192.168.10.22:52011");
     m_stage.commands.selectRange({0s, model::TimeRange{Stage::kStart + 1s, Stage::kStart + 2s}});
     refresh();
-    EXPECT_EQ(filter(stream(), Column::Reordered),
+    EXPECT_EQ(filter(stream(), Figure::Reordered),
               "type == 02 && character == 0 && source == \"192.168.10.21:52011\" && reordered && "
               "time >= 1.000 && time < 2.000");
     for (int column = 0; column < kStatisticsColumns; ++column) {
@@ -218,14 +218,14 @@ TEST_F(StatisticsModelTest, CsvHasTheNumbersThemselvesNotWhatTheTableShows) {
     }
     refresh();
     const QStringList lines = m_model.csv().split(QStringLiteral("\r\n"));
-    const auto inCsv = [&](Column column) { // the name and the curve are not in it, four others are
+    const auto inCsv = [&](Figure column) { // the name and the curve are not in it, four others are
         return lines[1].split(QLatin1Char(','))[columnOf(column) + (columnOf(column) < kCurveColumn ? 3 : 2)];
     };
-    EXPECT_EQ(inCsv(Column::Datagrams), "3000");
-    EXPECT_EQ(inCsv(Column::Datagrams).toDouble(), m_model.figures(stream())[Column::Datagrams]);
-    EXPECT_LT(inCsv(Column::Skew).toDouble(), -1000);
-    EXPECT_NEAR(inCsv(Column::Skew).toDouble(), m_model.figures(stream())[Column::Skew], 0.06);
-    EXPECT_TRUE(text(stream(), Column::Skew).startsWith(QChar(0x2212)));
+    EXPECT_EQ(inCsv(Figure::Datagrams), "3000");
+    EXPECT_EQ(inCsv(Figure::Datagrams).toDouble(), m_model.figures(stream())[Figure::Datagrams]);
+    EXPECT_LT(inCsv(Figure::Skew).toDouble(), -1000);
+    EXPECT_NEAR(inCsv(Figure::Skew).toDouble(), m_model.figures(stream())[Figure::Skew], 0.06);
+    EXPECT_TRUE(text(stream(), Figure::Skew).startsWith(QChar(0x2212)));
 }
 
 } // namespace

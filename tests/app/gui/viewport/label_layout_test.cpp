@@ -10,9 +10,9 @@
 namespace posewire::gui {
 namespace {
 
-constexpr QRectF kView(0, 0, 640, 400);
+constexpr QRectF kViewport(0, 0, 640, 400);
 
-LabelPlace personAt(qreal x, qreal y, double depth, int weight = 0) {
+LabelPlace labelAt(qreal x, qreal y, double depth, int weight = 0) {
     const qreal head = 60 / depth;
     return {{x, y}, QRectF(x - head / 2, y + 4, head, head * 1.3), depth, weight, {190, 24}, {64, 24}};
 }
@@ -25,29 +25,29 @@ std::vector<LabelPlace> crowd(unsigned seed, std::size_t count) {
         const double depth = 3 + upTo(90) / 10;
         const double y = 100 + upTo(200);
         const double x = 10 + upTo(620);
-        places.push_back(personAt(x, y, depth));
+        places.push_back(labelAt(x, y, depth));
     }
     return places;
 }
 
 TEST(LabelLayout, StandsAboveTheHeadWhereThereIsRoom) {
-    const auto placed = placeLabels(std::vector{personAt(300, 200, 5)}, kView, {});
+    const auto placed = placeLabels(std::vector{labelAt(300, 200, 5)}, kViewport, {});
     EXPECT_EQ(placed[0].form, LabelForm::Whole);
     EXPECT_NEAR(placed[0].plate.center().x(), 300, 1);
     EXPECT_NEAR(placed[0].plate.bottom(), 200, 1);
-    EXPECT_FALSE(leaderOf(placed[0], personAt(300, 200, 5)));
+    EXPECT_FALSE(leaderOf(placed[0], labelAt(300, 200, 5)));
 }
 
 TEST(LabelLayout, NeverLiesOnAnotherLabelOnButtonsOrOnItsOwnOrANearerHead) {
     const QRectF buttons(10, 10, 260, 30);
     for (unsigned seed = 1; seed <= 60; ++seed) {
         const auto places = crowd(seed, 20);
-        const auto placed = placeLabels(places, kView, {buttons});
+        const auto placed = placeLabels(places, kViewport, {buttons});
         for (std::size_t i = 0; i < placed.size(); ++i) {
             if (placed[i].form > LabelForm::Brief) {
                 continue;
             }
-            EXPECT_TRUE(kView.contains(placed[i].plate)) << seed;
+            EXPECT_TRUE(kViewport.contains(placed[i].plate)) << seed;
             EXPECT_FALSE(buttons.intersects(placed[i].plate)) << seed;
             EXPECT_FALSE(places[i].head.intersects(placed[i].plate)) << seed;
             for (std::size_t k = 0; k < placed.size(); ++k) {
@@ -69,7 +69,7 @@ TEST(LabelLayout, StaysByItsHeadInACrowdAndGetsShorterInstead) {
     std::size_t shown = 0;
     for (unsigned seed = 1; seed <= 60; ++seed) {
         const auto places = crowd(seed, 20);
-        const auto placed = placeLabels(places, kView, {});
+        const auto placed = placeLabels(places, kViewport, {});
         for (std::size_t i = 0; i < placed.size(); ++i) {
             const QRectF& plate = placed[i].plate;
             const qreal x =
@@ -92,25 +92,25 @@ TEST(LabelLayout, TheHeaviestKeepsItsText) {
         auto places = crowd(seed, 20);
         const std::size_t heaviest = seed % 20;
         places[heaviest].weight = 2;
-        const LabelForm form = placeLabels(places, kView, {})[heaviest].form;
+        const LabelForm form = placeLabels(places, kViewport, {})[heaviest].form;
         whole += form == LabelForm::Whole ? 1 : 0;
         for (LabelPlace& place : places) {
             place.whole = place.weight == 2 ? place.whole : QSizeF(1, 1);
         }
-        EXPECT_EQ(form, placeLabels(places, kView, {})[heaviest].form) << seed;
+        EXPECT_EQ(form, placeLabels(places, kViewport, {})[heaviest].form) << seed;
     }
     EXPECT_GE(whole, 38);
 }
 
 TEST(LabelLayout, StaysWhereItWasWhileThatIsFree) {
     auto places = crowd(7, 12);
-    auto before = placeLabels(places, kView, {});
+    auto before = placeLabels(places, kViewport, {});
     for (std::size_t i = 0; i < places.size(); ++i) {
         places[i].before = before[i];
         places[i].anchor += QPointF(0.4, 0.3);
         places[i].head.translate(0.4, 0.3);
     }
-    const auto after = placeLabels(places, kView, {});
+    const auto after = placeLabels(places, kViewport, {});
     for (std::size_t i = 0; i < places.size(); ++i) {
         EXPECT_EQ(after[i].form, before[i].form) << i;
         EXPECT_LT(std::abs(after[i].plate.left() - before[i].plate.left()), 3) << i;
@@ -118,23 +118,23 @@ TEST(LabelLayout, StaysWhereItWasWhileThatIsFree) {
 }
 
 TEST(LabelLayout, ComesBackToItsHeadWhenThereIsRoom) {
-    std::vector places{personAt(300, 200, 5)};
+    std::vector places{labelAt(300, 200, 5)};
     const QRectF above(200, 170, 200, 28);
-    places[0].before = placeLabels(places, kView, {above})[0];
+    places[0].before = placeLabels(places, kViewport, {above})[0];
     EXPECT_TRUE(leaderOf(*places[0].before, places[0]));
-    const PlacedLabel back = placeLabels(places, kView, {})[0];
+    const PlacedLabel back = placeLabels(places, kViewport, {})[0];
     EXPECT_FALSE(leaderOf(back, places[0]));
 }
 
 TEST(LabelLayout, HasALineToAHeadThatItIsAwayFrom) {
     const QRectF above(200, 100, 200, 97);
-    const auto placed = placeLabels(std::vector{personAt(300, 195, 5)}, kView, {above});
+    const auto placed = placeLabels(std::vector{labelAt(300, 195, 5)}, kViewport, {above});
     ASSERT_LE(placed[0].form, LabelForm::Brief);
-    EXPECT_TRUE(leaderOf(placed[0], personAt(300, 195, 5)));
+    EXPECT_TRUE(leaderOf(placed[0], labelAt(300, 195, 5)));
 }
 
 TEST(LabelLayout, IsNotThereWhereTheHeadIsOutOfSight) {
-    EXPECT_EQ(placeLabels(std::vector{personAt(-5, 200, 5)}, kView, {})[0].form, LabelForm::None);
+    EXPECT_EQ(placeLabels(std::vector{labelAt(-5, 200, 5)}, kViewport, {})[0].form, LabelForm::None);
 }
 
 TEST(LabelLayout, InitialsTellNamesApart) {

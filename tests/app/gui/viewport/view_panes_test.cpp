@@ -16,22 +16,22 @@
 namespace posewire::gui {
 namespace {
 
-constexpr QSize kView(801, 601);
+constexpr QSize kWidget(801, 601);
 
 TEST(ViewPanes, ShareTheViewWithoutOverlap) {
     ViewPanes panes;
-    EXPECT_EQ(panes.place(0, kView), QRect({}, kView));
+    EXPECT_EQ(panes.place(0, kWidget), QRect({}, kWidget));
     for (const int count : {2, 4}) {
         panes.split(count, 0);
         ASSERT_EQ(panes.count(), count);
         for (int one = 0; one < count; ++one) {
-            const QRect place = panes.place(one, kView);
-            EXPECT_TRUE(QRect({}, kView).contains(place));
-            EXPECT_EQ(place.size(), panes.place(0, kView).size())
+            const QRect place = panes.place(one, kWidget);
+            EXPECT_TRUE(QRect({}, kWidget).contains(place));
+            EXPECT_EQ(place.size(), panes.place(0, kWidget).size())
                 << "what is kept between pictures fits all of them";
-            EXPECT_EQ(panes.paneAt(place.center(), kView), one);
+            EXPECT_EQ(panes.paneAt(place.center(), kWidget), one);
             for (int other = 0; other < one; ++other) {
-                EXPECT_FALSE(place.intersects(panes.place(other, kView)));
+                EXPECT_FALSE(place.intersects(panes.place(other, kWidget)));
             }
         }
     }
@@ -88,7 +88,7 @@ protected:
         performer::Performer performer(sending(2, {2, 12, 13}));
         m_stage.perform(performer, 0, 3);
         m_stage.follow();
-        m_viewport.resize(kView);
+        m_viewport.resize(kWidget);
         m_viewport.show();
         m_viewport.start();
         ASSERT_TRUE(settle());
@@ -118,16 +118,16 @@ TEST_F(SplitViewport, LabelsTheCharactersInEachView) {
     ASSERT_EQ(overlays.size(), 4U);
     for (const ViewportOverlay* overlay : overlays) {
         EXPECT_EQ(overlay->labels().size(), 2U);
-        EXPECT_LE(overlay->width(), kView.width() / 2);
+        EXPECT_LE(overlay->width(), kWidget.width() / 2);
     }
 }
 
 TEST_F(SplitViewport, DrawsSomethingElseInEachView) {
     const QImage picture = m_viewport.grab().toImage();
-    const QSize size(kView.width() / 2 - 20, kView.height() / 2 - 20);
+    const QSize size(kWidget.width() / 2 - 20, kWidget.height() / 2 - 20);
     const QImage first = picture.copy(QRect({10, 10}, size));
     const QImage last = picture.copy(
-        QRect(QPoint(kView.width() - size.width() - 10, kView.height() - size.height() - 10), size));
+        QRect(QPoint(kWidget.width() - size.width() - 10, kWidget.height() - size.height() - 10), size));
     EXPECT_NE(first, last);
     const auto colours = [](const QImage& image) {
         QSet<QRgb> all;

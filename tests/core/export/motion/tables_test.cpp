@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "tests/core/export/csv_rows.h"
 #include "tests/core/export/motion/motion_fixture.h"
 #include "tests/support/hostile_text.h"
 
@@ -12,23 +13,6 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 using Json = nlohmann::json;
-
-/// Cells of a table whose texts have no commas.
-std::vector<std::vector<std::string>> rowsOf(const std::string& csv) {
-    std::vector<std::vector<std::string>> rows;
-    std::istringstream lines(csv);
-    for (std::string line; std::getline(lines, line);) {
-        EXPECT_TRUE(line.ends_with('\r'));
-        line.pop_back();
-        auto& cells = rows.emplace_back();
-        std::size_t begin = 0;
-        for (std::size_t comma = 0; comma != std::string::npos; begin = comma + 1) {
-            comma = line.find(',', begin);
-            cells.push_back(line.substr(begin, comma == std::string::npos ? comma : comma - begin));
-        }
-    }
-    return rows;
-}
 
 class MotionCsvTest : public MotionTest {};
 class MotionJsonLinesTest : public MotionTest {};

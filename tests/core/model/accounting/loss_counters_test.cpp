@@ -14,7 +14,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr log::Stamp at(log::Duration time) {
+constexpr log::Stamp readAt(log::Duration time) {
     return log::Stamp(time);
 }
 
@@ -103,19 +103,19 @@ TEST(LossBursts, EndWithSixteenReceivedInARow) {
 
 TEST(LossBursts, DoNotReachOverTheEndOfARun) {
     LossBursts bursts;
-    EXPECT_FALSE(bursts.add(3, at(1s)));
+    EXPECT_FALSE(bursts.add(3, readAt(1s)));
     const auto over = bursts.endRun();
     ASSERT_TRUE(over.has_value());
     EXPECT_EQ(over->lost, 3U);
-    EXPECT_EQ(over->end, at(1s));
-    EXPECT_FALSE(bursts.add(1, at(2s)));
+    EXPECT_EQ(over->end, readAt(1s));
+    EXPECT_FALSE(bursts.add(1, readAt(2s)));
     EXPECT_FALSE(bursts.endRun()) << "one alone, in a run of its own";
 }
 
 TEST(MessageRounds, CountEveryOrderOfAllPartsWhole) {
     for (const auto& order : {std::vector{0, 1, 2, 3}, {3, 2, 1, 0}, {2, 0, 3, 1}, {1, 3, 0, 2}}) {
         MessageRounds rounds;
-        log::Stamp stamp = at(1s);
+        log::Stamp stamp = readAt(1s);
         for (const int part : order) {
             rounds.add(stamp += 1ms, static_cast<std::uint8_t>(part), part == 3);
         }
@@ -130,19 +130,19 @@ TEST(MessageRounds, BelongTogetherWithinAQuarterOfASecondInEitherDirection) {
                                             {250ms + 1ns, false},
                                             {-250ms - 1ns, false}}) {
         MessageRounds rounds;
-        EXPECT_TRUE(rounds.add(at(10s), 0, false));
-        EXPECT_EQ(rounds.add(at(10s) + apart, 1, true), !isTogether) << apart.count();
+        EXPECT_TRUE(rounds.add(readAt(10s), 0, false));
+        EXPECT_EQ(rounds.add(readAt(10s) + apart, 1, true), !isTogether) << apart.count();
         EXPECT_EQ(rounds.incomplete(), isTogether ? 0U : 2U) << apart.count();
     }
 }
 
 TEST(MessageRounds, KnowNoWholeMessageWithoutItsLastPart) {
     MessageRounds rounds;
-    rounds.add(at(1s), 0, false);
-    rounds.add(at(1s), 1, false);
+    rounds.add(readAt(1s), 0, false);
+    rounds.add(readAt(1s), 1, false);
     EXPECT_TRUE(rounds.isPartial());
     EXPECT_EQ(rounds.incomplete(), 1U);
-    rounds.add(at(1s), 2, true);
+    rounds.add(readAt(1s), 2, true);
     EXPECT_FALSE(rounds.isPartial());
     EXPECT_EQ(rounds.incomplete(), 0U);
 }
@@ -151,7 +151,7 @@ TEST(MessageRounds, TellThePartsOfBothHalvesOfTheIndexApart) {
     // Indices have 7 bits: 0 and 64 are different parts, and 128 of them make the longest message.
     MessageRounds rounds;
     for (unsigned part = 0; part < 128; ++part) {
-        EXPECT_EQ(rounds.add(at(1s), static_cast<std::uint8_t>(part), part == 127), part == 0) << part;
+        EXPECT_EQ(rounds.add(readAt(1s), static_cast<std::uint8_t>(part), part == 127), part == 0) << part;
         EXPECT_EQ(rounds.incomplete(), part == 127 ? 0U : 1U);
     }
 }
@@ -161,7 +161,7 @@ TEST(MessageRounds, CountRandomMessagesAsAPlainListDoes) {
     for (int round = 0; round < 50; ++round) {
         MessageRounds rounds;
         std::uint64_t incomplete = 0;
-        log::Stamp stamp = at(1s);
+        log::Stamp stamp = readAt(1s);
         for (int message = 0; message < 40; ++message) {
             stamp += 1s;
             const auto parts = 1 + static_cast<unsigned>(random() % 6);

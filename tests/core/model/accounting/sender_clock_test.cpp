@@ -12,7 +12,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr log::Stamp at(log::Duration time) {
+constexpr log::Stamp sentAt(log::Duration time) {
     return log::Stamp(time);
 }
 
@@ -34,7 +34,7 @@ std::vector<SenderClock::Sample> jitteryStream(std::uint32_t firstTimeCode, std:
     for (std::size_t i = 0; i < count; ++i) {
         const auto number = static_cast<std::uint32_t>(i);
         const log::Duration delay = std::chrono::microseconds(random() % 8'000);
-        samples.push_back({at(10s + number * 10ms + delay), 500 + number, firstTimeCode + number * 10});
+        samples.push_back({sentAt(10s + number * 10ms + delay), 500 + number, firstTimeCode + number * 10});
     }
     return samples;
 }
@@ -58,11 +58,11 @@ TEST(SenderClock, HasTheJitterOfRfc3550) {
 TEST(SenderClock, HasNoneOfASingleSampleOrOfASteadyStream) {
     SenderClock clock;
     EXPECT_EQ(clock.jitterMs(), 0);
-    clock.add({at(1s), 7, 100});
+    clock.add({sentAt(1s), 7, 100});
     EXPECT_EQ(clock.jitterMs(), 0);
     EXPECT_FALSE(clock.isFromTimeCode()) << "one sample does not show it";
     for (std::uint32_t i = 1; i < 200; ++i) {
-        clock.add({at(1s + i * 10ms), 7 + i, 100 + i * 10});
+        clock.add({sentAt(1s + i * 10ms), 7 + i, 100 + i * 10});
     }
     EXPECT_NEAR(clock.jitterMs(), 0, 1e-9);
     EXPECT_NEAR(clock.differenceMs(), 0, 1e-9);
@@ -98,8 +98,8 @@ TEST(SenderClock, TakesTheCounterWhereTheTimeCodeRunsBackwards) {
 TEST(SenderClock, BeginsAnotherGenerationWhereTheTimeCodeJumpsByMoreThanAMinute) {
     for (const std::int32_t jumpMs : {60'000, -60'000, 60'001, -60'001, 3'600'000}) {
         SenderClock clock;
-        clock.add({at(10s), 1, 5'000'000});
-        clock.add({at(10s), 2, 5'000'000 + static_cast<std::uint32_t>(jumpMs)});
+        clock.add({sentAt(10s), 1, 5'000'000});
+        clock.add({sentAt(10s), 2, 5'000'000 + static_cast<std::uint32_t>(jumpMs)});
         EXPECT_EQ(clock.generation(), std::abs(jumpMs) > 60'000 ? 1U : 0U) << jumpMs;
     }
 }
@@ -108,10 +108,10 @@ TEST(SenderClock, KeepsItsJitterThroughAJumpOfTheTimeCode) {
     auto samples = jitteryStream(5'000'000, 400);
     SenderClock clock = clockOf(samples);
     const double before = clock.jitterMs();
-    clock.add({at(15s), 10'000, 90'000'000});
+    clock.add({sentAt(15s), 10'000, 90'000'000});
     EXPECT_EQ(clock.jitterMs(), before);
     EXPECT_EQ(clock.differenceMs(), 0);
-    clock.add({at(15'010ms), 10'001, 90'000'010});
+    clock.add({sentAt(15'010ms), 10'001, 90'000'010});
     EXPECT_NEAR(clock.jitterMs(), before * 15 / 16, 1e-9);
 }
 
@@ -138,23 +138,23 @@ TEST(SenderClock, FollowsATimeCodeThatHasJumpedOnceASecondSampleSaysSo) {
 
 TEST(SenderClock, ForgetsTheDifferenceAtARestart) {
     SenderClock clock;
-    clock.add({at(1s), 1, 0});
-    clock.add({at(2s), 2, 990});
+    clock.add({sentAt(1s), 1, 0});
+    clock.add({sentAt(2s), 2, 990});
     EXPECT_NEAR(clock.differenceMs(), 10, 1e-9);
     clock.restart();
     EXPECT_EQ(clock.differenceMs(), 0);
     EXPECT_EQ(clock.generation(), 1U);
-    clock.add({at(3s), 1, 12'345});
-    clock.add({at(4s), 2, 13'350});
+    clock.add({sentAt(3s), 1, 12'345});
+    clock.add({sentAt(4s), 2, 13'350});
     EXPECT_NEAR(clock.differenceMs(), -5, 1e-9);
 }
 
 TEST(SenderClock, TakesASampleThatComesAgainForNoEvidence) {
     SenderClock clock;
-    clock.add({at(1s), 5, 50});
-    clock.add({at(1s + 1ms), 5, 50});
+    clock.add({sentAt(1s), 5, 50});
+    clock.add({sentAt(1s + 1ms), 5, 50});
     EXPECT_FALSE(clock.isFromTimeCode());
-    clock.add({at(1s + 10ms), 6, 60});
+    clock.add({sentAt(1s + 10ms), 6, 60});
     EXPECT_TRUE(clock.isFromTimeCode());
 }
 
@@ -164,7 +164,7 @@ ClockSkew fitted(double ppm, log::Duration span, log::Duration apart) {
     ClockFit fit(span);
     for (log::Duration time{}; time <= span; time += apart) {
         const double delayMs = random() % 4 == 0 ? 0.0 : static_cast<double>(random() % 20'000) / 1'000;
-        fit.add(at(50s + time), 123.0 + delayMs - ppm * 1e-3 * log::secondsOf(time));
+        fit.add(sentAt(50s + time), 123.0 + delayMs - ppm * 1e-3 * log::secondsOf(time));
     }
     return fit.skew();
 }
@@ -178,7 +178,7 @@ TEST(ClockFit, FindsTheSkewBelowTheDelays) {
 }
 
 TEST(ClockFit, SaysNothingOfTheFirstSeconds) {
-    // Eight parts of 250 ms at least.
+    // Eight parts of 250 ms sentAt least.
     EXPECT_EQ(fitted(500, 1'500ms, 10ms).skewPpm, 0);
     EXPECT_EQ(fitted(500, 1'500ms, 10ms).driftMs, 0);
     EXPECT_NE(fitted(500, 2'500ms, 10ms).skewPpm, 0);
@@ -187,11 +187,11 @@ TEST(ClockFit, SaysNothingOfTheFirstSeconds) {
 TEST(ClockFit, SaysNothingWithoutTime) {
     EXPECT_EQ(ClockFit(10s).skew().skewPpm, 0);
     ClockFit one(10s);
-    one.add(at(1s), 5);
+    one.add(sentAt(1s), 5);
     EXPECT_EQ(one.skew().skewPpm, 0);
     ClockFit still(10s);
     for (int i = 0; i < 100; ++i) {
-        still.add(at(1s), i);
+        still.add(sentAt(1s), i);
     }
     EXPECT_EQ(still.skew().skewPpm, 0);
     EXPECT_EQ(still.skew().driftMs, 0);

@@ -17,7 +17,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr log::Stamp kStart(1'700'000'000s);
+constexpr log::Stamp kBegin(1'700'000'000s);
 
 /// 100 samples a second, of which every `every`th does not come.
 Stream streamOf(std::uint8_t type, std::uint32_t count, std::uint32_t every, std::uint32_t timeCodeStep = 0) {
@@ -28,8 +28,8 @@ Stream streamOf(std::uint8_t type, std::uint32_t count, std::uint32_t every, std
             header.sampleCounter = i;
             header.datagramCounter = 0x80;
             header.timeCode = i * timeCodeStep;
-            addTo(stream.accounting, kStart + i * 10ms, 760, header);
-            stream.statistics.add(kStart + i * 10ms, true);
+            addTo(stream.accounting, kBegin + i * 10ms, 760, header);
+            stream.statistics.add(kBegin + i * 10ms, true);
         }
     }
     return stream;
@@ -56,9 +56,9 @@ TEST(StreamFigures, AreReadFromTheAccounting) {
     EXPECT_NEAR(figures[Figure::SpacingMost], 20, 1e-6);
     EXPECT_EQ(figures.trouble(Figure::Lost), FigureTrouble::Warning);
     EXPECT_EQ(figures.trouble(Figure::Late), FigureTrouble::None);
-    const TimeRange second{kStart + 1s, kStart + 2s};
+    const TimeRange second{kBegin + 1s, kBegin + 2s};
     EXPECT_EQ(figuresOf(stream, second).count(Figure::Lost), 2U);
-    const TimeRange open{kStart + 5s, kAllTime.to};
+    const TimeRange open{kBegin + 5s, kAllTime.to};
     EXPECT_EQ(figuresOf(stream, open).count(Figure::Lost), 10U);
     EXPECT_DOUBLE_EQ(figuresOf(stream, open)[Figure::Rate], figuresOf(stream, open)[Figure::RateMean]);
 }
@@ -68,7 +68,7 @@ TEST(StreamFigures, HaveACauseForAllThatIsMissingAlsoInARange) {
     wire::Header part;
     part.sampleCounter = 1000;
     part.datagramCounter = 0; // the first of several, and the only one that comes
-    addTo(stream.accounting, kStart + 10s, 760, part);
+    addTo(stream.accounting, kBegin + 10s, 760, part);
     const auto causes = [&](const std::optional<TimeRange>& range) {
         const StreamFigures figures = figuresOf(stream, range);
         EXPECT_EQ(figures.count(Figure::Incomplete), 1U);
@@ -76,7 +76,7 @@ TEST(StreamFigures, HaveACauseForAllThatIsMissingAlsoInARange) {
                figures[Figure::LostUnknown] - figures[Figure::Missing];
     };
     EXPECT_EQ(causes({}), 0);
-    EXPECT_EQ(causes(TimeRange{kStart + 5s, kAllTime.to}), 0);
+    EXPECT_EQ(causes(TimeRange{kBegin + 5s, kAllTime.to}), 0);
 }
 
 TEST(StreamFigures, OfSeveralStreamsAddUpAsTheTableSays) {

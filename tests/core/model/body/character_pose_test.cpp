@@ -26,7 +26,7 @@ wire::Header headerOf(std::uint8_t body, std::uint8_t props, std::uint8_t finger
     return header;
 }
 
-wire::Datagram poseOf(std::size_t items) {
+wire::Datagram poseWith(std::size_t items) {
     wire::PoseQuaternion pose;
     for (std::uint32_t i = 0; i < items; ++i) {
         pose.segments.push_back({i + 1, {static_cast<float>(i), 0, 1}, {1, 0, 0, 0}});
@@ -142,7 +142,7 @@ TEST(SegmentNames, FindSegmentsOfTheBodyAlone) {
 }
 
 TEST(CharacterPoses, LeaveOutItemsThatAreNotFinite) {
-    wire::Datagram datagram = poseOf(23);
+    wire::Datagram datagram = poseWith(23);
     auto& segments = std::get<wire::PoseQuaternion>(datagram.body).segments;
     segments[3].position[2] = std::numeric_limits<float>::quiet_NaN();
     segments[4].position[0] = std::numeric_limits<float>::infinity();
@@ -158,13 +158,13 @@ TEST(CharacterPoses, LeaveOutItemsThatAreNotFinite) {
 
 TEST(CharacterPoses, AreReadInTheUnitOfTheSender) {
     CharacterPose pose;
-    ASSERT_TRUE(poseFromMessage(poseOf(23), referenceOrigins(), LengthUnit::Centimetre, pose));
+    ASSERT_TRUE(poseFromMessage(poseWith(23), referenceOrigins(), LengthUnit::Centimetre, pose));
     EXPECT_DOUBLE_EQ(pose.segments[10].position.x(), 0.1);
     EXPECT_DOUBLE_EQ(pose.segments[10].position.z(), 0.01);
 }
 
 TEST(CharacterPoses, CarryWhatTheHeaderSays) {
-    wire::Datagram datagram = poseOf(23);
+    wire::Datagram datagram = poseWith(23);
     datagram.header.sampleCounter = 0xfffffffeU;
     datagram.header.timeCode = 51'451'758;
     datagram.header.setType(2);

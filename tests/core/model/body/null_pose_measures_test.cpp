@@ -11,7 +11,7 @@
 namespace posewire::model {
 namespace {
 
-NullPose poseOf(const ReferenceBody& body, bool hasPoints = true) {
+NullPose nullPoseOf(const ReferenceBody& body, bool hasPoints = true) {
     NullPose pose;
     for (int index = 0; index < kBodySegmentCount; ++index) {
         pose.segments.push_back(
@@ -30,7 +30,7 @@ const SegmentLength& lengthOf(const NullPoseMeasures& measures, std::string_view
 }
 
 TEST(NullPoseMeasures, HeightAndSpanComeFromThePoints) {
-    const NullPoseMeasures measures = measure(poseOf(makeReferenceBody()));
+    const NullPoseMeasures measures = measure(nullPoseOf(makeReferenceBody()));
     ASSERT_TRUE(measures.height && measures.armSpan);
     EXPECT_NEAR(*measures.height, 1.75, 0.005);
     EXPECT_NEAR(*measures.armSpan, 2 * (0.685 + 0.186), 0.002);
@@ -38,7 +38,7 @@ TEST(NullPoseMeasures, HeightAndSpanComeFromThePoints) {
 }
 
 TEST(NullPoseMeasures, WithoutPointsTheyAreEstimated) {
-    const NullPoseMeasures measures = measure(poseOf(makeReferenceBody({.stature = 1.6}), false));
+    const NullPoseMeasures measures = measure(nullPoseOf(makeReferenceBody({.stature = 1.6}), false));
     ASSERT_TRUE(measures.height && measures.armSpan);
     EXPECT_NEAR(*measures.height, 1.6, 0.001);
     EXPECT_NEAR(*measures.armSpan, 2 * 0.871 * 1.6 / 1.75, 0.002);
@@ -46,7 +46,7 @@ TEST(NullPoseMeasures, WithoutPointsTheyAreEstimated) {
 }
 
 TEST(NullPoseMeasures, SidesAreComparedAndMarkedFromFiveMillimetres) {
-    NullPose pose = poseOf(makeReferenceBody());
+    NullPose pose = nullPoseOf(makeReferenceBody());
     pose.segments[segment::kLeftFoot].position.z() -= 0.004;
     EXPECT_FALSE(lengthOf(measure(pose), "Shank").isAsymmetric());
     pose.segments[segment::kLeftFoot].position.z() -= 0.002;
@@ -59,7 +59,7 @@ TEST(NullPoseMeasures, SidesAreComparedAndMarkedFromFiveMillimetres) {
 }
 
 TEST(NullPoseMeasures, NamesDecideWhereAllAreThereElseTheOrder) {
-    NullPose pose = poseOf(makeReferenceBody());
+    NullPose pose = nullPoseOf(makeReferenceBody());
     std::swap(pose.segments[9], pose.segments[10]);
     EXPECT_EQ(bodyPlaces(pose)[9], 10);
     EXPECT_EQ(bodySegmentAt(bodyPlaces(pose), 9), 10);
@@ -71,7 +71,7 @@ TEST(NullPoseMeasures, NamesDecideWhereAllAreThereElseTheOrder) {
 }
 
 TEST(NullPoseMeasures, DistancesToAnEarlierMessageAreAsSent) {
-    const NullPose before = poseOf(makeReferenceBody());
+    const NullPose before = nullPoseOf(makeReferenceBody());
     NullPose pose = before;
     pose.segments[6].position.z() += 0.02;
     std::swap(pose.segments[1], pose.segments[2]);
@@ -84,7 +84,7 @@ TEST(NullPoseMeasures, DistancesToAnEarlierMessageAreAsSent) {
 
 TEST(NullPoseMeasures, DistancesToTheReferenceBodyAreThoseOfOneAsTall) {
     for (const double stature : {1.5, 1.75, 2.0}) {
-        NullPose pose = poseOf(makeReferenceBody({.stature = stature}));
+        NullPose pose = nullPoseOf(makeReferenceBody({.stature = stature}));
         for (NullPose::Segment& segment : pose.segments) {
             segment.position += Eigen::Vector3d(0.1, 0.2, -0.8);
         }

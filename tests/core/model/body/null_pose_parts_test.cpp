@@ -15,7 +15,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr log::Stamp at(log::Duration time) {
+constexpr log::Stamp partAt(log::Duration time) {
     return log::Stamp(time);
 }
 
@@ -54,7 +54,7 @@ TEST(NullPoseParts, MakeTheSameBodyInEveryOrder) {
     do {
         NullPoseAssembler assembler;
         for (std::size_t i = 0; i < order.size(); ++i) {
-            assembler.add(message[order[i]], counterOf(order[i], 5), i, at(i * 1ms));
+            assembler.add(message[order[i]], counterOf(order[i], 5), i, partAt(i * 1ms));
             EXPECT_EQ(assembler.arriving().partsReceived, i + 1);
             EXPECT_EQ(assembler.arriving().isComplete(), i == 4);
         }
@@ -74,11 +74,11 @@ TEST(NullPoseParts, ThatOvertakeTheFirstOneAreOfItsMessageWithinAQuarterOfASecon
     const auto message = messageOf(1, 3);
     for (const log::Duration apart : {250ms, 251ms}) {
         NullPoseAssembler assembler;
-        assembler.add(message[2], counterOf(2, 3), 0, at(1s));
-        assembler.add(message[0], counterOf(0, 3), 1, at(1s) + apart);
+        assembler.add(message[2], counterOf(2, 3), 0, partAt(1s));
+        assembler.add(message[0], counterOf(0, 3), 1, partAt(1s) + apart);
         EXPECT_EQ(assembler.arriving().message, apart == 250ms ? 1U : 2U);
         EXPECT_EQ(assembler.arriving().partsReceived, apart == 250ms ? 2U : 1U);
-        assembler.add(message[1], counterOf(1, 3), 2, at(1s) + apart);
+        assembler.add(message[1], counterOf(1, 3), 2, partAt(1s) + apart);
         EXPECT_EQ(assembler.arriving().isComplete(), apart == 250ms);
     }
 }
@@ -96,7 +96,7 @@ TEST(NullPoseParts, ThatTheNetworkRepeatsChangeNothing) {
                      random);
         NullPoseAssembler assembler;
         for (std::size_t i = 0; i < order.size(); ++i) {
-            assembler.add(message[order[i]], counterOf(order[i], 6), i, at(1s + i * 1ms));
+            assembler.add(message[order[i]], counterOf(order[i], 6), i, partAt(1s + i * 1ms));
         }
         EXPECT_EQ(assembler.arriving().message, 1U);
         EXPECT_EQ(assembler.arriving().partsReceived, 6U);
@@ -110,20 +110,20 @@ TEST(NullPoseParts, ThatAreMissingAreListed) {
     const auto message = messageOf(1, 8);
     NullPoseAssembler assembler;
     for (const std::size_t part : {0U, 1U, 4U, 7U}) {
-        assembler.add(message[part], counterOf(part, 8), part, at(1s));
+        assembler.add(message[part], counterOf(part, 8), part, partAt(1s));
     }
     EXPECT_EQ(assembler.newest()->partsExpected, 8U);
     EXPECT_EQ(assembler.newest()->partsReceived, 4U);
     EXPECT_EQ(assembler.newest()->missingParts, (std::vector<unsigned>{2, 3, 5, 6}));
-    assembler.add(message[5], counterOf(5, 8), 8, at(1s));
+    assembler.add(message[5], counterOf(5, 8), 8, partAt(1s));
     EXPECT_EQ(assembler.newest()->missingParts, (std::vector<unsigned>{2, 3, 6}));
 }
 
 TEST(NullPoseParts, OfALostEndLeaveTheNumberOpen) {
     const auto message = messageOf(1, 3);
     NullPoseAssembler assembler;
-    assembler.add(message[0], counterOf(0, 3), 0, at(1s));
-    assembler.add(message[1], counterOf(1, 3), 1, at(1s));
+    assembler.add(message[0], counterOf(0, 3), 0, partAt(1s));
+    assembler.add(message[1], counterOf(1, 3), 1, partAt(1s));
     EXPECT_EQ(assembler.newest()->partsExpected, 0U);
     EXPECT_FALSE(assembler.newest()->isComplete());
     EXPECT_TRUE(assembler.newest()->missingParts.empty()) << "none below the last one that is known of";
@@ -133,7 +133,7 @@ TEST(NullPoseParts, MayBeAsManyAsTheIndexCanTellApart) {
     const auto message = messageOf(1, 128);
     NullPoseAssembler assembler;
     for (std::size_t part = 0; part < 128; ++part) {
-        assembler.add(message[part], counterOf(part, 128), part, at(1s));
+        assembler.add(message[part], counterOf(part, 128), part, partAt(1s));
     }
     EXPECT_TRUE(assembler.newest()->isComplete());
     EXPECT_EQ(assembler.newest()->points.size(), 127U * 5);
@@ -144,9 +144,9 @@ TEST(NullPoseParts, OfAnotherPerformerAreUsedAtOnce) {
     const auto second = messageOf(1.2F, 3);
     NullPoseAssembler assembler;
     for (std::size_t part = 0; part < 3; ++part) {
-        assembler.add(first[part], counterOf(part, 3), part, at(1s));
+        assembler.add(first[part], counterOf(part, 3), part, partAt(1s));
     }
-    assembler.add(second[0], counterOf(0, 3), 3, at(6s));
+    assembler.add(second[0], counterOf(0, 3), 3, partAt(6s));
     EXPECT_FLOAT_EQ(static_cast<float>(assembler.newest()->segments[0].position.z()), 1.2F);
     EXPECT_FALSE(assembler.newest()->isComplete());
     EXPECT_EQ(assembler.newest()->message, 2U);
@@ -156,14 +156,14 @@ TEST(NullPoseParts, OfTheSameBodyLeaveTheWholeMessageInUseUntilTheyAreAllThere) 
     const auto message = messageOf(1, 3);
     NullPoseAssembler assembler;
     for (std::size_t part = 0; part < 3; ++part) {
-        assembler.add(message[part], counterOf(part, 3), part, at(1s));
+        assembler.add(message[part], counterOf(part, 3), part, partAt(1s));
     }
-    assembler.add(message[0], counterOf(0, 3), 3, at(6s));
+    assembler.add(message[0], counterOf(0, 3), 3, partAt(6s));
     EXPECT_EQ(assembler.arriving().message, 2U);
     EXPECT_EQ(assembler.newest()->message, 1U);
     EXPECT_EQ(assembler.newest()->points.size(), 10U) << "no point is taken away while they come again";
-    assembler.add(message[1], counterOf(1, 3), 4, at(6s));
-    assembler.add(message[2], counterOf(2, 3), 5, at(6s));
+    assembler.add(message[1], counterOf(1, 3), 4, partAt(6s));
+    assembler.add(message[2], counterOf(2, 3), 5, partAt(6s));
     EXPECT_EQ(assembler.newest()->message, 2U);
 }
 
@@ -172,7 +172,7 @@ TEST(NullPoseParts, WithPositionsThatAreNoNumbersAreKeptAsSent) {
     message[0].segments[3].position[1] = std::numeric_limits<float>::quiet_NaN();
     NullPoseAssembler assembler;
     for (int round = 0; round < 3; ++round) {
-        const log::Stamp stamp = at(1s + round * 5s);
+        const log::Stamp stamp = partAt(1s + round * 5s);
         assembler.add(message[0], counterOf(0, 2), 0, stamp);
         assembler.add(message[1], counterOf(1, 2), 1, stamp);
         ASSERT_NE(assembler.newest(), nullptr);
@@ -186,7 +186,7 @@ TEST(NullPoseParts, WithPositionsThatAreNoNumbersAreKeptAsSent) {
 bool isChange(const std::vector<wire::NullPose>& first, const std::vector<wire::NullPose>& second) {
     NullPoseHistory history;
     std::uint64_t packet = 0;
-    log::Stamp stamp = at(1s);
+    log::Stamp stamp = partAt(1s);
     for (const auto* message : {&first, &second}) {
         for (std::size_t part = 0; part < message->size(); ++part) {
             history.add((*message)[part], counterOf(part, message->size()), packet++, stamp);
@@ -195,7 +195,7 @@ bool isChange(const std::vector<wire::NullPose>& first, const std::vector<wire::
     }
     const NullPoseRecord record = history.record(packet);
     EXPECT_EQ(record.messages, 2U);
-    EXPECT_EQ(record.changed, record.before == nullptr ? at(1s) : at(6s));
+    EXPECT_EQ(record.changed, record.before == nullptr ? partAt(1s) : partAt(6s));
     return record.before != nullptr;
 }
 

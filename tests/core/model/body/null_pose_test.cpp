@@ -8,13 +8,13 @@ namespace {
 
 using namespace std::chrono_literals;
 
-wire::NullPose segmentsOf(float height) {
+wire::NullPose segmentPart(float height) {
     wire::NullPose part;
     part.segments = {{"Pelvis", {0, 0, height}}, {"L5", {0, 0, height + 0.1F}}};
     return part;
 }
 
-wire::NullPose pointsOf(std::uint16_t first) {
+wire::NullPose pointPart(std::uint16_t first) {
     wire::NullPose part;
     part.points = {{1, first, "p", 0, {0, 0, 0}},
                    {1, static_cast<std::uint16_t>(first + 1), "p", 0, {0, 0, 0}}};
@@ -23,17 +23,17 @@ wire::NullPose pointsOf(std::uint16_t first) {
 
 TEST(NullPoseAssembler, HasNothingBeforeSegmentsArrive) {
     NullPoseAssembler assembler;
-    assembler.add(pointsOf(1), 1, 0, {});
+    assembler.add(pointPart(1), 1, 0, {});
     EXPECT_EQ(assembler.newest(), nullptr);
     EXPECT_EQ(assembler.arriving().partsReceived, 1U);
 }
 
 TEST(NullPoseAssembler, GathersPartsInAnyOrder) {
     NullPoseAssembler assembler;
-    assembler.add(segmentsOf(1), 0x00, 0, log::Stamp(10ns));
-    assembler.add(pointsOf(5), 0x82, 1, log::Stamp(11ns));
+    assembler.add(segmentPart(1), 0x00, 0, log::Stamp(10ns));
+    assembler.add(pointPart(5), 0x82, 1, log::Stamp(11ns));
     EXPECT_FALSE(assembler.newest()->isComplete());
-    assembler.add(pointsOf(3), 0x01, 2, log::Stamp(12ns));
+    assembler.add(pointPart(3), 0x01, 2, log::Stamp(12ns));
     const NullPose* pose = assembler.newest();
     ASSERT_TRUE(pose->isComplete());
     EXPECT_EQ(pose->partsReceived, 3U);
@@ -45,35 +45,35 @@ TEST(NullPoseAssembler, GathersPartsInAnyOrder) {
 
 TEST(NullPoseAssembler, CountsARepeatedPartOnce) {
     NullPoseAssembler assembler;
-    assembler.add(segmentsOf(1), 0x00, 0, {});
-    assembler.add(pointsOf(3), 0x01, 1, {});
-    assembler.add(pointsOf(3), 0x01, 2, {});
+    assembler.add(segmentPart(1), 0x00, 0, {});
+    assembler.add(pointPart(3), 0x01, 1, {});
+    assembler.add(pointPart(3), 0x01, 2, {});
     EXPECT_EQ(assembler.newest()->points.size(), 2U);
     EXPECT_EQ(assembler.newest()->partsReceived, 2U);
 }
 
 TEST(NullPoseAssembler, KeepsTheCompleteMessageWhileTheSameIsSentAgain) {
     NullPoseAssembler assembler;
-    assembler.add(segmentsOf(1), 0x00, 0, {});
-    assembler.add(pointsOf(3), 0x81, 1, {});
-    assembler.add(segmentsOf(1), 0x00, 2, {});
+    assembler.add(segmentPart(1), 0x00, 0, {});
+    assembler.add(pointPart(3), 0x81, 1, {});
+    assembler.add(segmentPart(1), 0x00, 2, {});
     EXPECT_TRUE(assembler.newest()->isComplete());
     EXPECT_EQ(assembler.newest()->points.size(), 2U);
 }
 
 TEST(NullPoseAssembler, UsesNewSegmentsAtOnceAlthoughPartsAreMissing) {
     NullPoseAssembler assembler;
-    assembler.add(segmentsOf(1), 0x00, 0, {});
-    assembler.add(pointsOf(3), 0x81, 1, {});
-    assembler.add(segmentsOf(1.2F), 0x00, 2, {});
+    assembler.add(segmentPart(1), 0x00, 0, {});
+    assembler.add(pointPart(3), 0x81, 1, {});
+    assembler.add(segmentPart(1.2F), 0x00, 2, {});
     EXPECT_FLOAT_EQ(static_cast<float>(assembler.newest()->segments[0].position.z()), 1.2F);
 }
 
 TEST(NullPoseHistory, TellsWhatWasKnownAtAPacket) {
     NullPoseHistory history;
-    history.add(segmentsOf(1), 0x80, 10, {});
-    history.add(segmentsOf(1), 0x80, 20, {});
-    history.add(segmentsOf(2), 0x80, 30, {});
+    history.add(segmentPart(1), 0x80, 10, {});
+    history.add(segmentPart(1), 0x80, 20, {});
+    history.add(segmentPart(2), 0x80, 30, {});
     EXPECT_EQ(history.at(9), nullptr);
     EXPECT_FLOAT_EQ(static_cast<float>(history.at(25)->segments[0].position.z()), 1.0F);
     EXPECT_FLOAT_EQ(static_cast<float>(history.at(30)->segments[0].position.z()), 2.0F);
@@ -82,7 +82,7 @@ TEST(NullPoseHistory, TellsWhatWasKnownAtAPacket) {
 TEST(NullPoseHistory, StaysBounded) {
     NullPoseHistory history;
     for (std::uint64_t packet = 0; packet < 10'000; ++packet) {
-        history.add(segmentsOf(static_cast<float>(packet)), 0x80, packet, {});
+        history.add(segmentPart(static_cast<float>(packet)), 0x80, packet, {});
     }
     EXPECT_FLOAT_EQ(static_cast<float>(history.at(9'999)->segments[0].position.z()), 9'999.0F);
     EXPECT_FLOAT_EQ(static_cast<float>(history.at(0)->segments[0].position.z()),

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-CharacterPose standing(const SegmentLayout& layout = {}) {
+CharacterPose standingWith(const SegmentLayout& layout = {}) {
     CharacterPose pose;
     pose.layout = layout;
     const auto count = static_cast<std::size_t>(layout.count());
@@ -42,7 +42,7 @@ PoseDifference difference(const CharacterPose& first, const CharacterPose& secon
 }
 
 TEST(PoseDifferenceTest, SaysHowFarASegmentIsAndHowMuchItTurned) {
-    const CharacterPose first = standing();
+    const CharacterPose first = standingWith();
     CharacterPose second = first;
     second.segments[segment::kLeftHand].position += Eigen::Vector3d(0.006, 0, 0.008);
     second.segments[segment::kLeftHand].orientation =
@@ -68,7 +68,7 @@ TEST(PoseDifferenceTest, TurnsAreExactWhereSmallAndTheShortWayRound) {
 }
 
 TEST(PoseDifferenceTest, OnTheSpotLeavesOutPlaceAndHeadingAlone) {
-    const CharacterPose first = standing();
+    const CharacterPose first = standingWith();
     const CharacterPose second = moved(first, turnedBy(70, Eigen::Vector3d::UnitZ(), {3, -2, 0}));
     EXPECT_GT(difference(first, second, DifferenceFrame::World).meanMillimetres(), 1000);
     const PoseDifference onTheSpot = difference(first, second, DifferenceFrame::Heading);
@@ -79,7 +79,7 @@ TEST(PoseDifferenceTest, OnTheSpotLeavesOutPlaceAndHeadingAlone) {
 }
 
 TEST(PoseDifferenceTest, WithoutThePelvisOnlyThePoseCounts) {
-    const CharacterPose first = standing();
+    const CharacterPose first = standingWith();
     CharacterPose second = moved(first, turnedBy(40, Eigen::Vector3d(1, 1, 2).normalized(), {3, -2, 0.4}));
     EXPECT_NEAR(difference(first, second, DifferenceFrame::Pelvis).meanMillimetres(), 0, 1e-9);
     second.segments[segment::kHead].position += Eigen::Vector3d(0, 0, 0.01);
@@ -92,8 +92,8 @@ TEST(PoseDifferenceTest, WithoutThePelvisOnlyThePoseCounts) {
 }
 
 TEST(PoseDifferenceTest, FindsSegmentsByWhatTheyAreNotByTheirPlace) {
-    const CharacterPose first = standing({23, 0, 40});
-    CharacterPose second = standing({23, 2, 20});
+    const CharacterPose first = standingWith({23, 0, 40});
+    CharacterPose second = standingWith({23, 2, 20});
     second.segments[25].position = first.segments[23].position + Eigen::Vector3d(0.003, 0, 0);
     const PoseDifference result = difference(first, second, DifferenceFrame::World);
     ASSERT_EQ(result.segments.size(), 43U); // body and left hand
@@ -105,14 +105,14 @@ TEST(PoseDifferenceTest, FindsSegmentsByWhatTheyAreNotByTheirPlace) {
 }
 
 TEST(PoseDifferenceTest, ComparesWhatWasSentNotWhereTheOperatorPutIt) {
-    const CharacterPose first = standing();
+    const CharacterPose first = standingWith();
     CharacterPose second = moved(first, turnedBy(0, Eigen::Vector3d::UnitZ(), {0, 0, 0.9}));
     second.moved = {0, 0, 0.9};
     EXPECT_NEAR(difference(first, second, DifferenceFrame::World).meanMillimetres(), 0, 1e-9);
 }
 
 TEST(PoseDifferenceTest, LeavesOutWhatNobodyKnows) {
-    const CharacterPose first = standing();
+    const CharacterPose first = standingWith();
     CharacterPose second = first;
     second.sources[segment::kHead] = {Provenance::Sent, Provenance::Assumed};
     second.sources[segment::kNeck] = {};
@@ -122,7 +122,7 @@ TEST(PoseDifferenceTest, LeavesOutWhatNobodyKnows) {
 }
 
 TEST(PoseDifferenceTest, SaysWhereNothingCanBeCompared) {
-    const CharacterPose first = standing();
+    const CharacterPose first = standingWith();
     PoseDifference result;
     CharacterPose objects = first;
     objects.isObjects = true;

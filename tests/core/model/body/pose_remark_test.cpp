@@ -17,7 +17,7 @@ BodyOrigins scaled() {
 }
 
 /// The reference body as it stands, of one type or of several.
-CharacterPose standing(std::vector<std::uint8_t> types) {
+CharacterPose standingFrom(std::vector<std::uint8_t> types) {
     CharacterPose pose;
     pose.layout = {};
     for (const Eigen::Vector3d& place : referenceOrigins()) {
@@ -31,7 +31,7 @@ CharacterPose standing(std::vector<std::uint8_t> types) {
 
 TEST(PoseRemarks, AreNoneOfWhatWasSentWhole) {
     for (const std::vector<std::uint8_t>& types : {std::vector<std::uint8_t>{2}, {1}, {5}, {21, 22}}) {
-        const PoseRemark remark = remarkOn(standing(types), scaled());
+        const PoseRemark remark = remarkOn(standingFrom(types), scaled());
         EXPECT_TRUE(remark.isEmpty());
         EXPECT_FALSE(remark.isAssumed);
         EXPECT_EQ(remark.reason, "");
@@ -39,7 +39,7 @@ TEST(PoseRemarks, AreNoneOfWhatWasSentWhole) {
 }
 
 TEST(PoseRemarks, NameWhatIsMissing) {
-    CharacterPose pose = standing({2});
+    CharacterPose pose = standingFrom({2});
     pose.sources[segment::kLeftForeArm] = {Provenance::Solved, Provenance::Solved};
     EXPECT_EQ(remarkOn(pose, scaled()).lines, (Lines{"Not sent, solved from the others: Left Forearm"}));
     EXPECT_FALSE(remarkOn(pose, scaled()).isAssumed);
@@ -53,7 +53,7 @@ TEST(PoseRemarks, NameWhatIsMissing) {
 }
 
 TEST(PoseRemarks, NameAFewSegmentsAndCountTheRest) {
-    CharacterPose pose = standing({2});
+    CharacterPose pose = standingFrom({2});
     for (std::size_t i = 0; i < 8; ++i) {
         pose.sources[i].orientation = Provenance::Solved;
     }
@@ -62,37 +62,37 @@ TEST(PoseRemarks, NameAFewSegmentsAndCountTheRest) {
 }
 
 TEST(PoseRemarks, TellWhatATypeAloneLacks) {
-    CharacterPose positions = standing({21});
+    CharacterPose positions = standingFrom({21});
     positions.sources[segment::kHead].orientation = Provenance::Assumed;
     EXPECT_EQ(remarkOn(positions, scaled()).reason,
               "Type 21 alone has no orientations: they are solved from the joints");
-    CharacterPose orientations = standing({22});
+    CharacterPose orientations = standingFrom({22});
     orientations.isPlaceAssumed = true;
     orientations.sources[segment::kPelvis].position = Provenance::Assumed;
     const PoseRemark remark = remarkOn(orientations, scaled());
     EXPECT_TRUE(remark.isAssumed);
     EXPECT_EQ(remark.lines, (Lines{"Type 22 alone has no positions: where the body stands is assumed"}));
-    EXPECT_FALSE(remarkOn(standing({3}), scaled()).isAssumed);
+    EXPECT_FALSE(remarkOn(standingFrom({3}), scaled()).isAssumed);
 }
 
 TEST(PoseRemarks, TellWhoseBodyIsDrawn) {
     BodyOrigins body{referenceOrigins()};
-    EXPECT_EQ(remarkOn(standing({2}), body).lines,
+    EXPECT_EQ(remarkOn(standingFrom({2}), body).lines,
               (Lines{"No scale message yet: the reference body of 1.75 m is drawn"}));
-    EXPECT_FALSE(remarkOn(standing({2}), body).isAssumed) << "its joints were sent";
-    EXPECT_TRUE(remarkOn(standing({5}), body).isAssumed) << "its joints rest on the bones";
-    EXPECT_TRUE(remarkOn(standing({3}), body).isAssumed) << "whose markers these are is not known";
-    EXPECT_EQ(remarkOn(standing({3}), body).reason,
+    EXPECT_FALSE(remarkOn(standingFrom({2}), body).isAssumed) << "its joints were sent";
+    EXPECT_TRUE(remarkOn(standingFrom({5}), body).isAssumed) << "its joints rest on the bones";
+    EXPECT_TRUE(remarkOn(standingFrom({3}), body).isAssumed) << "whose markers these are is not known";
+    EXPECT_EQ(remarkOn(standingFrom({3}), body).reason,
               "No scale message yet: the reference body of 1.75 m is drawn");
-    EXPECT_FALSE(remarkOn(standing({21, 3}), body).isAssumed) << "its joints were sent";
+    EXPECT_FALSE(remarkOn(standingFrom({21, 3}), body).isAssumed) << "its joints were sent";
     body.source = BodySource::Poses;
-    EXPECT_EQ(remarkOn(standing({5}), body).lines,
+    EXPECT_EQ(remarkOn(standingFrom({5}), body).lines,
               (Lines{"No scale message yet: bone lengths are measured on poses"}));
-    EXPECT_FALSE(remarkOn(standing({5}), body).isAssumed);
+    EXPECT_FALSE(remarkOn(standingFrom({5}), body).isAssumed);
 }
 
 TEST(PoseRemarks, TellOfABodyBelowTheFloor) {
-    CharacterPose pose = standing({2});
+    CharacterPose pose = standingFrom({2});
     EXPECT_FALSE(isBelowFloor(pose));
     for (SegmentPose& segment : pose.segments) {
         segment.position.z() -= 0.9275;
@@ -104,7 +104,7 @@ TEST(PoseRemarks, TellOfABodyBelowTheFloor) {
 }
 
 TEST(PoseRemarks, CallObjectsObjects) {
-    CharacterPose pose = standing({2});
+    CharacterPose pose = standingFrom({2});
     pose.segments.resize(3);
     pose.sources.resize(3);
     pose.isObjects = true;

@@ -13,7 +13,7 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-const BodyOrigins kBody{referenceOrigins()};
+const BodyOrigins kPerformer{referenceOrigins()};
 
 /// The origins of a pose alone, each off by up to a few millimetres, as joints open in recordings.
 PoseEvidence positionsOf(const performer::BodyPose& pose, double off = 0) {
@@ -35,7 +35,7 @@ TEST(SolvedBodies, TurnSteadily) {
         const auto motion = performer::makeMotion(name, {makeReferenceBody()});
         std::optional<SolvedBody> before;
         for (double seconds = 0; seconds < 6; seconds += 1.0 / 240) {
-            const SolvedBody solved = solveBody(positionsOf(motion->sample(seconds)), kBody);
+            const SolvedBody solved = solveBody(positionsOf(motion->sample(seconds)), kPerformer);
             for (std::size_t i = 0; before && i < kBodySegmentCount; ++i) {
                 const double turn =
                     before->segments[i].orientation.angularDistance(solved.segments[i].orientation);
@@ -50,12 +50,12 @@ TEST(SolvedBodies, PointWithinThreeDegreesWhereJointsAreOpen) {
     const auto motion = performer::makeMotion("walk", {makeReferenceBody()});
     for (double seconds = 0; seconds < 3; seconds += 0.05) {
         const performer::BodyPose truth = motion->sample(seconds);
-        const SolvedBody solved = solveBody(positionsOf(truth, 0.001), kBody);
+        const SolvedBody solved = solveBody(positionsOf(truth, 0.001), kPerformer);
         for (const int i :
              {segment::kRightUpperArm, segment::kLeftForeArm, segment::kRightUpperLeg, segment::kLeftLowerLeg,
               segment::kRightFoot, segment::kNeck, segment::kPelvis, segment::kT8}) {
             const auto place = static_cast<std::size_t>(i);
-            const Vector3d bone = kBody.places[place + 1] - kBody.places[place];
+            const Vector3d bone = kPerformer.places[place + 1] - kPerformer.places[place];
             const Vector3d is = solved.segments[place].orientation * bone;
             const Vector3d should = truth[place].orientation * bone;
             EXPECT_LT(degrees(std::atan2(is.cross(should).norm(), is.dot(should))), 3.0) << i;
@@ -67,7 +67,7 @@ TEST(SolvedBodies, KnowHowBentLimbsAreTurned) {
     const auto motion = performer::makeMotion("squat", {makeReferenceBody()});
     for (double seconds = 0; seconds < 6; seconds += 0.05) {
         const performer::BodyPose truth = motion->sample(seconds);
-        const SolvedBody solved = solveBody(positionsOf(truth), kBody);
+        const SolvedBody solved = solveBody(positionsOf(truth), kPerformer);
         for (const std::size_t i : {segment::kRightUpperLeg, segment::kLeftUpperLeg}) {
             const double bend = truth[i].orientation.angularDistance(truth[i + 1].orientation);
             if (degrees(bend) > 30) {
@@ -93,7 +93,7 @@ TEST(SolvedBodies, AreWholeWhateverIsKnown) {
                 evidence.orientations[i] = truth[i].orientation;
             }
         }
-        const SolvedBody solved = solveBody(evidence, kBody);
+        const SolvedBody solved = solveBody(evidence, kPerformer);
         for (std::size_t i = 0; i < kBodySegmentCount; ++i) {
             EXPECT_TRUE(solved.segments[i].position.allFinite());
             EXPECT_NEAR(solved.segments[i].orientation.norm(), 1.0, 1e-9);
@@ -105,11 +105,11 @@ TEST(SolvedBodies, AreWholeWhateverIsKnown) {
 }
 
 TEST(SolvedBodies, StandAtTheOriginWhereNothingIsKnown) {
-    const SolvedBody solved = solveBody({}, kBody);
+    const SolvedBody solved = solveBody({}, kPerformer);
     EXPECT_TRUE(solved.isPlaceAssumed);
     for (std::size_t i = 0; i < kBodySegmentCount; ++i) {
         EXPECT_EQ(solved.sources[i].orientation, Provenance::Assumed);
-        EXPECT_LT((solved.segments[i].position - kBody.places[i]).norm(), 0.005) << i;
+        EXPECT_LT((solved.segments[i].position - kPerformer.places[i]).norm(), 0.005) << i;
     }
 }
 

@@ -31,7 +31,7 @@ Matrix3d unityFromZUpMatrix() {
     return (Matrix3d() << 0, -1, 0, 0, 0, 1, 1, 0, 0).finished();
 }
 
-Matrix3d about(int axis, double radians) {
+Matrix3d turnAbout(int axis, double radians) {
     return Eigen::AngleAxisd(radians, Vector3d::Unit(axis)).toRotationMatrix();
 }
 
@@ -85,7 +85,8 @@ TEST(SpaceMatrices, MakeEulerAnglesRzRyRx) {
         const Vector3d angles(random.number(-std::numbers::pi, std::numbers::pi),
                               random.number(-std::numbers::pi / 2, std::numbers::pi / 2),
                               random.number(-std::numbers::pi, std::numbers::pi));
-        const Matrix3d expected = about(2, angles.z()) * about(1, angles.y()) * about(0, angles.x());
+        const Matrix3d expected =
+            turnAbout(2, angles.z()) * turnAbout(1, angles.y()) * turnAbout(0, angles.x());
         const Quaterniond rotation = quaternionFromEuler(angles);
         EXPECT_LT((rotation.toRotationMatrix() - expected).norm(), 1e-12);
         EXPECT_LT((eulerFromQuaternion(rotation) - angles).norm(), 1e-6);

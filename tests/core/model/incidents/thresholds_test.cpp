@@ -14,7 +14,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr log::Stamp at(log::Duration time) {
+constexpr log::Stamp after(log::Duration time) {
     return log::Stamp(time);
 }
 
@@ -72,7 +72,7 @@ protected:
     ThresholdWatch m_watch;
     Incidents m_events;
     std::uint32_t m_sample = 1'000;
-    log::Stamp m_stamp = at(100s);
+    log::Stamp m_stamp = after(100s);
     log::Stamp m_nextCheck{};
 };
 
