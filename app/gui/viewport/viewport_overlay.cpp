@@ -154,14 +154,7 @@ void addViewportButtons(ViewportWidget& viewport) {
     new ViewportButtons(&viewport);
 }
 
-ViewportOverlay::ViewportOverlay(QWidget* parent)
-    : QWidget(parent),
-      m_cardHelp(framedButton(tr("Help"), tr("What this means, and what to do about it"), parent)) {
-    m_cardHelp->setObjectName(QStringLiteral("cardHelp"));
-    m_cardHelp->setAccessibleName(tr("Help on this message"));
-    m_cardHelp->setFocusPolicy(Qt::TabFocus);
-    m_cardHelp->hide();
-    connect(m_cardHelp, &QToolButton::clicked, this, [this] { openHelp(placeOf(m_card.topic)); });
+ViewportOverlay::ViewportOverlay(QWidget* parent) : QWidget(parent) {
     setAttribute(Qt::WA_TransparentForMouseEvents);
     setAttribute(Qt::WA_NoSystemBackground);
 }
@@ -186,7 +179,21 @@ void ViewportOverlay::setCard(const EmptyState& card) {
     }
 }
 
+void ViewportOverlay::makeCardHelp() {
+    m_cardHelp = framedButton(tr("Help"), tr("What this means, and what to do about it"), parentWidget());
+    m_cardHelp->setObjectName(QStringLiteral("cardHelp"));
+    m_cardHelp->setAccessibleName(tr("Help on this message"));
+    m_cardHelp->setFocusPolicy(Qt::TabFocus);
+    connect(m_cardHelp, &QToolButton::clicked, this, [this] { openHelp(placeOf(m_card.topic)); });
+}
+
 void ViewportOverlay::placeCardHelp() {
+    if (m_cardHelp == nullptr && m_card.title.isEmpty()) {
+        return;
+    }
+    if (m_cardHelp == nullptr) {
+        makeCardHelp();
+    }
     m_cardHelp->setVisible(!m_card.title.isEmpty());
     m_cardHelp->adjustSize();
     m_cardHelp->move(layOutCard().button);

@@ -49,6 +49,7 @@ private:
         QPoint button;
     };
     [[nodiscard]] CardLayout layOutCard() const;
+    void makeCardHelp();
     void placeCardHelp();
     [[nodiscard]] std::vector<QRectF> takenRoom() const;
     void placeAll();
@@ -61,7 +62,7 @@ private:
     std::map<model::CharacterKey, PlacedLabel> m_before;
     std::vector<ViewportText> m_texts;
     EmptyState m_card;
-    QToolButton* m_cardHelp;
+    QToolButton* m_cardHelp = nullptr; ///< made with the first card
 };
 
 } // namespace posewire::gui

@@ -93,7 +93,7 @@ protected:
         m_viewport.start();
         ASSERT_TRUE(settle());
         m_viewport.split(4);
-        ASSERT_TRUE(settle());
+        ASSERT_TRUE(QTest::qWaitFor([this] { return shownOverlays().size() == 4; }, 20'000));
     }
     bool settle() {
         return QTest::qWaitFor([this] { return m_viewport.isSettled(); }, 20'000);

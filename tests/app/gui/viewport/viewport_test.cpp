@@ -129,24 +129,28 @@ TEST_F(Viewport, ShowsTheValuesOfWhatThePointerRestsOn) {
     EXPECT_TRUE(QTest::qWaitFor([&] { return card->facts() && card->facts()->segment == "Head"; }));
 }
 
+QJsonObject cameraOf(const ViewportWidget& viewport) {
+    return viewport.state()["panes"].toObject()["cameras"].toArray().at(0).toObject();
+}
+
 TEST_F(Viewport, KeepsViewsFromOneRunToTheNext) {
     viewport.face(render::StandardView::Top);
-    const QJsonObject top = viewport.state()["camera"].toObject();
+    const QJsonObject top = cameraOf(viewport);
     viewport.keepView(2);
     viewport.face(render::StandardView::Front);
     ViewportWidget other(stage.session, stage.commands);
     other.restoreState(viewport.state());
     EXPECT_FALSE(other.isKept(0));
-    EXPECT_NE(other.state()["camera"].toObject(), top);
+    EXPECT_NE(cameraOf(other), top);
     other.showKeptView(2);
-    EXPECT_EQ(other.state()["camera"].toObject(), top);
+    EXPECT_EQ(cameraOf(other), top);
 }
 
 TEST_F(Viewport, FacesThePelvisOrTheWorld) {
     const Eigen::Vector3d ahead =
         stage.session.pose(stage.key())->segments[0].orientation * Eigen::Vector3d::UnitX();
     const double heading = std::atan2(ahead.y(), ahead.x());
-    const auto yaw = [this] { return viewport.state()["camera"].toObject()["yaw"].toDouble(); };
+    const auto yaw = [this] { return cameraOf(viewport)["yaw"].toDouble(); };
     viewport.face(render::StandardView::Front);
     EXPECT_NEAR(yaw(), heading, 1e-4);
     viewport.toggleRelativeViews();

@@ -121,9 +121,9 @@ TEST_F(HelpingTest, AMessageLeadsToItsPageAsLongAsItIsThere) {
 }
 
 TEST_F(HelpingTest, WhatTheViewportSaysLeadsToItsPage) {
+    emit driver.tableTick();
     auto* help = window.findChild<QToolButton*>("cardHelp");
     ASSERT_NE(help, nullptr);
-    emit driver.tableTick();
     ASSERT_TRUE(help->isVisible()) << "nothing is received";
     EXPECT_TRUE(window.viewport().rect().contains(help->geometry()));
     help->click();

@@ -103,6 +103,7 @@ TEST_F(OwnCharacterDialogTest, ShowsWhatWasChosenBefore) {
         boxes, [](const QComboBox* one) { return one->itemText(1) == "As tall as in the file"; });
     ASSERT_NE(size, boxes.end());
     (*size)->setCurrentIndex(1);
+    emit(*size)->activated(1);
     m_dialog->accept();
     ASSERT_FALSE(m_characters.wardrobe().of("Alice")->isScaled);
     open("Alice");
