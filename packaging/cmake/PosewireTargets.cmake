@@ -61,7 +61,7 @@ endif()
 
 # Where everything is compiled anew, headers cost more than code: several sources of a target make one unit then. Who
 # works on a part compiles its sources one by one. Types of an unnamed namespace are not those of another unit.
-if(POSEWIRE_UNITY)
+if(POSEWIRE_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   add_compile_options(-Wno-subobject-linkage)
 endif()
 

@@ -242,6 +242,19 @@ private:
 
 } // namespace
 
+std::string mappableTitle(std::size_t mappable) {
+    std::string title;
+    for (const char letter : mappableName(mappable)) {
+        const bool beginsWord = letter >= 'A' && letter <= 'Z' && !title.empty() && title.back() >= 'a';
+        title += beginsWord ? std::string{' ', letter} : std::string{letter};
+    }
+    constexpr std::string_view kForeArm = "Fore Arm"; // one word in the specification
+    if (const std::size_t at = title.find(kForeArm); at != std::string::npos) {
+        title.replace(at, kForeArm.size(), "Forearm");
+    }
+    return title;
+}
+
 bool isRequired(std::size_t mappable) {
     constexpr std::array kRequired{Pelvis,       Head,          LeftUpperArm,  LeftForeArm,   LeftHand,
                                    LeftUpperLeg, LeftLowerLeg,  LeftFoot,      RightUpperArm, RightForeArm,
@@ -273,7 +286,7 @@ tl::expected<void, std::string> checkMapping(const BoneMapping& mapping,
                                              std::span<const ImportedBone> bones) {
     std::string missing;
     for (const std::size_t segment : missingSegments(mapping)) {
-        missing += (missing.empty() ? "" : ", ") + std::string(mappableName(segment));
+        missing += (missing.empty() ? "" : ", ") + mappableTitle(segment);
     }
     if (!missing.empty()) {
         return tl::make_unexpected("no bone for " + missing);
@@ -282,11 +295,10 @@ tl::expected<void, std::string> checkMapping(const BoneMapping& mapping,
     for (std::size_t i = 0; i < kMappableCount; ++i) {
         const int bone = mapping.bones[i];
         if (bone >= static_cast<int>(bones.size())) {
-            return tl::make_unexpected("the file has no such bone for " + std::string(mappableName(i)));
+            return tl::make_unexpected("the file has no such bone for " + mappableTitle(i));
         }
         if (bone >= 0 && !used.insert(bone).second) {
-            return tl::make_unexpected("the bone of " + std::string(mappableName(i)) +
-                                       " has another segment, too");
+            return tl::make_unexpected("the bone of " + mappableTitle(i) + " has another segment, too");
         }
     }
     for (const Segment upper : {LeftUpperArm, RightUpperArm, LeftUpperLeg, RightUpperLeg}) {
@@ -296,9 +308,8 @@ tl::expected<void, std::string> checkMapping(const BoneMapping& mapping,
                 bone = bones[static_cast<std::size_t>(bone)].parent;
             }
             if (bone < 0) {
-                return tl::make_unexpected("the bone of " + std::string(mappableName(segment)) +
-                                           " does not hang on that of " +
-                                           std::string(mappableName(segment - 1)));
+                return tl::make_unexpected("the bone of " + mappableTitle(segment) +
+                                           " does not hang on that of " + mappableTitle(segment - 1));
             }
         }
     }

@@ -27,6 +27,8 @@ constexpr std::size_t mappableJoint(std::size_t mappable) {
 constexpr std::string_view mappableName(std::size_t mappable) {
     return kJointNames[mappableJoint(mappable)];
 }
+/// What people read: "Left Upper Arm".
+std::string mappableTitle(std::size_t mappable);
 /// Without a bone for it a character cannot be posed: pelvis, head, arms with hands, legs with feet.
 bool isRequired(std::size_t mappable);
 

@@ -16,9 +16,23 @@ namespace {
 /// Of the floor's height and above it, metres: what a foot stands on.
 constexpr float kSoleHeight = 0.025F;
 
+/// The joint of the mannequin that turns a bone beside a limb's: without the limb's twist, unless the bone is
+/// named as one of the mannequin's own.
+int turnerBeside(std::string_view bone, int limb) {
+    const auto helpers = std::span(kJointNames).subspan(kSegmentCount, kTwistJointCount + kHalfJointCount);
+    const auto named = std::ranges::find(helpers, bone);
+    if (named != helpers.end()) {
+        return static_cast<int>(kSegmentCount) + static_cast<int>(named - helpers.begin());
+    }
+    const auto* twist = std::ranges::find(kTwistJoints, static_cast<Segment>(limb), &TwistJoint::segment);
+    return twist == kTwistJoints.end() ? limb
+                                       : static_cast<int>(kSegmentCount + (twist - kTwistJoints.begin()));
+}
+
 /// Which joints of the mannequin turn each bone: mapped ones as their segment, those of the trunk and the
-/// neck between two mapped ones part of the way, others as their parent.
-std::vector<OwnJoint> jointsOf(std::span<const ImportedBone> bones, const BoneMapping& mapping) {
+/// neck between two mapped ones part of the way, those beside a limb with it, others as their parent.
+std::vector<OwnJoint> jointsOf(std::span<const ImportedBone> bones, const BoneMapping& mapping,
+                               std::span<const glm::vec3> origins) {
     std::vector<OwnJoint> joints(bones.size());
     std::vector<int> mapped(bones.size(), -1);
     for (std::size_t i = 0; i < kMappableCount; ++i) {
@@ -29,6 +43,10 @@ std::vector<OwnJoint> jointsOf(std::span<const ImportedBone> bones, const BoneMa
     for (std::size_t i = 0; i < bones.size(); ++i) {
         joints[i].parent = bones[i].parent;
         joints[i].from = mapped[i];
+    }
+    const std::vector<int> limbs = limbsBeside(bones, mapping, origins);
+    for (std::size_t i = 0; i < bones.size(); ++i) {
+        joints[i].from = limbs[i] < 0 ? joints[i].from : turnerBeside(bones[i].name, limbs[i]);
     }
     constexpr std::array kTrunk{L5, L3, T12, T8, Neck, Head};
     for (const Segment segment : kTrunk) {
@@ -179,7 +197,7 @@ tl::expected<OwnBody, std::string> makeOwnBody(const ImportedCharacter& characte
     body.texturePlaces = character.texturePlaces;
     body.parts = character.parts;
     body.reading = rest->reading;
-    body.joints = jointsOf(character.bones, mapping);
+    body.joints = jointsOf(character.bones, mapping, rest->origins);
     body.jointSegments = segmentsOf(body.joints);
     for (glm::vec3& position : body.mesh.positions) {
         position = rest->reading.unit * (rest->turn * position);

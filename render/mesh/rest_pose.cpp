@@ -274,6 +274,25 @@ tl::expected<RestPose, std::string> readRestPose(const ImportedCharacter& charac
     return rest;
 }
 
+std::vector<int> limbsBeside(std::span<const ImportedBone> bones, const BoneMapping& mapping,
+                             std::span<const glm::vec3> origins) {
+    constexpr float kSamePlace = 0.005F; // metres
+    std::vector<int> limbs(bones.size(), -1);
+    for (const Segment limb : {RightUpperArm, RightForeArm, LeftUpperArm, LeftForeArm, RightUpperLeg,
+                               RightLowerLeg, LeftUpperLeg, LeftLowerLeg}) {
+        const auto bone = static_cast<std::size_t>(mapping.bones[limb]);
+        for (std::size_t i = 0; i < bones.size(); ++i) {
+            const bool isMapped =
+                std::ranges::find(mapping.bones, static_cast<int>(i)) != mapping.bones.end();
+            if (!isMapped && bones[i].parent == bones[bone].parent &&
+                glm::distance(origins[i], origins[bone]) < kSamePlace) {
+                limbs[i] = limb;
+            }
+        }
+    }
+    return limbs;
+}
+
 std::vector<glm::quat> straightTurns(std::span<const ImportedBone> bones, const BoneMapping& mapping,
                                      std::span<const glm::vec3> origins, bool isStraightened) {
     std::vector<glm::quat> turns(bones.size(), kNoTurn);
@@ -281,10 +300,13 @@ std::vector<glm::quat> straightTurns(std::span<const ImportedBone> bones, const 
         return turns;
     }
     const Straightener straightener(mapping, origins);
+    const std::vector<int> limbs = limbsBeside(bones, mapping, origins);
     for (std::size_t i = 0; i < bones.size(); ++i) {
         const glm::quat inherited =
             bones[i].parent < 0 ? kNoTurn : turns[static_cast<std::size_t>(bones[i].parent)];
-        turns[i] = straightener.turns()[i].value_or(inherited);
+        const std::size_t leader =
+            limbs[i] < 0 ? i : static_cast<std::size_t>(mapping.bones[static_cast<std::size_t>(limbs[i])]);
+        turns[i] = straightener.turns()[leader].value_or(inherited);
     }
     return turns;
 }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
+#include "render/mesh/import.h"
 #include "render/mesh/own_body.h"
 #include "tests/render/poses.h"
 #include "tests/render/rig.h"
+#include "tests/support/paths.h"
 
 #include <algorithm>
 
@@ -95,6 +97,37 @@ TEST(OwnBody, FollowsPosesWithItsOwnBonesWithinHalfADegree) {
     for (const auto& make : kPoses) {
         const Pose pose = placed(make(), {1.2F, -0.7F, 0.0F}, 0.8F);
         EXPECT_LT(worstLimb(body, pose, ownPalette(body, pose)), 0.5F);
+    }
+}
+
+/// Bones beside those of limbs, which spread their twist and swing, go with them.
+TEST(OwnBody, OfTheMannequinsOwnFileIsTheMannequin) {
+    const auto character =
+        importCharacter(posewire::test::sourcePath("resources/mannequin_low.glb").string());
+    ASSERT_TRUE(character) << character.error();
+    const auto body = makeOwnBody(*character, mapBones(character->bones), {});
+    ASSERT_TRUE(body) << body.error();
+    for (const auto& make : kPoses) {
+        const Pose pose = placed(make(), {0.4F, 0.2F, 0.0F}, -0.6F);
+        SkinnedMesh own = body->mesh;
+        const auto palette = ownPalette(*body, pose);
+        const SkinJob ownJob{&body->mesh, palette, own.positions, own.normals};
+        ownJob.run();
+        SkinnedMesh mannequin = character->mesh;
+        const auto joints = paletteOf(pose, kReferenceNullPose);
+        std::vector<DualQuaternion> byBone(character->bones.size());
+        for (std::size_t i = 0; i < byBone.size(); ++i) {
+            const auto joint = std::ranges::find(kJointNames, character->bones[i].name);
+            ASSERT_NE(joint, kJointNames.end()) << character->bones[i].name;
+            byBone[i] = joints[static_cast<std::size_t>(joint - kJointNames.begin())];
+        }
+        const SkinJob job{&character->mesh, byBone, mannequin.positions, mannequin.normals};
+        job.run();
+        float worst = 0.0F;
+        for (std::size_t i = 0; i < own.vertexCount(); ++i) {
+            worst = std::max(worst, glm::distance(own.positions[i], mannequin.positions[i]));
+        }
+        EXPECT_LT(worst, 0.02F) << "metres";
     }
 }
 

@@ -16,8 +16,7 @@ namespace {
 enum Column : std::uint8_t { Segment, Bone };
 
 QString nameOf(std::size_t mappable) {
-    const std::string_view name = render::mappableName(mappable);
-    return QString::fromLatin1(name.data(), static_cast<qsizetype>(name.size()));
+    return QString::fromStdString(render::mappableTitle(mappable));
 }
 
 } // namespace
@@ -56,6 +55,7 @@ void BoneTable::setBones(std::span<const render::ImportedBone> bones) {
     for (const render::ImportedBone& bone : bones) {
         names += shown(model::ForeignText(bone.name));
     }
+    m_hasBones = !bones.empty();
     m_names->setStringList(names);
     setMapping({});
 }
@@ -76,7 +76,7 @@ void BoneTable::choose(std::size_t mappable, int entry) {
 
 /// What is missing is said by a sign and a word, too.
 void BoneTable::mark(std::size_t mappable) {
-    const bool isMissing = m_mapping.bones[mappable] < 0 && render::isRequired(mappable);
+    const bool isMissing = m_hasBones && m_mapping.bones[mappable] < 0 && render::isRequired(mappable);
     QTreeWidgetItem* item = m_rows[mappable].item;
     item->setText(Segment, isMissing ? tr("▲ %1 (missing)").arg(nameOf(mappable)) : nameOf(mappable));
     item->setForeground(Segment, isMissing ? theme().warning : theme().text);

@@ -38,6 +38,7 @@ private:
     QStringListModel* m_names; ///< "none", then the bones
     std::vector<Row> m_rows;   ///< by mappable segment
     render::BoneMapping m_mapping;
+    bool m_hasBones = false; ///< else nothing is missing yet
 };
 
 } // namespace posewire::gui

@@ -76,6 +76,7 @@ OwnCharacterDialog::OwnCharacterDialog(OwnCharacters& characters, const QStringL
     }
     m_who->setCurrentIndex(std::max(0, m_who->findData(selected)));
     makeForm();
+    resize(QSize(52, 40) * fontMetrics().height());
     const QJsonObject kept = characters.keptFor(who());
     if (const QString path = kept["file"].toString(); !path.isEmpty()) {
         read(path);

@@ -213,7 +213,7 @@ TEST(BoneMapping, SaysWhatIsMissing) {
     }
     const BoneMapping mapping = mapBones(bones);
     EXPECT_EQ(missingSegments(mapping), std::vector<std::size_t>{LeftHand});
-    EXPECT_EQ(checkMapping(mapping, bones).error(), "no bone for LeftHand");
+    EXPECT_EQ(checkMapping(mapping, bones).error(), "no bone for Left Hand");
     EXPECT_EQ(missingSegments(mapBones({})).size(), 14U);
 }
 

@@ -218,5 +218,11 @@ TEST(CharacterReading, NeitherCallsWhoIsGoneNorForAnEarlierFile) {
     EXPECT_EQ(calls, 1);
 }
 
+TEST(BoneTable, NamesSegmentsAsEverythingElseDoes) {
+    for (std::size_t i = 0; i < render::kMappableCount; ++i) {
+        EXPECT_EQ(render::mappableTitle(i), model::segmentTitle(render::mappableName(i)));
+    }
+}
+
 } // namespace
 } // namespace posewire::gui

@@ -82,13 +82,13 @@ TEST_F(OwnCharacterDialogTest, ABoneThatIsTakenAwayIsMissedUntilItIsDetectedAgai
     ASSERT_TRUE(read(m_mannequin));
     QComboBox* hand = nullptr;
     for (auto* one : m_dialog->findChildren<QComboBox*>()) {
-        hand = one->accessibleName() == "Bone of LeftHand" ? one : hand;
+        hand = one->accessibleName() == "Bone of Left Hand" ? one : hand;
     }
     ASSERT_NE(hand, nullptr);
     EXPECT_EQ(hand->currentText(), "LeftHand");
     hand->setCurrentIndex(0);
     emit hand->activated(0);
-    EXPECT_TRUE(m_dialog->stateText().contains("no bone for LeftHand"));
+    EXPECT_TRUE(m_dialog->stateText().contains("no bone for Left Hand"));
     EXPECT_FALSE(button("Apply")->isEnabled());
     button("Detect again")->click();
     EXPECT_EQ(hand->currentText(), "LeftHand");
