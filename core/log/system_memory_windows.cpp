@@ -11,7 +11,7 @@
 namespace posewire::log {
 namespace {
 
-HANDLE handleOf(MemoryFile file) {
+HANDLE memoryHandle(MemoryFile file) {
     return reinterpret_cast<HANDLE>(static_cast<std::intptr_t>(file));
 }
 
@@ -32,17 +32,17 @@ MemoryFile openMemoryFile(const std::string& folder) {
 }
 
 void closeMemoryFile(MemoryFile file) {
-    ::CloseHandle(handleOf(file));
+    ::CloseHandle(memoryHandle(file));
 }
 
 std::byte* mapSegment(MemoryFile file, std::uint64_t offset, std::size_t size) {
     LARGE_INTEGER end{};
     end.QuadPart = static_cast<LONGLONG>(offset + size);
-    if (::SetFilePointerEx(handleOf(file), end, nullptr, FILE_BEGIN) == FALSE ||
-        ::SetEndOfFile(handleOf(file)) == FALSE) {
+    if (::SetFilePointerEx(memoryHandle(file), end, nullptr, FILE_BEGIN) == FALSE ||
+        ::SetEndOfFile(memoryHandle(file)) == FALSE) {
         return nullptr;
     }
-    const HANDLE mapping = ::CreateFileMappingW(handleOf(file), nullptr, PAGE_READWRITE,
+    const HANDLE mapping = ::CreateFileMappingW(memoryHandle(file), nullptr, PAGE_READWRITE,
                                                 static_cast<DWORD>(end.HighPart), end.LowPart, nullptr);
     if (mapping == nullptr) {
         return nullptr;

@@ -34,18 +34,6 @@ PropertyValue ended() {
     return {tr("ended")};
 }
 
-/// What does not fit together about a sender, in brief; empty where all does.
-QString contradictionOf(const model::Sender* sender) {
-    const auto found = sender != nullptr ? sender->contradictions() : std::vector<model::Contradiction>();
-    return found.empty() ? QString() : QString::fromStdString(found.front().brief);
-}
-
-bool hasEnded(model::SessionView& view, const model::Sender& sender) {
-    return sender.isPerforming() && std::ranges::all_of(sender.characters, [&](const auto* character) {
-               return view.isSuperseded(character->key);
-           });
-}
-
 /// Seconds; at least 0, also when the cursor lies before it.
 double ageOf(model::SessionView& view, log::Stamp stamp) {
     return std::max(0.0, log::secondsOf(view.cursorStamp() - stamp));
@@ -85,27 +73,6 @@ PropertyValue characterState(model::SessionView& view, const model::Character& c
         return ended();
     }
     return verdictState(view.verdict(character.key));
-}
-
-PropertyValue senderState(model::SessionView& view, const model::Sender& sender) {
-    if (hasEnded(view, sender)) {
-        return ended();
-    }
-    const PropertyValue age = ageState(ageOf(view, sender.lastStamp), 0.0);
-    if (age.health != Health::Unknown) {
-        return age;
-    }
-    if (sender.kernelDrops != 0) {
-        return {tr("%1 dropped here").arg(grouped(sender.kernelDrops)), Health::Error};
-    }
-    if (sender.malformed != 0) {
-        return malformedState(sender.malformed);
-    }
-    if (sender.foreign != 0) {
-        return {tr("%1 foreign").arg(grouped(sender.foreign)), Health::Warning};
-    }
-    const QString contradiction = contradictionOf(&sender);
-    return {contradiction, contradiction.isEmpty() ? Health::Unknown : Health::Warning};
 }
 
 bool isLive(model::SessionView& view, const model::Character& character) {

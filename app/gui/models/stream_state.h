@@ -19,7 +19,6 @@ inline constexpr double kStaleAge = 1.0;
 [[nodiscard]] PropertyValue verdictState(const model::TakeVerdict& verdict);
 /// The session's own verdict on a character (SessionView::verdicts).
 [[nodiscard]] PropertyValue characterState(model::SessionView& view, const model::Character& character);
-[[nodiscard]] PropertyValue senderState(model::SessionView& view, const model::Sender& sender);
 
 /// True while data keep coming: no older than kStaleAge.
 [[nodiscard]] bool isLive(model::SessionView& view, const model::Character& character);
