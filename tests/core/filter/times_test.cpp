@@ -15,8 +15,7 @@ Case cameAt(log::Duration moment) {
 }
 
 std::string written(std::time_t seconds, const char* format) {
-    std::tm parts{};
-    gmtime_r(&seconds, &parts);
+    const std::tm parts = *std::gmtime(&seconds);
     std::array<char, 64> text{};
     return {text.data(), std::strftime(text.data(), text.size(), format, &parts)};
 }

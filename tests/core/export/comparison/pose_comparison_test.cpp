@@ -5,6 +5,7 @@
 #include "core/export/comparison/spread.h"
 #include "core/wire/codec.h"
 #include "tests/core/export/comparison/recordings.h"
+#include "tests/support/temporary_folder.h"
 
 #include <gmock/gmock.h>
 
@@ -204,9 +205,8 @@ TEST(PoseComparisonTest, CsvHasARowForEachSampleAndEmptyCellsWithoutAPartner) {
     const MotionSource other = second.source();
     const ComparisonTask task{one, other, partners};
     const MotionComparison result = *compareMotion(task, {});
-    std::string folder = std::filesystem::temp_directory_path() / "comparison-XXXXXX";
-    ASSERT_NE(::mkdtemp(folder.data()), nullptr);
-    const std::string path = folder + "/difference.csv";
+    const std::filesystem::path folder = posewire::test::newTemporaryFolder("comparison");
+    const std::string path = (folder / "difference.csv").string();
     ASSERT_TRUE(writeComparisonCsv(task, result.segments, path, {}, {}));
     std::ifstream file(path);
     std::vector<std::string> lines;
