@@ -76,9 +76,9 @@ TEST_F(MotionExportTest, TellsFilesOfOneNameApart) {
         one.name = "../Twin";
     }
     three.characters[1].name = "../TWIN";
-    EXPECT_THAT(motionPaths({three, kAlone, "out/take.txt"}),
-                ElementsAre(testing::StartsWith("out/take-"), testing::EndsWith("-2.txt"),
-                            testing::EndsWith("-3.txt")));
+    EXPECT_THAT(
+        motionPaths({three, kAlone, "out/take.txt"}),
+        ElementsAre(testing::HasSubstr("take-_"), testing::EndsWith("-2.txt"), testing::EndsWith("-3.txt")));
     for (const std::string& path : motionPaths({three, kAlone, "out/take.txt"})) {
         EXPECT_EQ(std::filesystem::path(path).parent_path(), "out");
     }
