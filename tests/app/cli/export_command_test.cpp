@@ -199,7 +199,7 @@ TEST_F(ExportCommand, AgreesOnRealPosesOfBothTypes) {
     }
     std::vector<Json> samples;
     for (const char* file : {"mxtp01.bin", "mxtp02.bin"}) { // the same sample in both
-        const ProgramRun run = exported(folder / file, "-", {"--format", "jsonl"});
+        const ProgramRun run = exported((folder / file).string(), "-", {"--format", "jsonl"});
         ASSERT_EQ(run.status, 0) << run.err;
         samples.push_back(Json::parse(run.out)["segments"]);
     }
