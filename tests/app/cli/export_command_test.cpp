@@ -228,7 +228,7 @@ TEST_F(ExportCommand, LeavesNothingWhenItIsInterrupted) {
     const std::string endless = newPath(); // nobody writes into it, and nobody closes it
     ASSERT_EQ(::mkfifo(endless.c_str(), 0600), 0);
     const int held = ::open(endless.c_str(), O_RDWR);
-    const std::string command = "timeout --preserve-status -s INT 0.5 " POSEWIRE_CLI " export " + endless +
+    const std::string command = "timeout --preserve-status -s INT 2 " POSEWIRE_CLI " export " + endless +
                                 " --to " + output("take.csv") + " 2> " + output("said");
     const int status = std::system(command.c_str());
     ::close(held);
