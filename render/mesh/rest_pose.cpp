@@ -282,10 +282,9 @@ std::vector<int> limbsBeside(std::span<const ImportedBone> bones, const BoneMapp
                                RightLowerLeg, LeftUpperLeg, LeftLowerLeg}) {
         const auto bone = static_cast<std::size_t>(mapping.bones[limb]);
         for (std::size_t i = 0; i < bones.size(); ++i) {
-            const bool isMapped =
-                std::ranges::find(mapping.bones, static_cast<int>(i)) != mapping.bones.end();
-            if (!isMapped && bones[i].parent == bones[bone].parent &&
-                glm::distance(origins[i], origins[bone]) < kSamePlace) {
+            const bool isBeside = bones[i].parent == bones[bone].parent &&
+                                  glm::distance(origins[i], origins[bone]) < kSamePlace;
+            if (isBeside && std::ranges::find(mapping.bones, static_cast<int>(i)) == mapping.bones.end()) {
                 limbs[i] = limb;
             }
         }

@@ -65,15 +65,17 @@ std::vector<render::TextureImage> texturesOf(const render::ImportedCharacter& ch
                                              QStringList* remarks) {
     QImageReader::setAllocationLimit(kMostDecoded);
     double texels = 0;
+    std::vector<QSize> sizes;
     for (const render::ImportedTexture& texture : character.textures) {
-        const QSize size = sizeOf(texture);
+        const QSize& size = sizes.emplace_back(sizeOf(texture));
         texels += std::max(0, size.width()) * static_cast<double>(std::max(0, size.height()));
     }
     const double scale = texels > kMostTexels ? std::sqrt(kMostTexels / texels) : 1.0;
     std::vector<render::TextureImage> textures;
-    for (const render::ImportedTexture& texture : character.textures) {
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+        const render::ImportedTexture& texture = character.textures[i];
+        const QSize& size = sizes[i];
         QString problem = QString::fromStdString(texture.problem);
-        const QSize size = sizeOf(texture);
         QImage image;
         if (problem.isEmpty() && size.isValid() && !size.isEmpty()) {
             image = pictureOf(texture, (size * scale).expandedTo({1, 1}), &problem);
