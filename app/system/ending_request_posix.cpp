@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/system/ending_request.h"
 
+#include "app/system/ending_signals_posix.h"
+
 #include <array>
 #include <cerrno>
 #include <csignal>
@@ -23,20 +25,6 @@ extern "C" void passOn(int signal) {
     errno = error;
 }
 
-void handle(void (*handler)(int), int flags) {
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
-        struct sigaction action {};
-        const bool isIgnored = ::sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
-        if (signal == SIGHUP && isIgnored) {
-            continue;
-        }
-        action = {};
-        action.sa_handler = handler;
-        action.sa_flags = flags;
-        ::sigaction(signal, &action, nullptr);
-    }
-}
-
 } // namespace
 
 EndingRequest::EndingRequest(std::function<void()> onRequest) : m_onRequest(std::move(onRequest)) {
@@ -57,12 +45,12 @@ EndingRequest::EndingRequest(std::function<void()> onRequest) : m_onRequest(std:
             m_onRequest();
         }
     });
-    handle(passOn, static_cast<int>(SA_RESETHAND | SA_RESTART));
+    handleEndings(passOn, static_cast<int>(SA_RESETHAND | SA_RESTART));
 }
 
 EndingRequest::~EndingRequest() {
     if (m_thread.joinable()) {
-        handle(SIG_DFL, 0);
+        handleEndings(SIG_DFL, 0);
         ::close(wakeUp[1]);
         m_thread.join();
         ::close(wakeUp[0]);

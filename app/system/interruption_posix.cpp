@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/system/interruption.h"
 
-#include <array>
+#include "app/system/ending_signals_posix.h"
+
 #include <atomic>
 #include <csignal>
 #include <cstdint>
@@ -11,8 +12,6 @@
 
 namespace posewire::system {
 namespace {
-
-constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP};
 
 std::atomic<bool> hasInterruptionCome = false;
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler writes it");
@@ -38,32 +37,15 @@ extern "C" void rememberInterruption(int signal) {
     }
 }
 
-/// As it was started: by nohup.
-bool isIgnored(int signal) {
-    struct sigaction action {};
-    return ::sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
-}
-
-void handle(void (*handler)(int)) {
-    for (const int signal : kSignals) {
-        if (signal == SIGHUP && isIgnored(signal)) {
-            continue;
-        }
-        struct sigaction action {};
-        action.sa_handler = handler;
-        ::sigaction(signal, &action, nullptr);
-    }
-}
-
 } // namespace
 
 Interruption::Interruption() {
     hasInterruptionCome = false;
-    handle(rememberInterruption);
+    handleEndings(rememberInterruption, 0);
 }
 
 Interruption::~Interruption() {
-    handle(SIG_DFL);
+    handleEndings(SIG_DFL, 0);
 }
 
 bool Interruption::hasCome() {
