@@ -24,13 +24,13 @@ unsigned littleEndian16(Bytes bytes, std::size_t index) {
     return at(bytes, index) | at(bytes, index + 1) << 8;
 }
 
-std::string_view textOf(Bytes bytes) {
+std::string_view charactersOf(Bytes bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
 /// An address such as "/body/hip" that ends with a zero, padded to four bytes.
 bool isOsc(Bytes bytes) {
-    const std::string_view text = textOf(bytes);
+    const std::string_view text = charactersOf(bytes);
     return text.starts_with("#bundle") ||
            (text.starts_with('/') && bytes.size() >= 4 && std::ranges::all_of(text.substr(1, 3), [](char c) {
                 return c == '\0' || (c >= ' ' && c <= '~');
@@ -88,7 +88,7 @@ bool isThere(const fs::path& path) {
 using Kind = Finding::Kind;
 using Findings = std::vector<Finding>;
 
-constexpr log::Duration kSilence = std::chrono::seconds(2);
+constexpr log::Duration kSilenceTold = std::chrono::seconds(2);
 constexpr std::string_view kWhereInMvn = "In MVN: Options > Preferences > Network Streamer";
 
 const char* protocolOf(InputKind kind) {
@@ -148,7 +148,7 @@ void findLeftOut(const ConnectionFacts& facts, Findings& findings) {
                  "check that the network is connected; it is tried again whenever it changes"});
         }
     }
-    if (refused != 0 && facts.silence >= kSilence) {
+    if (refused != 0 && facts.silence >= kSilenceTold) {
         findings.push_back({Kind::NotListenedTo,
                             grouped(refused) + (refused == 1 ? " datagram has" : " datagrams have") +
                                 " arrived from hosts that are not listened to",
@@ -206,7 +206,7 @@ void findPeers(const ConnectionFacts& facts, Findings& findings) {
                                 "listen but connects: for MVN, listen on a TCP port here"});
         }
         for (const Peer& peer : input.peers) {
-            if (peer.bytes == 0 && facts.now - peer.connected >= kSilence) {
+            if (peer.bytes == 0 && facts.now - peer.connected >= kSilenceTold) {
                 findings.push_back(
                     {Kind::SilentPeer,
                      peer.address + " is connected by TCP and has sent nothing for " +
@@ -226,7 +226,7 @@ void findPeers(const ConnectionFacts& facts, Findings& findings) {
 
 void findSilence(const ConnectionFacts& facts, Findings& findings) {
     const bool listens = has(facts, InputKind::Udp) || has(facts, InputKind::TcpListener);
-    if (!listens || facts.silence < kSilence) {
+    if (!listens || facts.silence < kSilenceTold) {
         return;
     }
     if (facts.mxtpDatagrams != 0) {
@@ -251,7 +251,7 @@ void findSilence(const ConnectionFacts& facts, Findings& findings) {
 void findTransport(const ConnectionFacts& facts, Findings& findings) {
     const bool hasUdp = has(facts, InputKind::Udp);
     const bool hasTcp = has(facts, InputKind::TcpListener);
-    if (facts.mxtpDatagrams != 0 || facts.silence < kSilence || hasUdp == hasTcp) {
+    if (facts.mxtpDatagrams != 0 || facts.silence < kSilenceTold || hasUdp == hasTcp) {
         return;
     }
     const char* other = hasUdp ? "TCP" : "UDP";
@@ -263,7 +263,7 @@ void findTransport(const ConnectionFacts& facts, Findings& findings) {
 }
 
 void findBlocked(const ConnectionFacts& facts, Findings& findings) {
-    if (!facts.firewall || facts.mxtpDatagrams != 0 || facts.silence < kSilence || facts.inputs.empty()) {
+    if (!facts.firewall || facts.mxtpDatagrams != 0 || facts.silence < kSilenceTold || facts.inputs.empty()) {
         return;
     }
     const InputStatus& input = facts.inputs.front();
@@ -295,7 +295,7 @@ std::string protocolThatBegins(Bytes bytes) {
                                      Beginning{"fr ", "ART DTrack"},
                                      Beginning{"{", "JSON text (Rokoko, or MVN's own remote control)"},
                                      Beginning{"<", "XML text (MVN's own remote control, or a web page)"}};
-    const std::string_view text = textOf(bytes);
+    const std::string_view text = charactersOf(bytes);
     if (const auto mark = text.find("MXTP"); mark != std::string_view::npos && mark != 0) {
         return "MXTP behind " + std::to_string(mark) + " other bytes (a tunnel, or a length prefix)";
     }

@@ -15,7 +15,7 @@ constexpr log::Duration kLongestPause = std::chrono::seconds(5);
 /// An attempt without an answer by then has failed.
 constexpr log::Duration kPatience = std::chrono::seconds(5);
 /// A connection without a byte for so long is silent.
-constexpr log::Duration kSilence = std::chrono::seconds(5);
+constexpr log::Duration kSilentAfter = std::chrono::seconds(5);
 /// A connection without a byte may end at once, again and again: by then it has not.
 constexpr log::Duration kSettled = std::chrono::seconds(1);
 
@@ -117,14 +117,14 @@ private:
         m_publish.reset();
         m_input->setState(InputState::Connected, "connected to " + textOf(m_endpoint));
         m_review.reset();
-        if (now - m_peer->lastByte() >= kSilence) {
+        if (now - m_peer->lastByte() >= kSilentAfter) {
             m_input->setProblem(textOf(m_endpoint) +
                                 ": connected, but nothing has arrived for 5 s; is the sender streaming?");
         } else if (m_peer->status().bytes == 0 && now - m_begun < kSettled) {
             m_review = m_begun + kSettled;
         } else {
             m_input->setProblem({});
-            m_review = m_peer->lastByte() + kSilence;
+            m_review = m_peer->lastByte() + kSilentAfter;
         }
         m_input->setPeers({m_peer->status()});
     }

@@ -37,9 +37,7 @@ if(POSEWIRE_SANITIZER OR POSEWIRE_FUZZ)
   add_compile_options(-O1 -g1) # a finding needs names and lines, and units compile in half the time
 endif()
 # What only tests say is run once: compiling it well takes longer than running it.
-if(POSEWIRE_SANITIZER)
-  set(test_options -O0)
-elseif(CMAKE_BUILD_TYPE STREQUAL "Release")
+if(CMAKE_BUILD_TYPE STREQUAL "Release")
   set(test_options -O1)
 endif()
 # What is shipped reads whatever a network holds: a write past a buffer ends the program instead of taking it over.
@@ -66,7 +64,7 @@ if(POSEWIRE_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
 endif()
 
 function(posewire_unite target)
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ${POSEWIRE_UNITY} UNITY_BUILD_BATCH_SIZE 8)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${POSEWIRE_UNITY} UNITY_BUILD_BATCH_SIZE 16)
 endfunction()
 
 # posewire_precompile(kind HEADERS … [LIBRARIES …]): headers of others that most units of a kind include, compiled once.
@@ -84,11 +82,6 @@ function(posewire_precompile kind)
   set_target_properties(precompiled_${kind} PROPERTIES AUTOMOC OFF)
   target_link_libraries(precompiled_${kind} PRIVATE ${ARG_LIBRARIES})
   target_precompile_headers(precompiled_${kind} PRIVATE ${ARG_HEADERS})
-endfunction()
-
-# Sources of a test that run for long: as well compiled as what they test.
-function(posewire_optimize_tests)
-  set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS -O1 SKIP_PRECOMPILE_HEADERS ON)
 endfunction()
 
 function(posewire_use_precompiled target kind)
@@ -111,7 +104,8 @@ function(posewire_library name)
   posewire_use_precompiled(${name} "${ARG_PRECOMPILED}")
 endfunction()
 
-# posewire_test(name SOURCES … LIBRARIES … [LABELS …] [ENVIRONMENT …] [PRECOMPILED kind]): a GoogleTest program; each case is a ctest case, except with a sanitizer or under an emulator.
+# posewire_test(name SOURCES … LIBRARIES … [LABELS …] [ENVIRONMENT …] [PRECOMPILED kind]): a GoogleTest program.
+# Each case is a ctest case; with POSEWIRE_UNITY each program is one.
 # LABELS is "bytes" for what handles input from outside, "threads" for what runs several threads, "bytes-threads" for both:
 # packaging/test builds these again with sanitizers, as the targets byte_tests and thread_tests.
 function(posewire_test name)
@@ -138,8 +132,8 @@ function(posewire_test name)
       add_dependencies(${group} ${name})
     endif()
   endforeach()
-  if(POSEWIRE_SANITIZER OR CMAKE_CROSSCOMPILING) # starting a program costs more than most cases, so one ctest case runs them all
-    add_test(NAME ${name} COMMAND ${name})
+  if(POSEWIRE_UNITY) # everything is run: starting a program costs more than most cases
+    add_test(NAME ${name} COMMAND ${name} --gtest_brief=1)
     set_tests_properties(${name} PROPERTIES ${properties} TIMEOUT 900)
   else()
     gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST PROPERTIES ${properties})

@@ -9,7 +9,7 @@
 namespace posewire::exporting {
 namespace {
 
-std::string fixed(double value, int decimals) {
+std::string decimalCell(double value, int decimals) {
     std::string text;
     appendFixed(value, decimals, text);
     return text;
@@ -27,15 +27,15 @@ std::vector<std::string> titles(std::span<const SegmentFigures> segments) {
 
 std::vector<std::string> csvRow(const ComparedPair& pair, std::span<const SegmentFigures> segments,
                                 log::Stamp begin) {
-    std::vector<std::string> cells{fixed(log::secondsOf(pair.first->stamp - begin), 4),
+    std::vector<std::string> cells{decimalCell(log::secondsOf(pair.first->stamp - begin), 4),
                                    std::to_string(pair.first->sample), std::to_string(pair.first->timeCode)};
     cells.push_back(pair.second != nullptr ? std::to_string(pair.second->sample) : std::string());
     cells.push_back(pair.second != nullptr ? std::to_string(pair.second->timeCode) : std::string());
     for (const SegmentFigures& one : segments) {
         const model::SegmentDifference* difference =
             pair.difference != nullptr ? pair.difference->find(one.slot) : nullptr;
-        cells.push_back(difference != nullptr ? fixed(difference->millimetres, 2) : std::string());
-        cells.push_back(difference != nullptr ? fixed(difference->degrees, 3) : std::string());
+        cells.push_back(difference != nullptr ? decimalCell(difference->millimetres, 2) : std::string());
+        cells.push_back(difference != nullptr ? decimalCell(difference->degrees, 3) : std::string());
     }
     return cells;
 }

@@ -35,7 +35,7 @@ std::vector<std::uint32_t> samplesOf(const std::vector<Sending>& sendings) {
     return samples;
 }
 
-SentFigures figuresOf(const std::vector<Sending>& sendings, std::uint8_t type = 24) {
+SentFigures sentFiguresOf(const std::vector<Sending>& sendings, std::uint8_t type = 24) {
     const Truth truth = truthOf(sendings);
     const auto found = truth.streams().find({0, type});
     return found == truth.streams().end() ? SentFigures{} : found->second.figures();
@@ -116,7 +116,7 @@ TEST(Faults, DuplicateAtOnceAndLater) {
     FaultSettings settings;
     settings.duplicate = 0.3;
     const auto sendings = performWithFaults(oneStream(), settings, 10.0);
-    const SentFigures figures = figuresOf(sendings);
+    const SentFigures figures = sentFiguresOf(sendings);
     EXPECT_EQ(figures.samples, 2400U);
     EXPECT_EQ(figures.datagrams, sendings.size());
     EXPECT_EQ(figures.duplicates, sendings.size() - 2400U);
@@ -139,7 +139,7 @@ TEST(Faults, ReorderByLittleByMuchAndByMoreThanAHundredSamples) {
     }
     EXPECT_GT(most, 100U);
     EXPECT_GT(few, 100U);
-    const SentFigures figures = figuresOf(performWithFaults(oneStream(), settings, 20.0));
+    const SentFigures figures = sentFiguresOf(performWithFaults(oneStream(), settings, 20.0));
     EXPECT_GT(figures.reordered, 200U);
     EXPECT_GT(figures.late, 50U);
     EXPECT_EQ(figures.restarts, 0U);
@@ -218,7 +218,7 @@ TEST(Faults, CountSamplesWithMissingPartsAsIncomplete) {
     FaultSettings settings;
     settings.splits = true;
     settings.drop = 0.1;
-    const SentFigures figures = figuresOf(performWithFaults(performance, settings, 10.0), 2);
+    const SentFigures figures = sentFiguresOf(performWithFaults(performance, settings, 10.0), 2);
     EXPECT_GT(figures.incomplete, 300U);
     EXPECT_GT(figures.lost, 1U);
     EXPECT_EQ((figures.lastSample - figures.firstSample) + 1U,
@@ -250,7 +250,7 @@ TEST(Faults, RestartTheCounterWithoutLoss) {
     EXPECT_EQ(samples[480], 7U);
     const SentFigures expected{
         .datagrams = 1200, .samples = 1200, .restarts = 1, .step = 1, .firstSample = 500, .lastSample = 726};
-    EXPECT_EQ(figuresOf(sendings), expected);
+    EXPECT_EQ(sentFiguresOf(sendings), expected);
 }
 
 TEST(Faults, TakeARestartByAFewSamplesForTheRepetitionThatItIs) {
@@ -258,7 +258,7 @@ TEST(Faults, TakeARestartByAFewSamplesForTheRepetitionThatItIs) {
     settings.restart = FaultSettings::Restart{0.25, 1};
     const SentFigures expected{
         .datagrams = 240, .samples = 180, .duplicates = 60, .step = 1, .firstSample = 1, .lastSample = 180};
-    EXPECT_EQ(figuresOf(performWithFaults(oneStream(), settings, 1.0)), expected);
+    EXPECT_EQ(sentFiguresOf(performWithFaults(oneStream(), settings, 1.0)), expected);
 }
 
 TEST(Faults, PauseWhileTheCounterGoesOn) {
@@ -266,11 +266,11 @@ TEST(Faults, PauseWhileTheCounterGoesOn) {
     settings.pause = FaultSettings::Pause{1.0, 0.5};
     const SentFigures expected{
         .datagrams = 360, .samples = 360, .lost = 120, .step = 1, .firstSample = 1, .lastSample = 480};
-    EXPECT_EQ(figuresOf(performWithFaults(oneStream(), settings, 2.0)), expected);
+    EXPECT_EQ(sentFiguresOf(performWithFaults(oneStream(), settings, 2.0)), expected);
     settings.pause = FaultSettings::Pause{1.0, 20.0};
     const SentFigures restarted{
         .datagrams = 480, .samples = 480, .restarts = 1, .step = 1, .firstSample = 1, .lastSample = 5280};
-    EXPECT_EQ(figuresOf(performWithFaults(oneStream(), settings, 22.0)), restarted);
+    EXPECT_EQ(sentFiguresOf(performWithFaults(oneStream(), settings, 22.0)), restarted);
 }
 
 TEST(Faults, ReduceTheRateWithoutLoss) {
@@ -279,7 +279,7 @@ TEST(Faults, ReduceTheRateWithoutLoss) {
     const auto sendings = performWithFaults(oneStream(), settings, 2.0);
     const SentFigures expected{
         .datagrams = 300, .samples = 300, .step = 4, .firstSample = 1, .lastSample = 477};
-    EXPECT_EQ(figuresOf(sendings), expected);
+    EXPECT_EQ(sentFiguresOf(sendings), expected);
 }
 
 TEST(Faults, CountThroughTheWrapAroundOfTheCounter) {
@@ -287,7 +287,7 @@ TEST(Faults, CountThroughTheWrapAroundOfTheCounter) {
     performance.firstSample = 0xffffff00U;
     FaultSettings settings;
     settings.drop = 0.1;
-    const SentFigures figures = figuresOf(performWithFaults(performance, settings, 4.0));
+    const SentFigures figures = sentFiguresOf(performWithFaults(performance, settings, 4.0));
     EXPECT_EQ(figures.restarts, 0U);
     EXPECT_EQ(figures.samples + figures.lost, figures.lastSample - figures.firstSample + 1U);
     EXPECT_LT(figures.lastSample, 1000U);
@@ -298,7 +298,7 @@ TEST(Faults, LeaveMessagesOfCharacterInformationOutOfSampleAccounting) {
     performance.types = {12, 13};
     FaultSettings settings;
     settings.drop = 0.15;
-    const SentFigures scale = figuresOf(performWithFaults(performance, settings, 60.0), 13);
+    const SentFigures scale = sentFiguresOf(performWithFaults(performance, settings, 60.0), 13);
     EXPECT_GT(scale.incomplete, 3U);
     EXPECT_EQ(scale.samples + scale.lost + scale.duplicates + scale.step, 0U);
 }

@@ -63,7 +63,7 @@ public:
     }
     void forgetSender(log::SenderId sender) override { m_session.forget(sender); }
     void setGhostVisible(bool isVisible) override { m_session.setGhostShown(isVisible); }
-    void showDock(const QString&) override {}
+    void showDock(const QString& name) override { shownDock = name; }
     void showIncident(std::optional<std::uint64_t> number, std::optional<model::CharacterKey> of) override {
         m_session.askForIncident(number, of);
     }
@@ -77,6 +77,7 @@ public:
     int selections = 0;
     std::vector<model::CharacterKey> framed;
     QString copied;
+    QString shownDock;
     int comparisonsAskedFor = 0;
     ComparisonChoice comparison;
     bool isComparing = true;

@@ -19,14 +19,6 @@ namespace posewire::gui {
 
 namespace {
 
-/// Remembers which dock was asked for.
-class DockCommands : public ImmediateCommands {
-public:
-    using ImmediateCommands::ImmediateCommands;
-    void showDock(const QString& dock) override { shown = dock; }
-    QString shown;
-};
-
 class IncidentsPanelTest : public testing::Test {
 protected:
     IncidentsPanelTest() {
@@ -63,7 +55,7 @@ protected:
     }
 
     Stage m_stage;
-    DockCommands m_commands{m_stage.session};
+    ImmediateCommands m_commands{m_stage.session};
     performer::Performer m_performer{sending(1, {2}, 60.0)};
     IncidentsPanel m_panel{m_stage.session, m_commands, nullptr};
     TableView* m_table = m_panel.findChild<TableView*>();
@@ -75,7 +67,7 @@ TEST_F(IncidentsPanelTest, EnterOnAGapShowsItsPackets) {
     ASSERT_TRUE(gap.isValid());
     m_table->setCurrentIndex(gap);
     QTest::keyClick(m_table, Qt::Key_Return);
-    EXPECT_EQ(m_commands.shown, QStringLiteral("packets"));
+    EXPECT_EQ(m_commands.shownDock, QStringLiteral("packets"));
     EXPECT_EQ(m_stage.session.displayFilter(), "") << "its packets in their context";
     ASSERT_TRUE(m_stage.session.selection().packet.has_value());
     EXPECT_EQ(m_stage.session.digests().find(*m_stage.session.selection().packet)->gap, 3U);
@@ -110,7 +102,7 @@ TEST_F(IncidentsPanelTest, ShowsOnlyItsPacketsWhereThatIsAskedFor) {
     m_panel.showOnlyCurrent();
     EXPECT_TRUE(m_stage.session.displayFilter().starts_with("gap > 0 && type == 02"));
     EXPECT_EQ(m_stage.session.ownFilter(), "type == 02");
-    EXPECT_EQ(m_commands.shown, QStringLiteral("packets"));
+    EXPECT_EQ(m_commands.shownDock, QStringLiteral("packets"));
 }
 
 TEST_F(IncidentsPanelTest, AStreamOfAnIncidentLeadsToItsOwnPackets) {

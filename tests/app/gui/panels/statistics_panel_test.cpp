@@ -17,14 +17,6 @@ namespace {
 
 using Column = model::Figure;
 
-/// Remembers which dock was asked for.
-class DockCommands : public ImmediateCommands {
-public:
-    using ImmediateCommands::ImmediateCommands;
-    void showDock(const QString& name) override { dock = name; }
-    QString dock;
-};
-
 class StatisticsPanelTest : public testing::Test {
 protected:
     void open(int width = 420) {
@@ -52,7 +44,7 @@ protected:
     std::optional<model::TimeRange> range() const { return m_stage.session.range(); }
 
     Stage m_stage;
-    DockCommands m_commands{m_stage.session};
+    ImmediateCommands m_commands{m_stage.session};
     std::unique_ptr<StatisticsPanel> m_panel;
 };
 
@@ -93,7 +85,7 @@ TEST_F(StatisticsPanelTest, ACellJumpsToItsPacketsByDoubleClickAndByKey) {
     EXPECT_EQ(m_stage.session.displayFilter(), "") << "in their context";
     ASSERT_TRUE(m_stage.session.selection().packet.has_value());
     EXPECT_EQ(m_stage.session.digests().find(*m_stage.session.selection().packet)->gap, 1U);
-    EXPECT_EQ(m_commands.dock, "packets");
+    EXPECT_EQ(m_commands.shownDock, "packets");
     table().setCurrentIndex(stream(kNameColumn));
     table().setFocus();
     QTest::keyClick(&table(), Qt::Key_Return);
@@ -167,11 +159,11 @@ TEST_F(StatisticsPanelTest, FiltersThePacketsToTheRange) {
     perform(6);
     open();
     m_panel->filterToRange();
-    EXPECT_EQ(m_commands.dock, "");
+    EXPECT_EQ(m_commands.shownDock, "");
     m_commands.selectRange({0s, model::TimeRange{Stage::kStart + 2s, Stage::kStart + 4s}});
     m_panel->filterToRange();
     EXPECT_EQ(m_stage.session.displayFilter(), "time >= 2.000 && time < 4.000");
-    EXPECT_EQ(m_commands.dock, "packets");
+    EXPECT_EQ(m_commands.shownDock, "packets");
 }
 
 TEST_F(StatisticsPanelTest, EmptyStripTakesKeysAndMouseWithoutARange) {

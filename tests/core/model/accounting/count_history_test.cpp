@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/accounting/count_history.h"
 
+#include "tests/core/model/accounting/accounting_fixture.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,10 +15,6 @@ namespace posewire::model {
 namespace {
 
 using namespace std::chrono_literals;
-
-constexpr log::Stamp at(log::Duration time) {
-    return log::Stamp(time);
-}
 
 /// What was added, all of it.
 struct Added {
