@@ -101,7 +101,11 @@ JsonValue memoryJson(const model::MemoryFigures& memory) {
 std::string monitorReport(const model::SessionView& session, const MonitorFacts& facts) {
     const model::SenderTotals all = session.allSenders();
     const model::RetiredTotals& retired = session.retired();
-    const model::TakeVerdicts verdicts = model::verdictsOf(session, {});
+    std::vector<const model::Character*> everyone;
+    for (const model::Character& character : session.characters()) {
+        everyone.push_back(&character);
+    }
+    const model::TakeVerdicts verdicts = model::verdictsOf(session, {}, everyone);
     JsonValue::List senders;
     JsonValue::List foreignSenders;
     for (const model::Sender& sender : session.senders()) {

@@ -102,8 +102,9 @@ std::string VerdictLines::line(const model::SessionView& session, log::Stamp now
     m_newest = now;
     m_verdict = verdict;
     JsonValue::List characters;
-    const model::TakeVerdicts verdicts = model::verdictsOf(session, model::recentSpan(session));
-    for (const model::Character* character : session.charactersNow()) {
+    const std::vector<const model::Character*> listed = session.charactersNow();
+    const model::TakeVerdicts verdicts = model::verdictsOf(session, model::recentSpan(session), listed);
+    for (const model::Character* character : listed) {
         characters.push_back(characterJson(session, character->key, verdicts.characters.at(character->key)));
     }
     return JsonValue{{"timeNs", timeJson(session, now)},

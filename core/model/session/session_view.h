@@ -67,8 +67,7 @@ public:
     [[nodiscard]] SenderTotals allSenders() const;
     [[nodiscard]] std::uint64_t unfollowed() const { return m_ingest.unfollowed(); }
     [[nodiscard]] std::uint64_t overtaken() const { return m_ingest.overtaken(); }
-    /// "10.0.0.5:40001"; "this computer" for kNoSender, and "a retired sender" for one that was
-    /// retired long ago.
+    /// "10.0.0.5:40001"; "this computer" for kNoSender; "a retired sender" long after that.
     [[nodiscard]] ForeignText addressOf(log::SenderId id) const;
 
     /// What came in a range of time in all streams of a character, without what makes no sense of several.
@@ -155,7 +154,7 @@ public:
     [[nodiscard]] const TakeVerdicts& verdicts() const;
     /// The time that these verdicts are of.
     [[nodiscard]] VerdictSpan verdictSpan() const;
-    /// Of one character; of one that is not listed that there is nothing.
+    /// Of one character or who took over from it; of one that is not listed that there is nothing.
     [[nodiscard]] const TakeVerdict& verdict(const CharacterKey& key) const;
     /// What is followed is a file.
     [[nodiscard]] bool isRecording() const { return m_ingest.isFile(); }
@@ -197,6 +196,8 @@ public:
     }
     /// The same now, whatever the cursor.
     [[nodiscard]] std::vector<const Character*> charactersNow() const { return charactersBefore(end()); }
+    /// One that is listed before a packet; null for others.
+    [[nodiscard]] const Character* findListed(const CharacterKey& key, std::uint64_t before) const;
 
     /// "Factory", or "Character 1" with its ID where no name was sent, or there is no such character.
     [[nodiscard]] ForeignText displayName(const CharacterKey& key) const;
@@ -292,9 +293,8 @@ private:
     Ingest& m_ingest;
     const Choices& m_choices;
     std::unique_ptr<Decoded> m_decoded;
-    /// What was judged last, and of what.
     struct Judged;
-    mutable std::shared_ptr<Judged> m_judged;
+    mutable std::shared_ptr<Judged> m_judged; ///< what was judged last, and of what
 };
 
 } // namespace posewire::model

@@ -56,14 +56,24 @@ CharacterKey SessionView::currentBefore(const CharacterKey& key, std::uint64_t e
 }
 
 std::vector<const Character*> SessionView::charactersBefore(std::uint64_t end) const {
-    std::vector<const Character*> shown;
+    using Appearing = std::pair<std::uint64_t, const Character*>;
+    std::vector<Appearing> appearing;
     for (const Character& character : characters()) {
-        if (character.isConfirmed && successor(character, end) == nullptr) {
-            shown.push_back(&character);
+        if (findListed(character.key, end) != nullptr) {
+            appearing.emplace_back(appearance(character), &character);
         }
     }
-    std::ranges::stable_sort(shown, {}, [this](const Character* one) { return appearance(*one); });
+    std::ranges::stable_sort(appearing, {}, &Appearing::first);
+    std::vector<const Character*> shown(appearing.size());
+    std::ranges::transform(appearing, shown.begin(), &Appearing::second);
     return shown;
+}
+
+const Character* SessionView::findListed(const CharacterKey& key, std::uint64_t before) const {
+    const Character* character = find(key);
+    const bool isListed =
+        character != nullptr && character->isConfirmed && successor(*character, before) == nullptr;
+    return isListed ? character : nullptr;
 }
 
 std::vector<const Character*> SessionView::lineage(const CharacterKey& key) const {

@@ -176,8 +176,12 @@ std::optional<TakeVerdict> onPose(const SessionView& session, const Character& c
 
 TakeVerdict withoutIncident(const SessionView& session, const std::optional<CharacterKey>& only,
                             log::Stamp since) {
-    std::vector<const Character*> characters = session.charactersNow();
-    std::erase_if(characters, [&](const Character* one) { return only && one->key != *only; });
+    std::vector<const Character*> characters;
+    if (!only) {
+        characters = session.charactersNow();
+    } else if (const Character* one = session.findListed(*only, session.end())) {
+        characters.push_back(one);
+    }
     if (characters.empty()) {
         return lasting(TakeVerdict::State::None, "No data yet", "no data yet", {});
     }
@@ -284,11 +288,12 @@ TakeVerdict verdictOf(const SessionView& session, const VerdictSpan& span,
     return Judge(session, span).of(character);
 }
 
-TakeVerdicts verdictsOf(const SessionView& session, const VerdictSpan& span) {
+TakeVerdicts verdictsOf(const SessionView& session, const VerdictSpan& span,
+                        const std::vector<const Character*>& characters) {
     const Judge judge(session, span);
     TakeVerdicts verdicts{judge.of({}), {}};
-    for (const Character& character : session.characters()) {
-        verdicts.characters[character.key] = judge.of(character.key);
+    for (const Character* character : characters) {
+        verdicts.characters[character->key] = judge.of(character->key);
     }
     return verdicts;
 }
@@ -320,7 +325,7 @@ const TakeVerdicts& SessionView::verdicts() const {
                               retired().senders,
                               isRecording()};
     if (m_judged == nullptr || m_judged->basis != basis) {
-        m_judged = std::make_shared<Judged>(Judged{basis, verdictsOf(*this, verdictSpan())});
+        m_judged = std::make_shared<Judged>(Judged{basis, verdictsOf(*this, verdictSpan(), charactersNow())});
     }
     return m_judged->verdicts;
 }
@@ -328,7 +333,7 @@ const TakeVerdicts& SessionView::verdicts() const {
 const TakeVerdict& SessionView::verdict(const CharacterKey& key) const {
     static const TakeVerdict none;
     const auto& characters = verdicts().characters;
-    const auto found = characters.find(key);
+    const auto found = characters.find(currentNow(key));
     return found == characters.end() ? none : found->second;
 }
 

@@ -41,12 +41,13 @@ struct VerdictSpan {
 /// The last moments of what is on the wire, but nothing before the reset.
 [[nodiscard]] VerdictSpan recentSpan(const SessionView& session);
 
-/// Of all together, and of each character.
+/// Of all together, and of each character that was asked for.
 struct TakeVerdicts {
     TakeVerdict all;
     std::map<CharacterKey, TakeVerdict> characters;
 };
-[[nodiscard]] TakeVerdicts verdictsOf(const SessionView& session, const VerdictSpan& span);
+[[nodiscard]] TakeVerdicts verdictsOf(const SessionView& session, const VerdictSpan& span,
+                                      const std::vector<const Character*>& characters);
 
 /// Of all, or of one character and its sender, through restarts of the sender.
 [[nodiscard]] TakeVerdict verdictOf(const SessionView& session, const VerdictSpan& span,

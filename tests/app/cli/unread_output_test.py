@@ -97,7 +97,7 @@ def check_reader_gone(cli: str, folder: Path) -> None:
     monitor.process.send_signal(signal.SIGTERM)
     err = monitor.process.stderr.read()
     assert monitor.process.wait(timeout=10) == 0, err
-    assert err.count("nobody reads the table any more") == 1, err
+    assert err.count("nobody reads standard output any more") == 1, err
     assert f"recorded {monitor.sent} packets, {recording.stat().st_size} bytes to {recording}" in err, err
 
 
