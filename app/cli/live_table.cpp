@@ -3,6 +3,7 @@
 
 #include "core/export/html.h"
 #include "core/export/session_reading.h"
+#include "core/model/session/losses.h"
 #include "core/wire/type_table.h"
 
 #include <algorithm>
@@ -66,8 +67,8 @@ std::string tableRow(std::string_view name, Cell cell) {
     return line;
 }
 
-std::string streamLine(const model::Stream& stream) {
-    const model::StreamFigures figures = model::figuresOf(stream);
+std::string streamLine(const model::Losses& losses, const model::Stream& stream) {
+    const model::StreamFigures figures = losses.figuresOf(stream);
     return tableRow("    " + wire::typeTitle(stream.key.type), [&](const Column& column) {
         return figures.has(column.figure) ? exporting::figureText(figures, column.figure, column.decimals)
                                           : std::string();
@@ -104,6 +105,7 @@ std::vector<std::string> liveTable(const model::SessionView& session, const expo
         return lines;
     }
     lines.push_back(tableRow("", [](const Column& column) { return std::string(column.title); }));
+    const model::Losses losses(session, {});
     for (const model::Sender& sender : session.senders()) {
         if (!exporting::hasSentMxtp(sender)) {
             continue;
@@ -117,7 +119,7 @@ std::vector<std::string> liveTable(const model::SessionView& session, const expo
             lines.push_back("  " + session.displayName(character->key).shown() + " (" +
                             std::to_string(character->key.character) + ")");
             for (const model::Stream* stream : exporting::streamsByType(session, character->key)) {
-                lines.push_back(streamLine(*stream));
+                lines.push_back(streamLine(losses, *stream));
             }
         }
     }

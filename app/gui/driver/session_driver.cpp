@@ -123,6 +123,12 @@ void SessionDriver::tick() {
     playOn();
     followComparison();
     const bool isTableTick = now - m_tableTick >= kTableTick;
+    if (isTableTick) { // tables and pictures say the same
+        m_live.judge();
+        if (m_file != nullptr) {
+            m_file->session().judge();
+        }
+    }
     if (now - m_retry >= kRetry) {
         m_retry = now;
         m_receiving.retry();

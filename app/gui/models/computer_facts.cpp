@@ -67,14 +67,12 @@ PropertyValue lostByCause(const Source& from) {
 }
 
 PropertyValue longestGap(const Source& from) {
-    const auto range = from.view.range();
+    const model::Losses losses(from.view, from.view.range());
     std::uint64_t longest = 0;
     double rateHz = 0;
     for (const model::Stream& stream : from.view.streams()) {
-        const model::StreamCounts counts =
-            range ? stream.accounting.countsBetween(range->from, range->to) : stream.accounting.counts();
-        if (counts.longestGapSamples > longest) {
-            longest = counts.longestGapSamples;
+        if (const std::uint64_t own = losses.longestGapOf(stream); own > longest) {
+            longest = own;
             rateHz = stream.statistics.rateHz();
         }
     }

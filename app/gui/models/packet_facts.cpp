@@ -72,6 +72,9 @@ QString findingsOf(model::SessionView& view, const log::Packet& packet, const mo
     if (digest.isRestart) {
         texts += tr("counter restarted");
     }
+    if (digest.isInDoubt) {
+        texts += tr("counter jumped");
+    }
     if (digest.isTruncated) {
         texts += tr("cut off when it was received");
     }
@@ -113,6 +116,9 @@ QStringList sequenceFindings(model::SessionView& view, std::uint64_t number) {
     }
     if (digest->isRestart) {
         texts += tr("The sample counter of the stream restarted here.");
+    }
+    if (digest->isInDoubt) {
+        texts += tr("The sample counter jumped here. What comes next shows whether it restarted.");
     }
     return texts;
 }

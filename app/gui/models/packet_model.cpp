@@ -59,7 +59,7 @@ QString sampleText(const PacketFacts& facts) {
 
 QVariant sampleColour(const PacketFacts& facts) {
     const model::PacketDigest& digest = facts.digest;
-    return warningWhere(digest.isDuplicate || digest.isReordered || digest.isRestart);
+    return warningWhere(digest.isDuplicate || digest.isReordered || digest.isRestart || digest.isInDoubt);
 }
 
 } // namespace

@@ -186,8 +186,9 @@ TableColumn<StreamRow> StatisticsModel::figureColumn(const StatisticsModel& mode
 TableColumn<StreamRow> StatisticsModel::curveColumn(const StatisticsModel& model) {
     const auto colour = [&model](const StreamRow& row) {
         const model::Stream* shown = model.stream(model.indexOf(row));
-        return QVariant(shown == nullptr ? theme().dim
-                                         : healthColour(streamState(model.view(), *shown).health));
+        return QVariant(shown == nullptr
+                            ? theme().dim
+                            : healthColour(streamState(model.view(), *model.m_losses, *shown).health));
     };
     const auto lists = [&model](const StreamRow& row, int role) {
         if (role != kSeriesRole && role != kMarksRole) {
@@ -287,7 +288,7 @@ StatisticsModel::Curve StatisticsModel::makeCurve(const QModelIndex& index) cons
     const model::RangeParts parts = model::partsOf(shown, kCurvePoints, kLeastPart, resolution);
     std::array<model::RangePart, kCurvePoints> counted{};
     for (const model::Stream* each : streams) {
-        model::addParts(each->accounting, parts, counted);
+        m_losses->addParts(*each, parts, counted);
     }
     Curve made;
     const double seconds = log::secondsOf(parts.width);
@@ -354,8 +355,9 @@ void RangeOverview::refresh() {
     }
     m_parts = model::partsOf(m_span, kMostParts, kLeastOverviewPart, m_resolution);
     m_counted.assign(m_parts.count, {});
+    const model::Losses losses(m_view, {});
     for (const model::Stream& stream : m_view.streams()) {
-        model::addParts(stream.accounting, m_parts, m_counted);
+        losses.addParts(stream, m_parts, m_counted);
     }
 }
 

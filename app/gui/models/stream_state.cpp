@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 
 namespace posewire::gui {
 
@@ -50,7 +51,8 @@ PropertyValue verdictState(const model::TakeVerdict& verdict) {
     return {fromUtf8(verdict.brief), healthOf(verdict.state), fromUtf8(verdict.text)};
 }
 
-PropertyValue streamState(model::SessionView& view, const model::Stream& stream) {
+PropertyValue streamState(model::SessionView& view, const model::Losses& losses,
+                          const model::Stream& stream) {
     if (view.isSuperseded({stream.key.sender, stream.key.character})) {
         return ended();
     }
@@ -64,7 +66,8 @@ PropertyValue streamState(model::SessionView& view, const model::Stream& stream)
     if (const std::uint64_t malformed = stream.accounting.malformed(); malformed != 0) {
         return malformedState(malformed);
     }
-    const std::uint64_t lost = stream.accounting.counts().lost;
+    const model::LossesByCause byCause = losses.of(stream).byCause;
+    const std::uint64_t lost = std::accumulate(byCause.begin(), byCause.end(), std::uint64_t{0});
     return {grouped(lost), lost == 0 ? Health::Good : Health::Warning};
 }
 

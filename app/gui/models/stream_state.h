@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/gui/models/column.h"
+#include "core/model/session/losses.h"
 #include "core/model/session/session_view.h"
 #include "core/model/session/verdict.h"
 
@@ -12,8 +13,9 @@ inline constexpr double kSilentAge = 0.25;
 inline constexpr double kStaleAge = 1.0;
 
 /// Whether a stream is well: age first, then malformed datagrams, then lost samples. Types that are sent now
-/// and then (12, 13) never get stale.
-[[nodiscard]] PropertyValue streamState(model::SessionView& view, const model::Stream& stream);
+/// and then (12, 13) never get stale. Of `losses` the range is that in which what was lost counts.
+[[nodiscard]] PropertyValue streamState(model::SessionView& view, const model::Losses& losses,
+                                        const model::Stream& stream);
 [[nodiscard]] Health healthOf(model::TakeVerdict::State state);
 /// A verdict in a few words; the tooltip has it in full.
 [[nodiscard]] PropertyValue verdictState(const model::TakeVerdict& verdict);

@@ -30,6 +30,7 @@ void TimelineModel::refresh(const model::TimeRange& window, std::size_t most) {
                datagramsIn(window) <= kMostArrivals;
     m_parts = m_isFine ? fineParts(window, most)
                        : model::partsOf(window, most, kLeastBuckets * resolution, resolution);
+    m_losses.emplace(m_view, std::nullopt);
     m_rows.clear();
     for (const model::CharacterKey& key : boardOf(m_view, BoardOrder::Appearance)) {
         addRows(key);
@@ -80,8 +81,9 @@ const TimelineModel::Row& TimelineModel::shown(std::size_t row) {
     for (const log::StreamKey& key : read.streams) {
         if (m_isFine) {
             m_view.addArrivals(key, m_parts, 2 * kMostArrivals, read.parts); // edges of buckets
+            m_losses->takePending(key, m_parts, read.parts);
         } else if (const model::Stream* stream = m_view.find(key)) {
-            model::addParts(stream->accounting, m_parts, read.parts);
+            m_losses->addParts(*stream, m_parts, read.parts);
         }
     }
     return read;

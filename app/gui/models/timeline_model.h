@@ -4,6 +4,7 @@
 #include "app/gui/models/span_text.h"
 #include "app/gui/theme/character_mark.h"
 #include "core/model/accounting/range_figures.h"
+#include "core/model/session/losses.h"
 #include "core/model/session/session_view.h"
 
 #include <QString>
@@ -52,7 +53,8 @@ private:
 
     model::SessionView& m_view;
     model::RangeParts m_parts;
-    bool m_isFine = false; ///< parts are finer than the accounting's buckets
+    std::optional<model::Losses> m_losses; ///< as of the newest refresh
+    bool m_isFine = false;                 ///< parts are finer than the accounting's buckets
     std::vector<Row> m_rows;
     std::set<model::CharacterKey> m_open;
 };

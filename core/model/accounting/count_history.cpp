@@ -182,24 +182,30 @@ BurstCounts CountHistory::burstsBetween(log::Stamp from, log::Stamp to) const {
     return {came.bursts, came.burstLost, came.burstSamples};
 }
 
+/// Where few samples came, maybe none came without delay: buckets with less than half of the usual number,
+/// such as the last one of a stream, tell nothing of the clocks.
 ClockSkew CountHistory::skewBetween(log::Stamp from, log::Stamp to) const {
     const std::size_t end = firstFrom(to);
-    const Bucket* first = nullptr; // of the newest generation
-    const Bucket* last = nullptr;
+    std::size_t first = end; // of the newest generation
+    std::uint64_t count = 0;
     for (std::size_t i = firstFrom(from); i < end; ++i) {
-        const Bucket& bucket = m_buckets[i];
-        if (bucket.hasDifference) {
-            first = last != nullptr && last->generation == bucket.generation ? first : &bucket;
-            last = &bucket;
+        if (m_buckets[i].hasDifference) {
+            const bool isSame = first != end && m_buckets[first].generation == m_buckets[i].generation;
+            first = isSame ? first : i;
+            count = isSame ? count + 1 : 1;
         }
     }
-    if (first == nullptr) {
+    if (first == end) {
         return {};
     }
-    ClockFit fit(last->leastDelayed - first->leastDelayed);
-    for (const Bucket* bucket = first; bucket <= last; ++bucket) {
-        if (bucket->hasDifference) {
-            fit.add(bucket->leastDelayed, bucket->differenceMs);
+    const auto arrivalsIn = [this](std::size_t begin, std::size_t stop) {
+        return std::uint64_t{before(stop).arrivals - before(begin).arrivals};
+    };
+    ClockFit fit(m_buckets[end - 1].start + m_width - m_buckets[first].start);
+    const std::uint64_t all = arrivalsIn(first, end);
+    for (std::size_t i = first; i < end; ++i) {
+        if (m_buckets[i].hasDifference && 2 * count * arrivalsIn(i, i + 1) >= all) {
+            fit.add(m_buckets[i].leastDelayed, m_buckets[i].differenceMs);
         }
     }
     return fit.skew();

@@ -31,6 +31,7 @@ void applyVerdict(const Verdict& verdict, PacketDigest& digest) {
     digest.isDuplicate = verdict.isDuplicate;
     digest.isReordered = verdict.isReordered;
     digest.isRestart = verdict.isRestart;
+    digest.isInDoubt = false;
 }
 
 std::span<const Verdict> addToStream(const log::Packet& packet, const wire::Header& header,
@@ -44,7 +45,7 @@ std::span<const Verdict> addToStream(const log::Packet& packet, const wire::Head
     if (!verdicts.empty() && verdicts.back().packet == packet.number) {
         applyVerdict(verdicts.back(), digest);
     } else {
-        digest.isRestart = !wasInDoubt;
+        digest.isInDoubt = !wasInDoubt;
     }
     return verdicts;
 }

@@ -37,6 +37,7 @@ struct PacketDigest {
     bool isDuplicate : 1 = false;  ///< the same sample and datagram counter came before
     bool isReordered : 1 = false;  ///< its sample counter is below the highest one seen (RFC 4737 §3)
     bool isRestart : 1 = false;    ///< the sender's counter restarted
+    bool isInDoubt : 1 = false;    ///< its sample counter jumped: what comes next shows whether it restarted
     bool hasNotices : 1 = false;   ///< odd but readable
     bool isTruncated : 1 = false;  ///< longer than what could be received
     bool followsDrops : 1 = false; ///< this computer dropped datagrams of its socket just before it
@@ -44,7 +45,7 @@ struct PacketDigest {
     /// Whether an operator who looks for trouble wants to stop here.
     [[nodiscard]] bool isProblem() const {
         return kind != PacketKind::Datagram || gap != 0 || isDuplicate || isReordered || isRestart ||
-               hasNotices || isTruncated || followsDrops;
+               isInDoubt || hasNotices || isTruncated || followsDrops;
     }
 };
 static_assert(sizeof(PacketDigest) == 12, "one is kept for every packet of the log");
@@ -58,8 +59,8 @@ static_assert(sizeof(log::StreamEntry) + sizeof(PacketDigest) + 2 <= log::kBesid
 void applyVerdict(const Verdict& verdict, PacketDigest& digest);
 
 /// Adds the packet of a digest to the accounting of its stream and copies the verdict, if there is one yet.
-/// One that must wait for a verdict counts as a restart where the doubt began with it; the verdicts on those
-/// before it are among those returned.
+/// One that must wait for a verdict is in doubt where the doubt began with it; the verdicts on those before
+/// it are among those returned.
 std::span<const Verdict> addToStream(const log::Packet& packet, const wire::Header& header,
                                      StreamAccounting& accounting, PacketDigest& digest);
 

@@ -8,10 +8,9 @@
 namespace posewire::model {
 namespace {
 
-FaultCounts countsOf(const Losses& losses, const Stream& stream, const std::optional<TimeRange>& range) {
-    const auto [lost, pending] = losses.of(stream);
-    const bool isCounted = countsSamples(stream.key.type);
-    return {lost, pending, isCounted ? stream.accounting.counts(range).expected() : 0};
+FaultCounts countsOf(const Losses& losses, const Stream& stream) {
+    const auto [lost, pending, expected] = losses.of(stream);
+    return {lost, pending, expected};
 }
 
 void add(CharacterFaults& character, const log::StreamKey& key, const FaultCounts& counts) {
@@ -53,7 +52,7 @@ FaultMatrix faultMatrix(const SessionView& session, const std::optional<TimeRang
         }
         CharacterFaults& faults = character.isConfirmed ? *row : unconfirmed;
         for (const Stream* stream : character.streams) {
-            const FaultCounts counts = countsOf(losses, *stream, range);
+            const FaultCounts counts = countsOf(losses, *stream);
             if (countsSamples(stream->key.type) || counts.total() != 0) {
                 add(faults, stream->key, counts);
                 matrix.sum += counts;

@@ -21,9 +21,19 @@ Losses::Losses(const SessionView& session, const std::optional<TimeRange>& range
     session.forEachPending(
         [&](const log::StreamKey& stream, std::uint64_t missing, log::Stamp /*from*/, log::Stamp to) {
             if (!range || (to >= range->from && to < range->to)) {
-                m_pending[stream] += missing;
+                Pending& pending = m_pending[stream];
+                pending.samples += missing;
+                pending.longest = std::max(pending.longest, missing);
+                pending.gaps.emplace_back(to, missing);
             }
         });
+    if (!m_pending.empty()) {
+        for (const Gap& gap : session.gaps()) {
+            if (const auto pending = m_pending.find(gap.stream); pending != m_pending.end() && gap.isJudged) {
+                pending->second.settled = std::max<std::uint64_t>(pending->second.settled, gap.lost);
+            }
+        }
+    }
     if (!range) {
         return;
     }
@@ -45,11 +55,19 @@ Losses::Losses(const SessionView& session, const std::optional<TimeRange>& range
     });
 }
 
+const Losses::Pending* Losses::pendingOf(const log::StreamKey& stream) const {
+    const auto found = m_pending.find(stream);
+    return found == m_pending.end() ? nullptr : &found->second;
+}
+
 StreamLosses Losses::of(const Stream& stream) const {
     StreamLosses losses{causesOf(stream)};
-    if (const auto missing = m_pending.find(stream.key); missing != m_pending.end()) {
-        losses.pending = std::min(losses.byCause[kUnknown], missing->second);
+    if (const Pending* pending = pendingOf(stream.key)) {
+        losses.pending = std::min(losses.byCause[kUnknown], pending->samples);
         losses.byCause[kUnknown] -= losses.pending;
+    }
+    if (countsSamples(stream.key.type)) {
+        losses.expected = stream.accounting.counts(m_range).expected() - losses.pending;
     }
     return losses;
 }
@@ -73,11 +91,44 @@ LossesByCause Losses::causesOf(const Stream& stream) const {
 
 StreamFigures Losses::figuresOf(const Stream& stream) const {
     StreamFigures figures = model::figuresOf(stream, m_range);
-    const LossesByCause losses = of(stream).byCause;
+    const StreamLosses losses = of(stream);
     for (std::size_t cause = 0; cause < kFigureOfCause.size(); ++cause) {
-        figures.set(kFigureOfCause[cause], static_cast<double>(losses[cause]));
+        figures.set(kFigureOfCause[cause], static_cast<double>(losses.byCause[cause]));
+    }
+    if (losses.pending != 0) {
+        const auto pending = static_cast<double>(losses.pending);
+        const double missing = figures.orZero(Figure::Missing) - pending;
+        figures.set(Figure::Missing, missing);
+        figures.set(Figure::Lost, std::max(0.0, figures.orZero(Figure::Lost) - pending));
+        figures.set(Figure::LossShare, missing > 0 ? 100 * missing / figures.expected() : 0);
+        figures.set(Figure::LongestGap, static_cast<double>(longestGapOf(stream)));
     }
     return figures;
+}
+
+std::uint64_t Losses::longestGapOf(const Stream& stream) const {
+    const std::uint64_t longest = stream.accounting.counts(m_range).longestGapSamples;
+    const Pending* pending = pendingOf(stream.key);
+    return pending != nullptr && longest <= pending->longest ? std::min(longest, pending->settled) : longest;
+}
+
+void Losses::addParts(const Stream& stream, const RangeParts& parts, std::span<RangePart> into) const {
+    model::addParts(stream.accounting, parts, into);
+    takePending(stream.key, parts, into);
+}
+
+void Losses::takePending(const log::StreamKey& stream, const RangeParts& parts,
+                         std::span<RangePart> from) const {
+    const Pending* pending = parts.count != 0 ? pendingOf(stream) : nullptr;
+    if (pending == nullptr) {
+        return;
+    }
+    for (const auto& [stamp, samples] : pending->gaps) {
+        if (stamp >= parts.first && stamp < parts.beginOf(parts.count)) {
+            RangePart& part = from[static_cast<std::size_t>((stamp - parts.first) / parts.width)];
+            part.lost -= static_cast<std::uint32_t>(std::min<std::uint64_t>(part.lost, samples));
+        }
+    }
 }
 
 } // namespace posewire::model

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/model/accounting/range_figures.h"
 #include "core/model/accounting/stream_figures.h"
 #include "core/model/session/session_view.h"
 
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <unordered_map>
+#include <utility>
+#include <vector>
 
 namespace posewire::model {
 
@@ -23,7 +27,8 @@ static_assert(kFigureOfCause.size() == kLossCauses);
 /// What one stream lacks; the sum of all is what it has lost and what is incomplete.
 struct StreamLosses {
     LossesByCause byCause{};
-    std::uint64_t pending = 0; ///< not here yet, and not yet lost: late packets may still bring them
+    std::uint64_t pending = 0;  ///< not here yet, and not yet lost: late packets may still bring them
+    std::uint64_t expected = 0; ///< samples that should have come, but those; 0 for messages
 };
 
 /// Whose losses they were, of all streams of a session in one range of time: read once, then asked for each
@@ -34,15 +39,28 @@ public:
     Losses(const SessionView& session, const std::optional<TimeRange>& range);
 
     [[nodiscard]] StreamLosses of(const Stream& stream) const;
-    /// Every figure of a stream in the range, with whose losses they were; what is pending is nobody's.
+    /// Every figure of a stream in the range, with whose losses they were; what is pending is not lost.
     [[nodiscard]] StreamFigures figuresOf(const Stream& stream) const;
+    /// Most samples lost in a row, in the range.
+    [[nodiscard]] std::uint64_t longestGapOf(const Stream& stream) const;
+    /// As model::addParts; what is pending is not lost.
+    void addParts(const Stream& stream, const RangeParts& parts, std::span<RangePart> into) const;
+    /// Takes what is pending out of what was counted as lost in equal parts of the range.
+    void takePending(const log::StreamKey& stream, const RangeParts& parts, std::span<RangePart> from) const;
 
 private:
+    struct Pending {
+        std::uint64_t samples = 0;
+        std::uint64_t longest = 0; ///< in a row
+        std::uint64_t settled = 0; ///< the longest gap of the newest that is not pending
+        std::vector<std::pair<log::Stamp, std::uint64_t>> gaps{}; ///< by when the next sample came
+    };
     [[nodiscard]] LossesByCause causesOf(const Stream& stream) const;
+    [[nodiscard]] const Pending* pendingOf(const log::StreamKey& stream) const;
 
     std::optional<TimeRange> m_range;
     std::unordered_map<log::StreamKey, LossesByCause> m_known; ///< of the range, where there is one
-    std::unordered_map<log::StreamKey, std::uint64_t> m_pending;
+    std::unordered_map<log::StreamKey, Pending> m_pending;
 };
 
 } // namespace posewire::model

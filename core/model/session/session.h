@@ -21,6 +21,10 @@ public:
     /// All that was read is a file that has ended: nobody in it is expected to send on.
     void endFile() { m_ingest.endFile(); }
 
+    /// What verdicts() says is judged now and stays until this is called again, so that all that show it say
+    /// the same. Without this it is judged whenever something has changed.
+    void judge() { keepVerdicts(); }
+
     /// Holds for what comes from now on.
     void setThresholds(const Thresholds& thresholds) { m_ingest.setThresholds(thresholds); }
     /// Something that no packet tells: it happened in this computer.

@@ -39,8 +39,7 @@ struct Unproven {
 /// The session as panels, exports and the viewport read it: what was received, at the operator's cursor, and
 /// what the operator chose. It changes nothing but its own memory of what it decoded. One thread.
 ///
-/// Poses, bodies and gaps are declared here and defined in headers of their own, which only those
-/// include who look into them.
+/// Poses, bodies and gaps are declared here and defined in headers of their own.
 class SessionView {
 public:
     /// Messages of types that count samples which are larger, all parts together, are not read: those of MVN
@@ -53,7 +52,7 @@ public:
     SessionView(const SessionView&) = delete;
     SessionView& operator=(const SessionView&) = delete;
 
-    // What was received, whatever the cursor.
+    // What was received.
     [[nodiscard]] const Roster<log::SenderId, Sender>& senders() const { return m_ingest.senders(); }
     [[nodiscard]] const Roster<CharacterKey, Character>& characters() const { return m_ingest.characters(); }
     [[nodiscard]] const Roster<log::StreamKey, Stream>& streams() const { return m_ingest.streams(); }
@@ -257,6 +256,7 @@ protected:
     /// Both outlive this; neither is looked at here.
     SessionView(Ingest& ingest, const Choices& choices);
     ~SessionView();
+    void keepVerdicts(); ///< see Session
 
 private:
     /// What was decoded when somebody asked for it, until the cursor has moved on.

@@ -85,7 +85,8 @@ private:
         if (!m_losses) {
             m_losses.emplace(m_session, m_range);
         }
-        return {m_losses->of(*stream).byCause, 0, stream->accounting.counts(m_range).expected()};
+        const StreamLosses losses = m_losses->of(*stream);
+        return {losses.byCause, 0, losses.expected};
     }
 
     const SessionView& m_session;
@@ -311,13 +312,25 @@ struct SessionView::Judged {
     };
     Basis basis;
     TakeVerdicts verdicts;
+    bool isKept = false; ///< whatever changes
 };
 
 VerdictSpan SessionView::verdictSpan() const {
     return isRecording() ? VerdictSpan{} : recentSpan(*this);
 }
 
+void SessionView::keepVerdicts() {
+    if (m_judged != nullptr) {
+        m_judged->isKept = false;
+    }
+    static_cast<void>(verdicts());
+    m_judged->isKept = true;
+}
+
 const TakeVerdicts& SessionView::verdicts() const {
+    if (m_judged != nullptr && m_judged->isKept) {
+        return m_judged->verdicts;
+    }
     const Judged::Basis basis{end(),
                               isRecording() ? log::Stamp() : now(), // at rest nothing happens
                               incidents().version(),

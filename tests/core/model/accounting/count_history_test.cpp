@@ -254,6 +254,21 @@ TEST(CountHistory, FitsTheClockOfHoursInWiderBuckets) {
     }
 }
 
+TEST(CountHistory, ASampleThatIsHeldUpAtTheEndIsNoSkew) {
+    CountHistory history;
+    const auto addSample = [&history](log::Stamp stamp, double differenceMs) {
+        history.addArrival(stamp, 4ms, 0);
+        history.addDifference(stamp, differenceMs, 1);
+    };
+    for (log::Stamp stamp = at(100s); stamp < at(111s); stamp += 4ms) {
+        addSample(stamp, 0);
+    }
+    EXPECT_NEAR(history.skewBetween(at(0s), at(200s)).skewPpm, 0, 1e-6);
+    addSample(at(111'060ms), 60); // nothing without delay came beside it
+    EXPECT_NEAR(history.skewBetween(at(0s), at(200s)).skewPpm, 0, 1e-6);
+    EXPECT_NEAR(history.skewBetween(at(0s), at(200s)).driftMs, 0, 1e-6);
+}
+
 TEST(CountHistory, FitsTheNewestGenerationOfARangeAlone) {
     CountHistory history;
     addClock(history, at(100s), 60s, 100.0, 1);

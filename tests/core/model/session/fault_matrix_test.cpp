@@ -120,12 +120,39 @@ TEST_F(FaultMatrixTest, WhatIsNotHereYetIsNobodysLoss) {
     const Stream& stream = m_session.streams().front();
     const StreamFigures figures = Losses(m_session, {}).figuresOf(stream);
     EXPECT_EQ(figures.count(Figure::LostUnknown), 0U) << "statistics and report say no more than the matrix";
+    for (const Figure figure : {Figure::Lost, Figure::Missing, Figure::LossShare, Figure::LongestGap}) {
+        EXPECT_EQ(figures.orZero(figure), 0) << rowOf(figure).title;
+        EXPECT_GT(figuresOf(stream).orZero(figure), 0) << rowOf(figure).title;
+    }
     EXPECT_EQ(figuresOf(stream).count(Figure::LostUnknown), 5U) << "causes of scripts sum up to what is lost";
     EXPECT_EQ(matrix(TimeRange{log::Stamp(100s), log::Stamp(102s)}).sum.pending, 0U);
     samples(0, 307, 360);
     all = matrix();
     EXPECT_EQ(all.sum.total(), 10U);
     EXPECT_EQ(all.sum.pending, 0U);
+}
+
+TEST_F(FaultMatrixTest, WhatIsNotHereYetIsNoLossOverTimeEither) {
+    samples(0, 1, 100);
+    samples(0, 103, 300);
+    m_at += 50ms;
+    samples(0, 306, 306);
+    follow();
+    const Stream& stream = m_session.streams().front();
+    const RangeParts parts = partsOf({log::Stamp(100s), m_at}, 100, 100ms, stream.accounting.resolution());
+    std::vector<RangePart> counted(parts.count);
+    const Losses losses(m_session, {});
+    losses.addParts(stream, parts, counted);
+    std::uint32_t lost = 0;
+    std::uint32_t came = 0;
+    for (const RangePart& part : counted) {
+        lost += part.lost;
+        came += part.samples;
+    }
+    EXPECT_EQ(came, 299U);
+    EXPECT_EQ(lost, 2U) << "those that are settled";
+    EXPECT_EQ(losses.longestGapOf(stream), 2U);
+    EXPECT_EQ(stream.accounting.counts().longestGapSamples, 5U);
 }
 
 TEST_F(FaultMatrixTest, SumsUpToWhatTheStreamsLostWhateverTheCause) {
