@@ -22,6 +22,8 @@ constexpr float kHeldLeast = 0.60F;
 constexpr float kTooFar = 1.12F;
 /// It comes to rest this close to where it wants to be, as a share of its distance.
 constexpr float kNearEnough = 0.01F;
+/// From where it is so many times farther away than it wants to be, it jumps: gliding would take seconds.
+constexpr float kLost = 8;
 constexpr int kFitRounds = 8;
 
 struct ScreenBox {
@@ -137,6 +139,10 @@ void CameraMotion::follow(std::span<const render::Bounds> boxes, float aspect, d
         return;
     }
     const render::Camera wanted = fitted(m_camera, boxes, aspect);
+    if (std::max(m_camera.distance, glm::distance(wanted.target, m_camera.target)) >
+        kLost * wanted.distance) {
+        m_camera = wanted;
+    }
     const auto share = static_cast<float>(1 - std::exp(-std::clamp(seconds, 0.0, 1.0) / kFollowSeconds));
     m_camera.target += share * (wanted.target - m_camera.target);
     if (wanted.distance > m_camera.distance || wanted.distance * kTooFar < m_camera.distance) {

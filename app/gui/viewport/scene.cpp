@@ -55,15 +55,38 @@ render::Provenance provenanceOf(const model::CharacterPose& pose, std::size_t se
     }
 }
 
+/// Of the body, without origins that are far from it: a corrupt one must not lead the camera away.
+render::Bounds boundsOf(const std::array<glm::vec3, render::kSegmentCount>& origins) {
+    constexpr float kReach = 6; // times the median distance; those of a person are within 3
+    const auto medianOf = [&origins](auto valueOf) {
+        std::array<float, render::kSegmentCount> values{};
+        std::ranges::transform(origins, values.begin(), valueOf);
+        std::ranges::nth_element(values, values.begin() + values.size() / 2);
+        return values[values.size() / 2];
+    };
+    const glm::vec3 middle{medianOf([](const glm::vec3& at) { return at.x; }),
+                           medianOf([](const glm::vec3& at) { return at.y; }),
+                           medianOf([](const glm::vec3& at) { return at.z; })};
+    const auto distanceOf = [&middle](const glm::vec3& at) { return glm::distance(at, middle); };
+    const float reach = kReach * medianOf(distanceOf);
+    render::Bounds bounds;
+    for (const glm::vec3& origin : origins) {
+        if (distanceOf(origin) <= reach) {
+            bounds.add(origin);
+        }
+    }
+    return bounds;
+}
+
 void makePalette(const model::CharacterPose& pose, Figure& figure) {
     std::array<glm::vec3, render::kSegmentCount> positions{};
     std::array<glm::quat, render::kSegmentCount> orientations{};
     for (std::size_t i = 0; i < render::kSegmentCount; ++i) {
         positions[i] = vectorOf(pose.segments[i].position);
         orientations[i] = rotationOf(pose.segments[i].orientation);
-        figure.bounds.add(positions[i]);
         figure.look.provenance[i] = provenanceOf(pose, i);
     }
+    figure.bounds = boundsOf(positions);
     const PosedHands hands = handsOf(pose);
     const render::PaletteJob job{positions,    orientations,  figure.mesh->origins,      figure.palette,
                                  hands.left(), hands.right(), figure.mesh->fingerOrigins};

@@ -80,7 +80,7 @@ bool read(const Items& items, const wire::Header& header, CharacterPose& pose, T
     for (std::size_t i = 0; i < items.size(); ++i) {
         const SegmentPose segment = toPose(items[i]);
         const auto position = static_cast<std::size_t>(placement.positions[i]);
-        if (position >= pose.segments.size() || pose.isPresent(position) || !segment.position.allFinite() ||
+        if (position >= pose.segments.size() || pose.isPresent(position) || !isPlace(segment.position) ||
             !segment.orientation.coeffs().allFinite()) {
             continue;
         }
@@ -107,7 +107,7 @@ bool readUnity(const wire::PoseUnity& message, const wire::Header& header,
         const auto from = static_cast<std::size_t>(std::max(parent, 0));
         const SegmentPose bone{origins[i] - origins[from], local.orientation};
         const bool isFinite = local.orientation.coeffs().allFinite() &&
-                              (parent >= 0 ? pose.isPresent(from) : local.position.allFinite());
+                              (parent >= 0 ? pose.isPresent(from) : isPlace(local.position));
         if (isFinite) {
             const bool isSent = parent < 0 || (local.position - bone.position).norm() < kAgreement;
             pose.segments[i] = parent < 0 ? local : composed(pose.segments[from], bone);
@@ -141,7 +141,7 @@ struct SentItems {
     void add(const wire::LinearKinematics& message, const wire::Header& header, LengthUnit unit) {
         add(message.segments, header, [&](const wire::LinearSegment& item, std::size_t position) {
             const Eigen::Vector3d place = toVector(item.position) * metresPer(unit);
-            if (!positions[position] && place.allFinite()) {
+            if (!positions[position] && isPlace(place)) {
                 positions[position] = place;
             }
         });
@@ -167,7 +167,7 @@ void addMarkers(const wire::PointPositions& message, LengthUnit unit, const Body
         const auto reference = decodePointId(coding, point.id);
         const Eigen::Vector3d place = pointFromYUp(point.position, unit);
         if (!reference || reference->segmentId < 1 || reference->segmentId > kBodySegmentCount ||
-            !place.allFinite() || place.isZero(0)) {
+            !isPlace(place) || place.isZero(0)) {
             continue;
         }
         const int segment = reference->segmentId - 1;

@@ -118,6 +118,11 @@ Quaterniond toQuaternion(const std::array<float, 4>& floats) {
     return {floats[0], floats[1], floats[2], floats[3]};
 }
 
+bool isPlace(const Eigen::Vector3d& position) {
+    constexpr double kFarthest = 1e5;
+    return position.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() <= kFarthest;
+}
+
 Quaterniond normalizedOrIdentity(const Quaterniond& orientation) {
     constexpr double kShortest = 1e-6;
     const double norm = orientation.norm();

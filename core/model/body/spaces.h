@@ -65,6 +65,10 @@ std::array<float, 4> toFloats(const Eigen::Quaterniond& orientation);
 Eigen::Vector3d toVector(const std::array<float, 3>& floats);
 Eigen::Quaterniond toQuaternion(const std::array<float, 4>& floats);
 
+/// Whether it is where somebody can be, in metres: numbers, and within 100 km of the origin. What a corrupt
+/// datagram holds mostly is not.
+[[nodiscard]] bool isPlace(const Eigen::Vector3d& position);
+
 /// Normalized; the identity where that is impossible.
 Eigen::Quaterniond normalizedOrIdentity(const Eigen::Quaterniond& orientation);
 

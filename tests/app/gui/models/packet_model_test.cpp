@@ -87,7 +87,7 @@ TEST_F(PacketModelTest, NotesInWordsHowAPacketRelatesToItsStream) {
     pose(26);
     EXPECT_EQ(lastNote(), QStringLiteral("▲ gap: 1 sample missing"));
     pose(1'000'000);
-    EXPECT_EQ(lastNote(), QStringLiteral("▲ counter restarted"));
+    EXPECT_EQ(lastNote(), QStringLiteral("▲ counter jumped"));
 }
 
 TEST_F(PacketModelTest, NotesInWordsWhatIsWrongWithTheBytes) {

@@ -116,6 +116,19 @@ TEST(CameraMotion, ComesCloserWhenAllHaveGathered) {
     EXPECT_LT(motion.camera().distance, 0.6F * distance);
 }
 
+TEST(CameraMotion, IsBackAtOnceFromFarAway) {
+    CameraMotion motion;
+    const std::array person{personAt(0, 0)};
+    motion.follow(person, kAspect, 0);
+    const render::Camera before = motion.camera();
+    render::Bounds astray = personAt(0, 0);
+    astray.add(glm::vec3(90'000, 0, 1)); // for one sample
+    motion.follow(std::array{astray}, kAspect, 0.016);
+    motion.follow(person, kAspect, 0.016);
+    EXPECT_NEAR(motion.camera().distance, before.distance, 0.1 * static_cast<double>(before.distance));
+    EXPECT_LT(glm::distance(motion.camera().target, before.target), 0.1F);
+}
+
 TEST(CameraMotion, OrbitKeepsFollowing) {
     CameraMotion motion;
     const std::array there{personAt(5, 5)};

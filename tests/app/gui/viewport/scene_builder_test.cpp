@@ -61,6 +61,21 @@ TEST_F(SceneBuilderTest, ThePaletteTakesEachSegmentWhereThePoseHasIt) {
     }
 }
 
+TEST_F(SceneBuilderTest, ACorruptSegmentDoesNotLeadTheCameraAway) {
+    perform(1);
+    const render::Bounds well = build().figures[0].bounds;
+    performer::Performer performer(sending(1, {2}));
+    wire::Datagram datagram = performer.frame(3).front();
+    std::get<wire::PoseQuaternion>(datagram.body).segments[10].position[0] = 700.0F;
+    stage.send(datagram, stage.now + 4ms);
+    stage.follow();
+    const Figure figure = build().figures.at(0);
+    EXPECT_NEAR(stage.session.pose(stage.key())->segments[10].position.x(), 700, 0.1)
+        << "it is drawn as sent";
+    EXPECT_LT(glm::distance(figure.bounds.centre(), well.centre()), 0.2F);
+    EXPECT_LT(figure.bounds.radius(), 1.5F * well.radius());
+}
+
 TEST_F(SceneBuilderTest, FingersOfThePoseMoveTheMesh) {
     performer::PerformerSettings settings = sending(1, {2, 12, 13});
     settings.fingers = true;

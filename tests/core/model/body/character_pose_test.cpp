@@ -141,16 +141,17 @@ TEST(SegmentNames, FindSegmentsOfTheBodyAlone) {
     }
 }
 
-TEST(CharacterPoses, LeaveOutItemsThatAreNotFinite) {
+TEST(CharacterPoses, LeaveOutItemsThatAreNowhere) {
     wire::Datagram datagram = poseWith(23);
     auto& segments = std::get<wire::PoseQuaternion>(datagram.body).segments;
     segments[3].position[2] = std::numeric_limits<float>::quiet_NaN();
     segments[4].position[0] = std::numeric_limits<float>::infinity();
+    segments[6].position[1] = -1.8e19F;     // one bit of its exponent was turned
     segments[5].orientation = {0, 0, 0, 0}; // cannot be normalized: the identity
     CharacterPose pose;
     ASSERT_TRUE(poseFromMessage(datagram, referenceOrigins(), LengthUnit::Metre, pose));
     for (std::size_t i = 0; i < 23; ++i) {
-        EXPECT_EQ(pose.isPresent(i), i != 3 && i != 4) << i;
+        EXPECT_EQ(pose.isPresent(i), i != 3 && i != 4 && i != 6) << i;
         EXPECT_TRUE(pose.segments[i].position.allFinite());
     }
     EXPECT_EQ(pose.segments[5].orientation.w(), 1);

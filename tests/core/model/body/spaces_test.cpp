@@ -103,6 +103,13 @@ TEST(Spaces, TurnsUnusableQuaternionsIntoTheIdentity) {
         poseFromQuaternion({1, {}, {2.0F, 0.0F, 0.0F, 0.0F}}).orientation.isApprox(Quaterniond::Identity()));
 }
 
+TEST(Spaces, TellsPlacesFromCorruptNumbers) {
+    EXPECT_TRUE(isPlace({0, -90'000, 3}));
+    EXPECT_FALSE(isPlace({0, -1.8e19, 3}));
+    EXPECT_FALSE(isPlace({std::numeric_limits<double>::quiet_NaN(), 0, 0}));
+    EXPECT_FALSE(isPlace({0, 0, std::numeric_limits<double>::infinity()}));
+}
+
 TEST(Spaces, ComposesAndTakesApartPoses) {
     std::mt19937 random(3);
     const SegmentPose parent{{1.0, 2.0, 3.0}, randomOrientation(random)};
