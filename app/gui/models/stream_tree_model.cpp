@@ -149,7 +149,20 @@ QString StreamTreeModel::nameOf(const StreamRow& row) const {
     return QString::fromStdString(wire::typeTitle(row.key.type));
 }
 
+bool StreamTreeModel::isEnded(const QModelIndex& index) const {
+    if (!index.isValid() || rowOf(index).kind != Kind::Sender) {
+        return false;
+    }
+    const auto& characters = senderOf(rowOf(index)).characters;
+    return !characters.empty() && std::ranges::all_of(characters, [this](const auto* character) {
+        return m_view.isSuperseded(character->key);
+    });
+}
+
 QVariant StreamTreeModel::marksOf(const StreamRow& row, int role) const {
+    if (role == kSuffixRole && isEnded(indexOf(row))) {
+        return tr("· ended");
+    }
     if (row.kind != Kind::Character || (role != kSuffixRole && role != kDotRole)) {
         return {};
     }

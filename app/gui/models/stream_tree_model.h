@@ -30,6 +30,8 @@ public:
     /// What a row is about; nothing above its own level is filled in for senders.
     [[nodiscard]] std::optional<model::CharacterKey> character(const QModelIndex& index) const;
     [[nodiscard]] std::optional<log::SenderId> sender(const QModelIndex& index) const;
+    /// Of the row of a sender: others have taken over all its characters.
+    [[nodiscard]] bool isEnded(const QModelIndex& index) const;
     /// Null where the row is not one of a stream.
     [[nodiscard]] const model::Stream* stream(const QModelIndex& index) const;
     /// The row of a character, or an invalid index.

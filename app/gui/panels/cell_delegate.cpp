@@ -11,6 +11,7 @@
 #include <QTreeView>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace posewire::gui {
@@ -25,6 +26,47 @@ constexpr double kPlaces = 120;
 int widthOf(const QStyleOptionViewItem& option, int column) {
     const auto* view = qobject_cast<const QTreeView*>(option.widget);
     return view == nullptr ? 0 : view->header()->sectionSize(column);
+}
+
+bool isEmpty(const QModelIndex& index) {
+    constexpr std::array kRoles{kSeriesRole, kSwatchRole, kDotRole, kSpanRole, int{Qt::CheckStateRole}};
+    return index.data().toString().isEmpty() &&
+           std::ranges::none_of(kRoles, [&](int role) { return index.data(role).isValid(); });
+}
+
+/// The next cell of the row that is shown; not valid at its end.
+QModelIndex shownBeside(const QTreeView& view, QModelIndex index, int direction) {
+    do {
+        index = index.siblingAtColumn(index.column() + direction);
+    } while (index.isValid() && view.isColumnHidden(index.column()));
+    return index;
+}
+
+/// Words that a cell shows a part of: its own, or those of a cell before it without room, which run on over
+/// empty cells. Not valid where there are none.
+struct RunningWords {
+    QModelIndex index;
+    QRect rect; ///< from the cell that they begin in to the last that is empty
+};
+
+RunningWords runningWords(const QTreeView& view, const QModelIndex& index, int space) {
+    QModelIndex origin = index;
+    while (origin.isValid() && isEmpty(origin)) {
+        origin = shownBeside(view, origin, -1);
+    }
+    if (!origin.isValid() || CellDelegate::isNumber(origin) || origin.data(Qt::CheckStateRole).isValid()) {
+        return {};
+    }
+    RunningWords words{origin, view.visualRect(origin)};
+    const QString text = origin.data().toString() + origin.data(kSuffixRole).toString();
+    if (view.fontMetrics().horizontalAdvance(text) + 2 * space <= words.rect.width()) {
+        return {};
+    }
+    for (QModelIndex beside = shownBeside(view, origin, 1); beside.isValid() && isEmpty(beside);
+         beside = shownBeside(view, beside, 1)) {
+        words.rect.setRight(words.rect.right() + view.columnWidth(beside.column()));
+    }
+    return words;
 }
 
 void paintMarks(QPainter& painter, const QRectF& rect, const QList<float>& marks) {
@@ -228,7 +270,14 @@ void CellDelegate::paint(QPainter* painter, const QStyleOptionViewItem& given,
         painter->setClipRect(rect);
         paintText(*painter, rect, option, before);
     } else if (!index.siblingAtColumn(index.column() + 1).data(kSpanRole).toBool()) {
-        paintText(*painter, rect, option, index);
+        const auto* view = qobject_cast<const QTreeView*>(option.widget);
+        const RunningWords words = view != nullptr ? runningWords(*view, index, space) : RunningWords{};
+        if (words.index.isValid()) {
+            option.text = words.index.data().toString();
+            paintText(*painter, words.rect.adjusted(space, 0, -space, 0), option, words.index);
+        } else {
+            paintText(*painter, rect, option, index);
+        }
     }
     painter->restore();
 }

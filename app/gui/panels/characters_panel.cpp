@@ -201,17 +201,29 @@ void CharactersPanel::showEmptyState() {
             .arg(port));
 }
 
+/// For names and verdicts, before figures: once there, it stays, so that words shift nothing.
+void CharactersPanel::keepRoom() {
+    constexpr qsizetype kMostOfVerdict = 26; // characters
+    constexpr qsizetype kMostOfName = 16;
+    QString verdict;
+    QString name;
+    for (int row = 0; row < m_model.rowCount(); ++row) {
+        const QString said = m_model.index(row, CharacterModel::kVerdict).data(kShortTextRole).toString();
+        const QModelIndex who = m_model.index(row, CharacterModel::kName);
+        const QString called =
+            who.data().toString().left(kMostOfName) + QLatin1Char(' ') + who.data(kSuffixRole).toString();
+        verdict = said.size() > verdict.size() ? said : verdict;
+        name = called.size() > name.size() ? called : name;
+    }
+    m_table->columns().keepOpenFor(verdict.left(kMostOfVerdict));
+    m_table->columns().keepElasticFor(CharacterModel::kName, QStringLiteral("         ") + name);
+}
+
 void CharactersPanel::refresh() {
     m_isFollowing = true;
     m_model.refresh();
     showEmptyState();
-    constexpr qsizetype kMostKept = 18; // characters: names need room, too
-    QString longest;
-    for (int row = 0; row < m_model.rowCount(); ++row) {
-        const QString verdict = m_model.index(row, CharacterModel::kVerdict).data(kShortTextRole).toString();
-        longest = verdict.size() > longest.size() ? verdict : longest;
-    }
-    m_table->columns().keepOpenFor(longest.left(kMostKept)); // once wider, it stays: words shift nothing
+    keepRoom();
     followSelection();
     m_isFollowing = false;
     const model::Unproven unproven = m_view.unproven();

@@ -58,6 +58,7 @@ private:
     void addActions(QMenu& menu, const QModelIndex& index);
     void addEndedActions(QMenu& menu, const QModelIndex& index);
     void showEmptyState();
+    void keepRoom();
     void showEnded();
     void showDetail();
     void fitRows();

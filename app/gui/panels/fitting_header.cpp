@@ -61,6 +61,14 @@ void FittingHeader::addElastic(int column, const QString& least, const QString& 
     measure();
 }
 
+void FittingHeader::keepElasticFor(int column, const QString& text) {
+    const auto elastic = std::ranges::find(m_elastic, column, &Elastic::column);
+    if (elastic != m_elastic.end() && textWidth(text) > soonWidth(column)) {
+        elastic->soon = text;
+        fit();
+    }
+}
+
 void FittingHeader::setUsual(std::vector<int> columns) {
     m_usual = std::move(columns);
     measure();

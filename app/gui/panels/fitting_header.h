@@ -38,6 +38,8 @@ public:
     /// fit; and wider, up to what `most` needs, where there is room left. The one added first comes first.
     /// Down to what `soon` needs it gets before any other column gives way.
     void addElastic(int column, const QString& least, const QString& most, const QString& soon = {});
+    /// Makes it never give way soon by so much that `text` does not fit, where it would.
+    void keepElasticFor(int column, const QString& text);
     [[nodiscard]] bool isChoosable() const { return !m_givingWay.empty(); }
     /// Without a choice of the operator only these are shown, as they fit.
     void setUsual(std::vector<int> columns);

@@ -9,6 +9,8 @@
 #include "app/gui/panels/table_view.h"
 #include "app/gui/theme/widgets.h"
 
+#include <set>
+
 class QSplitter;
 
 namespace posewire::gui {
@@ -34,10 +36,12 @@ public:
 
 private:
     void setUpStreams();
+    void foldEnded();
     void select(const QModelIndex& index);
     void addActions(QMenu& menu, const QModelIndex& index);
 
     StatisticsModel m_streams;
+    std::set<log::SenderId> m_folded; ///< senders that had ended
     PropertyModel m_computer;
     RangeBar* m_range;
     TableView* m_table;

@@ -66,6 +66,28 @@ TEST_F(StatisticsPanelTest, ShowsAsManyColumnsAsFitOrThoseThatWereChosen) {
     EXPECT_EQ(m_panel->state()["columns"].toArray().size(), 2);
 }
 
+TEST_F(StatisticsPanelTest, FoldsASenderThatAnotherTookOverFromOnce) {
+    perform(1);
+    open();
+    const QAbstractItemModel& model = *table().model();
+    EXPECT_TRUE(table().isExpanded(model.index(0, 0)));
+    performer::Performer again(sending(2, {2, 20, 23}, 100.0));
+    for (std::uint64_t frame = 0; frame < 100; ++frame) {
+        for (const wire::Datagram& datagram : again.frame(frame)) {
+            m_stage.send(datagram, Stage::kStart + 4s + frame * 10ms, "192.168.10.21:52012");
+        }
+    }
+    refresh();
+    ASSERT_EQ(model.rowCount(), 2);
+    EXPECT_FALSE(table().isExpanded(model.index(0, 0)));
+    EXPECT_EQ(model.index(0, 0).data(kSuffixRole).toString(), "· ended");
+    EXPECT_TRUE(table().isExpanded(model.index(1, 0)));
+    EXPECT_EQ(model.index(1, 0).data(kSuffixRole).toString(), "");
+    table().expand(model.index(0, 0));
+    refresh();
+    EXPECT_TRUE(table().isExpanded(model.index(0, 0))) << "the operator opened it";
+}
+
 TEST_F(StatisticsPanelTest, ForgetsColumnsThatOldSettingsKnowByPlaceAndThoseThatAreNoMore) {
     perform(1);
     open(4000);
