@@ -213,10 +213,17 @@ protected:
     void clearPlaces() { m_places.assign(1, {}); }
     /// As the last row below its parent, which has a place.
     void place(std::int32_t node, std::int32_t parent) {
+        place(node, parent, static_cast<int>(m_places[slotOf(parent)].children.size()));
+    }
+    /// As that row below its parent.
+    void place(std::int32_t node, std::int32_t parent, int row) {
         m_places.resize(std::max(m_places.size(), slotOf(node) + 1));
         std::vector<std::int32_t>& siblings = m_places[slotOf(parent)].children;
-        m_places[slotOf(node)] = {parent, static_cast<int>(siblings.size()), {}};
-        siblings.push_back(node);
+        m_places[slotOf(node)] = {parent, row, {}};
+        siblings.insert(siblings.begin() + row, node);
+        for (auto place = static_cast<std::size_t>(row) + 1; place < siblings.size(); ++place) {
+            m_places[slotOf(siblings[place])].row = static_cast<int>(place);
+        }
     }
 
 private:

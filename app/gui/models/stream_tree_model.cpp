@@ -29,7 +29,7 @@ bool StreamTreeModel::insertNew() {
     const std::uint64_t retired = m_view.retired().senders;
     if (m_retired == retired) {
         if (!insert(Kind::Sender) && !insert(Kind::Character)) {
-            insert(Kind::Stream);
+            insertStreams();
         }
         return false;
     }
@@ -89,11 +89,33 @@ bool StreamTreeModel::insert(Kind kind) {
     return true;
 }
 
+void StreamTreeModel::insertStreams() {
+    for (const StreamRow& row : rowsWithout(Kind::Stream)) {
+        if (const auto parent = parentOf(row)) {
+            const int place = placeBelow(*parent, row);
+            beginInsertRows(TreeModel::indexOf(*parent), place, place);
+            addNode(row, *parent);
+            endInsertRows();
+        }
+    }
+}
+
+int StreamTreeModel::placeBelow(int parent, const StreamRow& row) const {
+    const QModelIndex above = TreeModel::indexOf(parent);
+    int place = rowCount(above);
+    while (row.kind == Kind::Stream && place > 0 &&
+           rowOf(index(place - 1, 0, above)).key.type > row.key.type) {
+        --place;
+    }
+    return place;
+}
+
 void StreamTreeModel::addNode(const StreamRow& row, int parent) {
     const int node = static_cast<int>(m_rows.size());
+    const int below = placeBelow(parent, row);
     m_rows.push_back(row);
     m_nodes[row.kind][row.key] = node;
-    place(node, parent);
+    place(node, parent, below);
     if (row.kind == Kind::Sender) {
         for (const model::Character* character : senderOf(row).characters) {
             if (character->isConfirmed) {

@@ -20,8 +20,8 @@ struct StreamRow {
 
 [[nodiscard]] model::CharacterKey characterOf(const log::StreamKey& key);
 
-/// The rows of tables that show sender > character > stream, each in the order of first appearance, so that
-/// rows never jump. What they say is up to the columns.
+/// The rows of tables that show sender > character > stream, the first two in the order of first appearance,
+/// so that rows never jump, streams by their type. What they say is up to the columns.
 class StreamTreeModel : public TreeModel<StreamRow> {
 public:
     StreamTreeModel(model::SessionView& view, std::vector<TableColumn<StreamRow>> columns,
@@ -42,8 +42,8 @@ public:
 protected:
     using Kind = StreamRow::Kind;
 
-    /// Announces at most one insertion: what appears under several parents at once arrives over the next
-    /// calls. Where senders were retired the model is reset; true then.
+    /// Senders and characters that appear under several parents at once arrive over the next calls. Where
+    /// senders were retired the model is reset; true then.
     bool insertNew();
     [[nodiscard]] const StreamRow& rowOf(const QModelIndex& index) const;
     // What a row is of. Cells are asked for only where it is there.
@@ -68,6 +68,9 @@ private:
     [[nodiscard]] std::vector<StreamRow> rowsWithout(Kind kind) const;
     /// Adds the rows without a node that have the same parent as the first of them. False where none has.
     bool insert(Kind kind);
+    void insertStreams();
+    /// Where a row belongs among those of its parent.
+    [[nodiscard]] int placeBelow(int parent, const StreamRow& row) const;
     /// With all that belongs under it.
     void addNode(const StreamRow& row, int parent);
     /// -1 for the top; nothing where the parent has no node yet.

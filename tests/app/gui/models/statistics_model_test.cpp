@@ -171,6 +171,26 @@ TEST_F(StatisticsModelTest, AnnouncesAtMostOneInsertionAndOneChangeEachTime) {
               static_cast<int>(performer::typesOf(performer::Revision::N).size()));
 }
 
+TEST_F(StatisticsModelTest, StreamsStandByTheirTypeWheneverTheyCome) {
+    const auto types = [this] {
+        QStringList titles;
+        for (int row = 0; row < m_model.rowCount(character()); ++row) {
+            titles += stream(row).data().toString().left(2);
+        }
+        return titles.join(QLatin1Char(' '));
+    };
+    const auto perform = [this](std::vector<std::uint8_t> sent, std::uint64_t from) {
+        performer::Performer performer(sending(1, std::move(sent)));
+        m_stage.perform(performer, from, from + 24);
+        refresh();
+        refresh();
+    };
+    perform({20, 23}, 0);
+    EXPECT_EQ(types(), "20 23");
+    perform({24, 2, 21}, 24);
+    EXPECT_EQ(types(), "02 20 21 23 24");
+}
+
 TEST_F(StatisticsModelTest, EveryColumnHasATitleAndSaysWhatItIs) {
     for (int column = 0; column < m_model.columnCount(); ++column) {
         EXPECT_NE(m_model.headerData(column, Qt::Horizontal, Qt::DisplayRole).toString(), "");
