@@ -59,7 +59,7 @@ RunningWords runningWords(const QTreeView& view, const QModelIndex& index, int s
     }
     RunningWords words{origin, view.visualRect(origin)};
     const QString text = origin.data().toString() + origin.data(kSuffixRole).toString();
-    if (view.fontMetrics().horizontalAdvance(text) + 2 * space <= words.rect.width()) {
+    if (view.fontMetrics().horizontalAdvance(text) + 2 * space < words.rect.width()) {
         return {};
     }
     for (QModelIndex beside = shownBeside(view, origin, 1); beside.isValid() && isEmpty(beside);
@@ -171,7 +171,9 @@ void paintText(QPainter& painter, QRect rect, const QStyleOptionViewItem& option
         return words.isEmpty() ? 0 : metrics.horizontalAdvance(QLatin1Char(' ') + words);
     };
     const QVariant shorter = index.data(kShortTextRole);
-    const bool isWhole = !shorter.isValid() || metrics.horizontalAdvance(option.text) <= rect.width();
+    // An advance is rounded: what seems to fit to the pixel may yet be cut.
+    const bool isWhole =
+        !shorter.isValid() || metrics.elidedText(option.text, Qt::ElideRight, rect.width()) == option.text;
     const QString whole = isWhole ? option.text : shorter.toString();
     if (widthWith(suffix) > rect.width() - metrics.horizontalAdvance(whole)) {
         const QString brief = index.data(kShortSuffixRole).toString();
