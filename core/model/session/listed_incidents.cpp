@@ -136,8 +136,9 @@ std::string causeOf(const Incident& incident) {
                : ", cause unknown";
 }
 
-std::string lossHeadline(const SessionView& session, const Incident& incident) {
-    return amountOf(session, incident, "sample") + " lost on " + whom(session, incident) + causeOf(incident);
+std::string lossHeadline(const SessionView& session, const Incident& incident, const std::string& lost) {
+    return (lost.empty() ? amountOf(session, incident, "sample") : lost) + " lost on " +
+           whom(session, incident) + causeOf(incident);
 }
 
 /// Of an outage: "no data for 1.2 s".
@@ -202,7 +203,7 @@ std::vector<ListedIncident> listedIncidents(const SessionView& session, log::Sta
     return all;
 }
 
-std::string headlineOf(const SessionView& session, const ListedIncident& listed) {
+std::string headlineOf(const SessionView& session, const ListedIncident& listed, const std::string& lost) {
     const Incident& incident = listed.incident;
     const std::string who = whom(session, incident);
     if (listed.state == State::Provisional) {
@@ -210,9 +211,9 @@ std::string headlineOf(const SessionView& session, const ListedIncident& listed)
     }
     switch (incident.kind) {
     case IncidentKind::Loss:
-        return lossHeadline(session, incident);
+        return lossHeadline(session, incident, lost);
     case IncidentKind::Local:
-        return incident.samples != 0 ? lossHeadline(session, incident)
+        return incident.samples != 0 ? lossHeadline(session, incident, lost)
                                      : "this computer dropped " +
                                            counted(static_cast<std::uint64_t>(incident.value), "datagram");
     case IncidentKind::Outage:

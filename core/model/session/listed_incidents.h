@@ -37,8 +37,10 @@ struct ListedIncident {
 /// Whether it is of a sample of which the rest is just coming.
 [[nodiscard]] bool isOnlyComing(const ListedIncident& one);
 
-/// "37 samples lost on Jonas, network": what an incident is in a few words, and whose.
-[[nodiscard]] std::string headlineOf(const SessionView& session, const ListedIncident& listed);
+/// "37 samples lost on Jonas, network": what an incident is in a few words, and whose. `lost` is said instead
+/// of how much it lost in all.
+[[nodiscard]] std::string headlineOf(const SessionView& session, const ListedIncident& listed,
+                                     const std::string& lost = {});
 
 /// The same without whose: "37 lost, network".
 [[nodiscard]] std::string briefOf(const SessionView& session, const ListedIncident& listed);

@@ -50,9 +50,11 @@ public:
         }
     }
 
-    /// "2.1 %", or "37": as much as the columns of losses beside the verdict have of that cause. Empty for
-    /// what is no loss.
-    [[nodiscard]] std::string amountOf(const ListedIncident& one) {
+    /// It is of all time.
+    [[nodiscard]] bool isOfAll() const { return !m_range; }
+    /// "2.1 %", or "37 samples" with a noun: as much as the columns of losses beside the verdict have of that
+    /// cause. Empty for what is no loss.
+    [[nodiscard]] std::string amountOf(const ListedIncident& one, std::string_view noun) {
         const Incident& incident = one.incident;
         const bool isLoss = incident.kind == IncidentKind::Loss || incident.kind == IncidentKind::Local;
         if (!isLoss || one.state == State::Provisional || !incident.cause) {
@@ -63,7 +65,7 @@ public:
             sum += countsOf(incident.sender, part);
         }
         const std::uint64_t samples = sum.lost[static_cast<std::size_t>(*incident.cause)];
-        return samples == 0 ? std::string() : lossAmount(samples, sum.expected, {});
+        return samples == 0 ? std::string() : lossAmount(samples, sum.expected, noun);
     }
 
     /// Whether a stream of it is above its limit: that of another may have been.
@@ -101,10 +103,11 @@ TakeVerdict fromIncident(const SessionView& session, const ListedIncident& worst
     verdict.isOver = worst.state == State::Over;
     const std::string answer = isBad ? "Not good" : "Not quite good";
     const std::string lasts = verdict.isOver ? ", over" : ", going on";
-    const std::string what = headlineOf(session, worst) + whenOf(session, worst);
+    const std::string lately = losses.isOfAll() ? std::string() : losses.amountOf(worst, "sample");
+    const std::string what = headlineOf(session, worst, lately) + whenOf(session, worst);
     verdict.text = answer + ": " + what + lasts;
     verdict.narrow = answer + lasts + ": " + what;
-    const std::string amount = losses.amountOf(worst);
+    const std::string amount = losses.amountOf(worst, {});
     verdict.brief = amount.empty() ? briefOf(session, worst)
                                    : amount + " lost, " +
                                          (worst.incident.cause == LossCause::Unknown

@@ -294,15 +294,17 @@ TEST_F(VerdictTest, OneThatLostLittleIsNotAsBadAsOneThatIsAboveItsLimit) {
     EXPECT_EQ(verdict().state, State::Bad);
 }
 
-TEST_F(VerdictTest, ItsFigureInBriefIsOfTheTimeThatItIsOf) {
+TEST_F(VerdictTest, ItsFigureIsOfTheTimeThatItIsOf) {
     for (std::uint32_t sample = 1; sample <= 3'000; ++sample, m_at += 10ms) {
         if (sample < 500 ? sample % 7 > 2 : sample % 20 != 1) {
             pose(sample);
         }
     }
     EXPECT_TRUE(verdict().brief.starts_with("5.0 % lost, ")) << verdict().brief;
-    EXPECT_NE(verdict().text.find("11 % lost on "), std::string::npos)
-        << "the whole says since when: " << verdict().text;
+    EXPECT_NE(verdict().text.find("5.0 % lost on "), std::string::npos)
+        << "as the columns beside it: " << verdict().text;
+    const TakeVerdict whole = verdictOf(m_session, {});
+    EXPECT_NE(whole.text.find("11 % lost on "), std::string::npos) << "of a report: " << whole.text;
     EXPECT_EQ(of(IncidentKind::Loss).size(), 1U);
 }
 
