@@ -152,7 +152,8 @@ void MonitorRun::show(const exporting::MonitorFacts& facts, log::Stamp now) {
     const bool isReplayUnseen = !m_options.file.empty() && !m_isTerminal && !m_isConcluding;
     if (isReaderGone() && !m_isConcluding && !m_isReaderTold && !m_options.record.empty()) {
         m_isReaderTold = true;
-        m_console.complain("nobody reads standard output any more; recording goes on until Ctrl+C or --duration");
+        m_console.complain(
+            "nobody reads standard output any more; recording goes on until Ctrl+C or --duration");
     }
     if (m_table && m_options.asJsonLines) {
         showLine(now);

@@ -180,63 +180,6 @@ private:
     std::vector<TableColumn<Row>> m_columns;
 };
 
-/// A tree whose rows are nodes, counted from 0, each at the top, which is -1, or below another.
-template <class Row>
-class TreeModel : public ColumnModel<Row, QAbstractItemModel> {
-public:
-    /// -1 for an invalid index.
-    [[nodiscard]] std::int32_t node(const QModelIndex& index) const {
-        return index.isValid() ? static_cast<std::int32_t>(index.internalId()) : -1;
-    }
-    /// Invalid where the node has no place.
-    [[nodiscard]] QModelIndex indexOf(std::int32_t node, int column = 0) const {
-        const bool isThere = node >= 0 && slotOf(node) < m_places.size() && m_places[slotOf(node)].row >= 0;
-        return isThere ? this->createIndex(m_places[slotOf(node)].row, column, static_cast<quintptr>(node))
-                       : QModelIndex();
-    }
-
-    [[nodiscard]] QModelIndex index(int row, int column, const QModelIndex& parent = {}) const override {
-        return this->hasIndex(row, column, parent)
-                   ? indexOf(m_places[slotOf(node(parent))].children[static_cast<std::size_t>(row)], column)
-                   : QModelIndex();
-    }
-    [[nodiscard]] QModelIndex parent(const QModelIndex& index) const override {
-        return index.isValid() ? indexOf(m_places[slotOf(node(index))].parent) : QModelIndex();
-    }
-    [[nodiscard]] int rowCount(const QModelIndex& parent = {}) const override {
-        return parent.column() > 0 ? 0 : static_cast<int>(m_places[slotOf(node(parent))].children.size());
-    }
-
-protected:
-    using ColumnModel<Row, QAbstractItemModel>::ColumnModel;
-
-    void clearPlaces() { m_places.assign(1, {}); }
-    /// As the last row below its parent, which has a place.
-    void place(std::int32_t node, std::int32_t parent) {
-        place(node, parent, static_cast<int>(m_places[slotOf(parent)].children.size()));
-    }
-    /// As that row below its parent.
-    void place(std::int32_t node, std::int32_t parent, int row) {
-        m_places.resize(std::max(m_places.size(), slotOf(node) + 1));
-        std::vector<std::int32_t>& siblings = m_places[slotOf(parent)].children;
-        m_places[slotOf(node)] = {parent, row, {}};
-        siblings.insert(siblings.begin() + row, node);
-        for (auto place = static_cast<std::size_t>(row) + 1; place < siblings.size(); ++place) {
-            m_places[slotOf(siblings[place])].row = static_cast<int>(place);
-        }
-    }
-
-private:
-    struct Place {
-        std::int32_t parent = -1;
-        int row = -1; ///< -1 for none
-        std::vector<std::int32_t> children{};
-    };
-    [[nodiscard]] static std::size_t slotOf(std::int32_t node) { return static_cast<std::size_t>(node + 1); }
-
-    std::vector<Place> m_places{1}; ///< of the top, then of each node
-};
-
 /// A flat table that keeps its rows.
 template <class Row>
 class TableModel : public ColumnModel<Row> {

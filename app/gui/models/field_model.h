@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/models/column.h"
 #include "app/gui/models/field_document.h"
+#include "app/gui/models/tree_model.h"
 
 #include <memory>
 
