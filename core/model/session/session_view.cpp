@@ -188,13 +188,14 @@ std::vector<const Incident*> SessionView::troublesOf(const CharacterKey& key) co
 }
 
 const Metadata& SessionView::metadata(const CharacterKey& key) const {
+    static const Metadata none;
     const Character* character = find(key);
     for (const Character* other = character; other != nullptr; other = predecessor(other->key)) {
         if (!other->metadata.tags().empty()) {
             return other->metadata;
         }
     }
-    return character->metadata;
+    return character != nullptr ? character->metadata : none;
 }
 
 const ForeignText& SessionView::metadataValue(const CharacterKey& key, std::string_view tag) const {

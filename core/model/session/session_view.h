@@ -204,7 +204,7 @@ public:
     /// Seconds since the newest datagram of the character, against cursorStamp().
     [[nodiscard]] double ageSeconds(const CharacterKey& key) const;
     /// From the type 12 messages of a character, or of its predecessor where it has sent none itself.
-    /// The character must be one of this session.
+    /// Empty where there is no such character.
     [[nodiscard]] const Metadata& metadata(const CharacterKey& key) const;
 
     // Messages and poses at the cursor.

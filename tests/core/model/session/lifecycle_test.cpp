@@ -4,6 +4,9 @@
 #include "core/model/session/verdict.h"
 
 #include "core/model/accounting/attribution.h"
+#include "core/model/body/character_pose.h"
+#include "core/model/body/null_pose_findings.h"
+#include "core/model/body/pose_remark.h"
 
 #include <algorithm>
 #include <string>
@@ -99,6 +102,32 @@ TEST_F(LifecycleTest, WhatARetiredSenderHadLastsNoLonger) {
     const Incident& first = m_session.incidents().all().front();
     EXPECT_EQ(first.kind, IncidentKind::SourceUp);
     EXPECT_EQ(m_session.addressOf(first.sender), "a retired sender");
+}
+
+TEST_F(LifecycleTest, WhatIsAskedOfOneThatWasRetiredIsNothing) {
+    // A view may draw what it knew before the session went on.
+    sendPose("old:1", 1);
+    follow();
+    const CharacterKey key{sender("old:1"), 0};
+    ASSERT_NE(m_session.find(key), nullptr);
+    m_at += 10s;
+    for (std::size_t i = 0; i <= 2 * Ingest::kMostSenders; ++i, m_at += 1s) {
+        sendPose("10.0.0.1:" + std::to_string(i), 1);
+    }
+    follow();
+    ASSERT_EQ(m_session.find(key), nullptr);
+    EXPECT_TRUE(m_session.metadata(key).tags().empty());
+    EXPECT_EQ(m_session.pose(key), nullptr);
+    EXPECT_EQ(m_session.nullPose(key), nullptr);
+    EXPECT_EQ(m_session.verdict(key).state, TakeVerdict::State::None);
+    EXPECT_EQ(m_session.ageSeconds(key), 0);
+    EXPECT_TRUE(m_session.lineage(key).empty());
+    EXPECT_EQ(m_session.restartsOf(key), 0U);
+    EXPECT_FALSE(m_session.isHidden(key));
+    EXPECT_FALSE(m_session.isSuperseded(key));
+    EXPECT_EQ(m_session.nullPoseEvidence(key).record.messages, 0U);
+    EXPECT_EQ(m_session.colour(key), defaultColour(0));
+    EXPECT_FALSE(m_session.poseRemarkNow(key).has_value());
 }
 
 TEST_F(LifecycleTest, WhatWasForgottenKeepsItsNameInWhatIsToldOfIt) {
