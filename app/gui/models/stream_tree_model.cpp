@@ -182,8 +182,8 @@ bool StreamTreeModel::isEnded(const QModelIndex& index) const {
 }
 
 QVariant StreamTreeModel::marksOf(const StreamRow& row, int role) const {
-    if (role == kSuffixRole && isEnded(indexOf(row))) {
-        return tr("· ended");
+    if (row.kind == Kind::Sender) {
+        return role == kSuffixRole && isEnded(indexOf(row)) ? QVariant(tr("· ended")) : QVariant();
     }
     if (row.kind != Kind::Character || (role != kSuffixRole && role != kDotRole)) {
         return {};

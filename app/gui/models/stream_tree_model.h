@@ -58,7 +58,7 @@ protected:
     [[nodiscard]] model::SessionView& view() const { return m_view; }
     /// Address of a sender, name of a character, title of a type.
     [[nodiscard]] QString nameOf(const StreamRow& row) const;
-    /// Of characters: their colour and, as suffix, their ID.
+    /// Of characters: their colour and, as suffix, their ID; of senders whether they have ended.
     [[nodiscard]] QVariant marksOf(const StreamRow& row, int role) const;
 
 private:

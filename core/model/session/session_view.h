@@ -52,7 +52,7 @@ public:
     SessionView(const SessionView&) = delete;
     SessionView& operator=(const SessionView&) = delete;
 
-    // What was received.
+    // What was received, whatever the cursor.
     [[nodiscard]] const Roster<log::SenderId, Sender>& senders() const { return m_ingest.senders(); }
     [[nodiscard]] const Roster<CharacterKey, Character>& characters() const { return m_ingest.characters(); }
     [[nodiscard]] const Roster<log::StreamKey, Stream>& streams() const { return m_ingest.streams(); }
@@ -66,7 +66,7 @@ public:
     [[nodiscard]] SenderTotals allSenders() const;
     [[nodiscard]] std::uint64_t unfollowed() const { return m_ingest.unfollowed(); }
     [[nodiscard]] std::uint64_t overtaken() const { return m_ingest.overtaken(); }
-    /// "10.0.0.5:40001"; "this computer" for kNoSender; "a retired sender" long after that.
+    /// "10.0.0.5:40001"; "this computer" for kNoSender; "a retired sender" for one retired long ago.
     [[nodiscard]] ForeignText addressOf(log::SenderId id) const;
 
     /// What came in a range of time in all streams of a character, without what makes no sense of several.
