@@ -121,6 +121,21 @@ void sizeAreas(const DockLayout& layout, const std::map<Qt::DockWidgetArea, Shar
     }
 }
 
+/// The dock farthest to the right and below of those that show in an area; null where there is none.
+QDockWidget* lastDock(Qt::DockWidgetArea area, const QMainWindow& window) {
+    QDockWidget* last = nullptr;
+    for (QDockWidget* dock : window.findChildren<QDockWidget*>(Qt::FindDirectChildrenOnly)) {
+        if (dock->isHidden() || dock->isFloating() || window.dockWidgetArea(dock) != area) {
+            continue;
+        }
+        const auto corner = [](const QDockWidget* each) { return each->x() + each->y(); };
+        if (last == nullptr || corner(dock) > corner(last)) {
+            last = dock;
+        }
+    }
+    return last;
+}
+
 } // namespace
 
 QStringList layoutNames() {
@@ -198,6 +213,19 @@ QStringList applyLayout(const DockLayout& layout, QMainWindow& window) {
     }
     sizeAreas(layout, placed, window);
     return unknownDocks(layout, names);
+}
+
+void placeDock(QDockWidget& dock, Qt::DockWidgetArea area, QMainWindow& window) {
+    if (window.dockWidgetArea(&dock) != Qt::NoDockWidgetArea || dock.isFloating()) {
+        return;
+    }
+    QDockWidget* beside = lastDock(area, window);
+    beside = beside == nullptr ? lastDock(Qt::BottomDockWidgetArea, window) : beside;
+    if (beside != nullptr) {
+        window.tabifyDockWidget(beside, &dock);
+    } else {
+        window.addDockWidget(area, &dock, orientationOf(area));
+    }
 }
 
 } // namespace posewire::gui

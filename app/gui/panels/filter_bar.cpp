@@ -23,6 +23,7 @@ constexpr qsizetype kHistory = 30;
 constexpr qsizetype kSavedFilters = 40;
 constexpr qsizetype kLongestName = 60;
 constexpr int kProgressSteps = 1000;
+constexpr qint64 kLongWait = 300; ///< ms
 
 /// Place in a text of a place in its UTF-8.
 int placeOf(const QString& text, std::size_t byte) {
@@ -143,12 +144,13 @@ void FilterBar::focusLine() {
 }
 
 void FilterBar::setProgress(std::optional<double> share) {
+    if (!share) {
+        m_busySince.invalidate();
+    } else if (!m_busySince.isValid()) {
+        m_busySince.start();
+    }
     m_progress->setValue(static_cast<int>(share.value_or(0) * kProgressSteps));
-    m_progressRow->setVisible(share.has_value());
-}
-
-bool FilterBar::isBusy() const {
-    return !m_progressRow->isHidden();
+    m_progressRow->setVisible(share && m_busySince.elapsed() >= kLongWait);
 }
 
 void FilterBar::check() {

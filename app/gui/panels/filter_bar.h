@@ -3,6 +3,7 @@
 
 #include "core/filter/filter.h"
 
+#include <QElapsedTimer>
 #include <QJsonObject>
 #include <QStringList>
 #include <QWidget>
@@ -39,9 +40,10 @@ public:
     /// Says that a jump put the filter there, and what was filtered by before; nothing where none did.
     void setJump(const std::optional<QString>& before);
 
-    /// How far a filter has come through the log, as a share; nothing while none is on its way.
+    /// How far a filter has come through what was there when it was set, as a share; nothing while none is on
+    /// its way. Only one that takes a while shows it: the list would jump to and fro for others.
     void setProgress(std::optional<double> share);
-    [[nodiscard]] bool isBusy() const;
+    [[nodiscard]] bool isBusy() const { return m_busySince.isValid(); }
 
     /// What is wrong with the text in the line; nothing where it is right.
     [[nodiscard]] const std::optional<filter::FilterError>& error() const { return m_error; }
@@ -104,6 +106,7 @@ private:
     CommandBar* m_buttons;
     QWidget* m_progressRow;
     QProgressBar* m_progress;
+    QElapsedTimer m_busySince; ///< valid while a filter is on its way
     QLabel* m_problem;
     QWidget* m_jumpRow;
     QPushButton* m_back;

@@ -84,7 +84,7 @@ void PacketsPanel::fitColumns() {
 void PacketsPanel::refresh() {
     const QScopedValueRollback guard(m_isFollowing, true);
     followFilter();
-    m_list->setCatchingUp(m_run && m_filteredTo < m_filterFrom);
+    m_list->setCatchingUp(m_run && m_filtered < m_backlog);
     if (m_run) {
         takeMatches();
     }
@@ -100,9 +100,9 @@ void PacketsPanel::takeMatches() {
     const PacketFilterRun::Found found = m_run->take(m_view.digests());
     m_packets.addMatches(found.packets, found.problems);
     const auto [done, total, gone] = m_run->progress();
-    m_filteredTo = done;
-    const bool isBusy = !m_run->isCancelled() && done < total;
-    m_filter->setProgress(isBusy ? std::optional(static_cast<double>(done) / static_cast<double>(total))
+    m_filtered = done;
+    const bool isBusy = !m_run->isCancelled() && done < m_backlog;
+    m_filter->setProgress(isBusy ? std::optional(static_cast<double>(done) / static_cast<double>(m_backlog))
                                  : std::nullopt);
     if (m_unfiltered == 0 && gone != 0) {
         say(tr("Packets left memory before the filter looked at them; the title says how many."));
@@ -152,9 +152,9 @@ void PacketsPanel::followFilter() {
         m_packets.endMatches();
     } else {
         m_packets.beginMatches();
-        m_filteredTo = 0;
+        m_filtered = 0;
         m_unfiltered = 0;
-        m_filterFrom = m_view.end();
+        m_backlog = m_view.digests().end() - m_view.digests().begin();
         m_run = std::make_unique<PacketFilterRun>(m_view.log(), m_view.digests(), *std::move(compiled),
                                                   m_view.firstStamp(), m_filterUnits);
     }

@@ -96,8 +96,8 @@ private:
     PacketModel m_packets;
     std::unique_ptr<PacketFilterRun> m_run;
     std::optional<std::uint64_t> m_stoppedAt; ///< the packet at which the cursor is paused
-    std::uint64_t m_filteredTo = 0;           ///< by the run, when it was last asked
-    std::uint64_t m_filterFrom = 0;           ///< packets from here on arrived after the filter was set
+    std::uint64_t m_filtered = 0;             ///< packets that the run was through with, when last asked
+    std::uint64_t m_backlog = 0;              ///< packets that were there when the filter was set
     std::uint64_t m_unfiltered = 0;           ///< packets that the filter was too late for
     QString m_filterText;                     ///< as it was last taken from the session
     bool m_comparesLengths = false;           ///< the filter that runs

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/dock_layout.h"
 #include "app/gui/window/health_bar.h"
 #include "app/gui/window/main_window.h"
 
@@ -41,23 +42,34 @@ const MainWindow::Dock* MainWindow::findDock(const QString& name) const {
 
 void MainWindow::showDock(const QString& dock) {
     if (const Dock* found = findDock(dock)) {
+        placeDock(*found->dock, found->info->area, *this);
         found->dock->show();
         found->dock->raise();
     }
 }
 
-/// Whose tab hides a dock; empty for none.
-QString MainWindow::dockBefore(const QString& name) const {
+QStringList MainWindow::docksInSight() const {
+    QStringList names;
+    for (const Dock& dock : m_docks) {
+        names += dock.isInSight() ? QStringList(dock.dock->objectName()) : QStringList();
+    }
+    return names;
+}
+
+/// Shows a dock, and keeps which one its tab covers.
+void MainWindow::coverBy(const QString& name) {
+    const QStringList before = docksInSight();
+    showDock(name);
+    m_covered.clear();
     const Dock* dock = findDock(name);
-    if (dock == nullptr || dock->isInSight()) {
-        return {};
+    if (dock == nullptr || before.contains(name)) {
+        return;
     }
     for (const QDockWidget* neighbour : tabifiedDockWidgets(dock->dock)) {
-        if (const Dock* other = findDock(neighbour->objectName()); other != nullptr && other->isInSight()) {
-            return neighbour->objectName();
+        if (before.contains(neighbour->objectName())) {
+            m_covered = neighbour->objectName();
         }
     }
-    return {};
 }
 
 /// Brings back what a jump to packets has covered, and the keyboard with it.

@@ -208,10 +208,7 @@ void MainWindow::connectDriver() {
     connect(&m_driver, &SessionDriver::tableTick, this, &MainWindow::showReceiving);
     connect(&m_driver, &SessionDriver::tableTick, this, &MainWindow::alert);
     connect(&m_driver, &SessionDriver::frameRequested, m_viewport, &ViewportWidget::frameCharacter);
-    connect(&m_driver, &SessionDriver::dockRequested, this, [this](const QString& dock) {
-        m_covered = dockBefore(dock);
-        showDock(dock);
-    });
+    connect(&m_driver, &SessionDriver::dockRequested, this, &MainWindow::coverBy);
     connect(&m_driver, &SessionDriver::wentBack, this, &MainWindow::uncover);
     const auto showStates = [this] { m_menus.showStates(); };
     connect(&m_driver, &SessionDriver::ghostChanged, this, showStates);

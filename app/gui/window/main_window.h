@@ -127,7 +127,8 @@ private:
     };
 
     [[nodiscard]] const Dock* findDock(const QString& name) const;
-    [[nodiscard]] QString dockBefore(const QString& name) const;
+    [[nodiscard]] QStringList docksInSight() const;
+    void coverBy(const QString& name);
     void uncover();
     [[nodiscard]] QAction* dockAction(QDockWidget* dock);
     void toggleDock(const QString& name);

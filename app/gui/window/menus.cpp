@@ -268,7 +268,7 @@ const ActionInfo kActions[] = {
      Do::callIn<&Window::driver, &SessionDriver::showFile>},
     {"resetForTake", "&Time", QT_TRANSLATE_NOOP("Action", "Reset &before take"), "Ctrl+Shift+R",
      Do::callIn<&Window::driver, &SessionDriver::resetForTake>},
-    {"verdictEvidence", "&Time", QT_TRANSLATE_NOOP("Action", "&Evidence of the verdict"), "",
+    {"verdictEvidence", "&Time", QT_TRANSLATE_NOOP("Action", "&Evidence of the verdict"), "Ctrl+E",
      Do::call<showEvidence>},
     {"figures10s", kFigures, QT_TRANSLATE_NOOP("Action", "The last 10 &s"), "", Do::call<useNewest<10>>,
      Do::is<isNewestUsed<10>>},

@@ -60,11 +60,6 @@ void MainWindow::chooseComparison() {
 
 void MainWindow::compareWith(const QString& path) {
     m_driver.compareWith(path);
-    const Dock* dock = findDock(QStringLiteral("compare"));
-    const Dock* beside = findDock(QStringLiteral("inspector"));
-    if (dock->dock->isHidden() && !beside->dock->isHidden() && !beside->dock->isFloating()) {
-        tabifyDockWidget(beside->dock, dock->dock); // a place of its own would leave too little for others
-    }
     showDock(QStringLiteral("compare"));
 }
 

@@ -502,6 +502,26 @@ TEST_F(MainWindowTest, TheMenuBringsADockBehindATabToTheFrontAndClosesOneThatIsS
     EXPECT_TRUE(entry->isChecked());
 }
 
+TEST_F(MainWindowTest, ADockThatTheLayoutDoesNotPlaceComesAsATabAndCoversNoOther) {
+    const auto window = makeWindow();
+    window->useLayout(QStringLiteral("Check"));
+    QTest::qWait(1);
+    for (const char* name : {"packets", "statistics", "metadata"}) {
+        window->showDock(QLatin1String(name));
+        QTest::qWait(1);
+        const QRect opened = dock(*window, name)->geometry();
+        EXPECT_TRUE(window->rect().contains(opened)) << name;
+        for (const PanelInfo& info : panelTable()) {
+            const QDockWidget* other = dock(*window, info.id);
+            EXPECT_TRUE(info.id == QLatin1String(name) || other->isHidden() ||
+                        !other->geometry().intersects(opened))
+                << name << " lies on " << info.id;
+        }
+    }
+    EXPECT_TRUE(window->tabifiedDockWidgets(dock(*window, "events")).contains(dock(*window, "packets")));
+    EXPECT_TRUE(window->tabifiedDockWidgets(dock(*window, "timecode")).contains(dock(*window, "metadata")));
+}
+
 TEST_F(MainWindowTest, GoingBackFromPacketsBringsTheDockBeforeThemToTheFront) {
     const auto window = makeWindow();
     const auto [packets, events] = tabbed(*window, "packets", "events");
@@ -515,6 +535,19 @@ TEST_F(MainWindowTest, GoingBackFromPacketsBringsTheDockBeforeThemToTheFront) {
     QTest::qWait(1);
     EXPECT_TRUE(isInFront(events) && !isInFront(packets));
     EXPECT_TRUE(events->isAncestorOf(QApplication::focusWidget()));
+}
+
+TEST_F(MainWindowTest, GoingBackFromPacketsThatTheLayoutDoesNotPlaceBringsTheDockBeforeThemToTheFront) {
+    const auto window = makeWindow();
+    window->useLayout(QStringLiteral("Check"));
+    QTest::qWait(1);
+    driver.jump(0, "type == 02");
+    driver.showDock("packets");
+    QTest::qWait(1);
+    EXPECT_FALSE(window->rect().intersects(dock(*window, "events")->geometry()));
+    driver.goBack();
+    QTest::qWait(1);
+    EXPECT_TRUE(window->rect().intersects(dock(*window, "events")->geometry()));
 }
 
 TEST_F(MainWindowTest, RefreshesDocksInSightAlsoWhereTheirContentCoversThem) {
