@@ -8,6 +8,7 @@
 
 #include <memory>
 #include <optional>
+#include <utility>
 
 namespace posewire::net {
 namespace {
@@ -33,7 +34,8 @@ public:
                         return isDone ? std::string() : socket->errorString().toStdString();
                     });
             }
-            m_sockets.push_back({input, std::move(socket), std::nullopt});
+            const bool isReopened = wasClosed(socket->localPort());
+            m_sockets.push_back({input, std::move(socket), std::nullopt, isReopened});
         }
         if (!joined.groups.isEmpty()) {
             m_joined.push_back(std::move(joined));
@@ -53,6 +55,7 @@ public:
         for (Socket& socket : m_sockets) {
             if (socket.input->id() == id) {
                 drain(socket);
+                noteClosed(socket.socket->localPort());
             }
         }
         std::erase_if(m_joined, [id](const Joined& joined) { return joined.input->id() == id; });
@@ -102,6 +105,7 @@ private:
         std::shared_ptr<Input> input;
         std::unique_ptr<QUdpSocket> socket;
         std::optional<Last> last;
+        bool isReopened = false; ///< and nothing has come yet
     };
 
     void followInterfaces() {
@@ -151,6 +155,7 @@ private:
         log::Arrival arrival;
         arrival.stamp = m_context.log.timeline().now(m_context.clock);
         arrival.sender = *sender;
+        arrival.flags.afterClosed = std::exchange(socket.isReopened, false);
         if (isSmall) {
             writer.commit(0, static_cast<std::size_t>(size), arrival);
         } else {

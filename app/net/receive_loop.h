@@ -12,6 +12,7 @@
 
 #include <atomic>
 #include <memory>
+#include <set>
 
 namespace posewire::net {
 
@@ -64,7 +65,12 @@ public:
 protected:
     [[nodiscard]] bool isStopping() const { return m_isStopping.load(std::memory_order_acquire); }
 
+    /// What comes first to a port that is opened anew has PacketFlags::afterClosed.
+    void noteClosed(std::uint16_t port) { m_closedPorts.insert(port); }
+    [[nodiscard]] bool wasClosed(std::uint16_t port) const { return m_closedPorts.contains(port); }
+
 private:
+    std::set<std::uint16_t> m_closedPorts;
     std::atomic<bool> m_isStopping = false;
 };
 

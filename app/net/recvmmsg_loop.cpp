@@ -40,6 +40,8 @@ struct Socket {
     log::SenderId lastSender{};
     bool hasSender = false;
     bool isEmpty = true; ///< at the last look
+    std::uint16_t localPort = 0;
+    bool isReopened = false; ///< and nothing has come yet
     MessageBatch batch{};
 };
 
@@ -75,8 +77,11 @@ public:
                     });
             }
             m_sockets.push_back(std::unique_ptr<Socket>(
-                new Socket{input, std::move(descriptor),
-                           SenderCache(m_context.log.senders(), socket->localPort(), m_allowed)}));
+                new Socket{.input = input,
+                           .descriptor = std::move(descriptor),
+                           .senders = SenderCache(m_context.log.senders(), socket->localPort(), m_allowed),
+                           .localPort = socket->localPort(),
+                           .isReopened = wasClosed(socket->localPort())}));
         }
         if (!joined.groups.isEmpty()) {
             m_joined.push_back(std::move(joined));
@@ -97,6 +102,7 @@ public:
         for (const auto& socket : m_sockets) {
             if (socket->input->id() == id) {
                 drainToTheEnd(*socket);
+                noteClosed(socket->localPort);
             }
         }
         std::erase_if(m_joined, [id](const JoinedInput& joined) { return joined.input->id() == id; });
@@ -192,6 +198,7 @@ private:
         socket.hasSender = true;
         arrival.flags.truncated = received.isTruncated;
         arrival.flags.stampedByKernel = received.time != log::WallTime();
+        arrival.flags.afterClosed = std::exchange(socket.isReopened, false);
         arrival.stamp = arrival.flags.stampedByKernel ? m_clock.stampOf(received.time) : now;
         // 0 is none. A packet under way may carry a smaller count than a record made meanwhile.
         if (received.drops != 0 && static_cast<std::int32_t>(received.drops - socket.dropsInLog) > 0) {

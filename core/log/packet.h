@@ -34,14 +34,19 @@ struct SenderInfo {
     friend bool operator==(const SenderInfo&, const SenderInfo&) = default;
 };
 
+/// In one byte: the log keeps them of every packet.
 struct PacketFlags {
-    bool truncated = false;       ///< the datagram was longer than what could be received
-    bool stampedByKernel = false; ///< the stamp is the kernel's, else it was taken when the packet was read
-    bool skipped = false;         ///< bytes of a byte stream that belong to no datagram
+    bool truncated : 1 = false; ///< the datagram was longer than what could be received
+    /// The stamp is the kernel's, else it was taken when the packet was read.
+    bool stampedByKernel : 1 = false;
+    bool skipped : 1 = false; ///< bytes of a byte stream that belong to no datagram
     /// Not a packet: it only records `kernelDropsBefore` where no packet followed that could carry it. It has
     /// no bytes and is `skipped`, so that readers that ignore what is no datagram ignore it too. Its sender
     /// is the last one that was received.
-    bool isDropRecord = false;
+    bool isDropRecord : 1 = false;
+    /// The first packet of a port that was not listened to for a while, for its input had been removed: what
+    /// was sent meanwhile is missing for that.
+    bool afterClosed : 1 = false;
 
     friend bool operator==(const PacketFlags&, const PacketFlags&) = default;
 };

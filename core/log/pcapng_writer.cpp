@@ -21,10 +21,8 @@ constexpr std::int64_t kEarly = -9'000'000'000;
 
 constexpr std::string_view kSignature = "Posewire: ";
 constexpr std::array<std::string_view, 4> kTransports{"UDP", "TCP", "file", "performer"};
-constexpr std::array<std::pair<bool PacketFlags::*, std::string_view>, 3> kFlags{
-    {{&PacketFlags::truncated, "; truncated"},
-     {&PacketFlags::skipped, "; between datagrams"},
-     {&PacketFlags::isDropRecord, "; news of drops"}}};
+constexpr std::array<std::string_view, 4> kFlags{"; truncated", "; between datagrams", "; news of drops",
+                                                 "; first after the input was closed"};
 constexpr std::string_view kStampedOnReading = "; stamped on reading";
 constexpr std::string_view kClockSet = "; clock set by ";
 constexpr std::string_view kFrom = "; from ";
@@ -179,8 +177,10 @@ RecordedOrigin originOf(const Packet& packet, const SenderInfo& sender, const En
 std::string originText(const RecordedOrigin& origin) {
     std::string text(kSignature);
     text += kTransports[static_cast<std::size_t>(origin.transport)];
-    for (const auto& [flag, words] : kFlags) {
-        text += origin.flags.*flag ? words : "";
+    const PacketFlags& flags = origin.flags;
+    const std::array said{flags.truncated, flags.skipped, flags.isDropRecord, flags.afterClosed};
+    for (std::size_t i = 0; i < kFlags.size(); ++i) {
+        text += said[i] ? kFlags[i] : "";
     }
     text += origin.flags.stampedByKernel ? "" : kStampedOnReading;
     if (origin.setBy != Duration::zero()) {
@@ -203,10 +203,13 @@ std::optional<RecordedOrigin> parseOrigin(std::string_view comment) {
         return std::nullopt;
     }
     origin.transport = static_cast<Transport>(transport - kTransports.begin());
-    for (const auto& [flag, words] : kFlags) {
-        origin.flags.*flag = takes(comment, words);
-    }
-    origin.flags.stampedByKernel = !takes(comment, kStampedOnReading);
+    std::array<bool, kFlags.size()> said{};
+    std::ranges::transform(kFlags, said.begin(), [&](auto words) { return takes(comment, words); });
+    origin.flags = {.truncated = said[0],
+                    .stampedByKernel = !takes(comment, kStampedOnReading),
+                    .skipped = said[1],
+                    .isDropRecord = said[2],
+                    .afterClosed = said[3]};
     if (takes(comment, kClockSet)) {
         const auto setBy = takeSeconds(comment);
         if (!setBy) {

@@ -78,6 +78,9 @@ void Attribution::takePacket(const log::Packet& packet, std::uint16_t localPort)
     if (packet.kernelDropsBefore != 0) {
         keepNewest(m_drops, {packet.number, std::uint64_t{packet.kernelDropsBefore}, localPort}, kMostDrops);
     }
+    if (packet.flags.afterClosed) {
+        keepNewest(m_drops, {packet.number, 0, localPort, true}, kMostDrops);
+    }
     m_lastPacket = packet.number;
 }
 

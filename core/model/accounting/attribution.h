@@ -139,11 +139,15 @@ private:
         std::uint64_t packet = 0; ///< the first after them
         std::uint64_t count = 0;
         std::optional<std::uint16_t> localPort{}; ///< nothing: of the log, not looked at in time
+        bool isClosed = false; ///< the port was not listened to; nobody knows how many there were
     };
     /// What this computer lost between two packets.
     struct LostHere {
         std::uint64_t dropped = 0;
         std::uint64_t overtaken = 0;
+        bool isClosed = false; ///< what came meanwhile had nobody to take it
+
+        [[nodiscard]] bool isAny() const { return dropped + overtaken != 0 || isClosed; }
     };
     struct Damage {
         log::StreamKey stream;

@@ -23,7 +23,7 @@ LossCause Attribution::causeOfPartial(const log::StreamKey& stream, std::uint64_
     // What was dropped just before the first part counts too: it may have been another part.
     const std::uint64_t before = fromPacket == 0 ? 0 : fromPacket - 1;
     const LostHere lost = lostHere(before, toPacket, found->second.localPort);
-    if (lost.dropped + lost.overtaken != 0) {
+    if (lost.isAny()) {
         return LossCause::ThisComputer;
     }
     return found->second.transport == log::Transport::Tcp ? LossCause::Sender : LossCause::Network;
@@ -43,6 +43,9 @@ void Attribution::findCause(Gap& gap, const Stream& stream) const {
     const LostHere lost = lostHere(gap.fromPacket, gap.toPacket, sender.localPort);
     if (lost.dropped != 0) {
         return decide(LossCause::ThisComputer, Gap::Evidence::Dropped, lost.dropped);
+    }
+    if (lost.isClosed) {
+        return decide(LossCause::ThisComputer, Gap::Evidence::NotListening, 0);
     }
     if (lost.overtaken != 0) {
         return decide(LossCause::ThisComputer, Gap::Evidence::Overtaken, lost.overtaken);
@@ -79,6 +82,7 @@ Attribution::LostHere Attribution::lostHere(std::uint64_t fromPacket, std::uint6
     for (auto drop = m_drops.rbegin(); drop != m_drops.rend() && drop->packet > fromPacket; ++drop) {
         if (drop->packet <= toPacket && drop->localPort.value_or(localPort) == localPort) {
             (drop->localPort ? lost.dropped : lost.overtaken) += drop->count;
+            lost.isClosed |= drop->isClosed;
         }
     }
     return lost;

@@ -16,6 +16,8 @@ std::string Gap::evidenceText() const {
     case Evidence::Dropped:
         return "This computer dropped " + counted(figure, "datagram") + " of the port between packets " +
                std::to_string(fromPacket) + " and " + std::to_string(toPacket) + ".";
+    case Evidence::NotListening:
+        return "This computer did not listen to the port for a while: its input was removed and added again.";
     case Evidence::Overtaken:
         return "This computer did not look at " + counted(figure, "packet") + " between packets " +
                std::to_string(fromPacket) + " and " + std::to_string(toPacket) + " in time.";

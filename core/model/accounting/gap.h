@@ -14,14 +14,15 @@ namespace posewire::model {
 struct Gap {
     /// What the cause rests on.
     enum class Evidence : std::uint8_t {
-        None,        ///< nothing speaks for anybody
-        Dropped,     ///< this computer dropped datagrams of the socket meanwhile
-        Overtaken,   ///< this computer did not look at packets of the log in time
-        Damaged,     ///< one of the samples came truncated
-        Partial,     ///< of a sample next to it only a part came
-        OtherStream, ///< other streams of the sender brought one of the samples
-        Reliable,    ///< TCP loses nothing
-        Paused,      ///< all streams of the sender paused together, and the time code moved with the pause
+        None,         ///< nothing speaks for anybody
+        Dropped,      ///< this computer dropped datagrams of the socket meanwhile
+        NotListening, ///< the input of the port was closed meanwhile
+        Overtaken,    ///< this computer did not look at packets of the log in time
+        Damaged,      ///< one of the samples came truncated
+        Partial,      ///< of a sample next to it only a part came
+        OtherStream,  ///< other streams of the sender brought one of the samples
+        Reliable,     ///< TCP loses nothing
+        Paused,       ///< all streams of the sender paused together, and the time code moved with the pause
     };
 
     log::StreamKey stream;

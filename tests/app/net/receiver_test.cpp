@@ -231,6 +231,25 @@ TEST_P(ReceiverTest, InputsComeAndGoAndOthersLoseNothing) {
         << receiving.packets() << " of " << sent;
 }
 
+TEST_P(ReceiverTest, TheFirstPacketOfAnInputThatWasRemovedAndAddedAgainSaysSo) {
+    Receiving receiving(options());
+    const Endpoint target = receiving.endpoint();
+    auto sender = DatagramSender::connect({target});
+    const auto send = [&](std::size_t number) {
+        ASSERT_TRUE(sender->send(numbered(760, number)).has_value());
+        ASSERT_TRUE(eventually([&] { return receiving.packets() == number; }));
+    };
+    send(1);
+    ASSERT_TRUE(receiving.receiver->remove(receiving.receiver->inputs()[0].id));
+    ASSERT_TRUE(receiving.receiver->addUdp(target));
+    send(2);
+    send(3);
+    log::LogReader reader(receiving.log);
+    EXPECT_FALSE(reader.packet(0)->flags.afterClosed);
+    EXPECT_TRUE(reader.packet(1)->flags.afterClosed);
+    EXPECT_FALSE(reader.packet(2)->flags.afterClosed);
+}
+
 TEST_P(ReceiverTest, EachInputHasItsOwnCounters) {
     Receiving receiving(options(), 2);
     auto sender = DatagramSender::connect(receiving.target(1));

@@ -75,6 +75,7 @@ std::vector<Recorded> everyKind() {
         with({.stampedByKernel = true}, 3),
         with({.stampedByKernel = true}, 0xffffffff),
         with({.truncated = true, .stampedByKernel = true}),
+        with({.stampedByKernel = true, .afterClosed = true}),
         with({}),
         with({.truncated = true, .skipped = true}),
         commented({"look at this — é"}),

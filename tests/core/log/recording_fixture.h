@@ -29,7 +29,7 @@ inline void PrintTo(const Recorded& one, std::ostream* out) {
          << static_cast<int>(one.sender.transport) << ") to " << one.sender.localPort << " at "
          << nanosecondsOf(asWallTime(one.stamp)) << " after " << one.kernelDropsBefore << " drops, flags "
          << one.flags.truncated << one.flags.stampedByKernel << one.flags.skipped << one.flags.isDropRecord
-         << ", " << one.comments.size() << " comments";
+         << one.flags.afterClosed << ", " << one.comments.size() << " comments";
 }
 
 /// In memory; full after `room` bytes.

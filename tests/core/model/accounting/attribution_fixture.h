@@ -16,6 +16,7 @@ protected:
         log::Transport transport = log::Transport::Udp;
         bool isTruncated = false;
         std::uint8_t datagramCounter = 0x80;
+        bool afterClosed = false;
     };
 
     void put(std::uint32_t sample, const Sent& sent) {
@@ -37,6 +38,7 @@ protected:
         arrival.stamp = m_at;
         arrival.sender = m_log.senders().intern({"127.0.0.1:40001", sent.transport, 9763});
         arrival.kernelDropsBefore = sent.drops;
+        arrival.flags.afterClosed = sent.afterClosed;
         m_log.writer().append(bytes, arrival);
         m_log.writer().publish();
         m_now = m_at;

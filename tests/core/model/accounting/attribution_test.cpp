@@ -135,6 +135,23 @@ TEST_F(AttributionTest, BlamesTheSenderThatPausesAllItsStreams) {
     }
 }
 
+TEST_F(AttributionTest, BlamesThisComputerForWhatWasSentWhileItsInputWasRemoved) {
+    for (std::uint32_t sample = 1; sample <= 400; ++sample, m_at += 4ms) {
+        if (sample <= 100 || sample > 300) {
+            put(sample, {.afterClosed = sample == 301});
+            put(sample, {.type = 24});
+        }
+    }
+    follow();
+    ASSERT_EQ(m_session.gaps().size(), 2U);
+    for (const Gap& gap : m_session.gaps()) {
+        EXPECT_EQ(gap.cause, LossCause::ThisComputer);
+        EXPECT_EQ(gap.lost, 200U);
+        EXPECT_EQ(gap.evidenceText(), "This computer did not listen to the port for a while: its input was "
+                                      "removed and added again.");
+    }
+}
+
 TEST_F(AttributionTest, SaysUnknownWithoutEvidence) {
     frames(1, 50);
     m_at += 4ms;
