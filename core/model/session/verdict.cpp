@@ -19,11 +19,19 @@ namespace {
 
 using State = ListedIncident::State;
 
+/// Of errors that go on: whoever sends nothing, or is sent twice, is worse off than one who loses some.
+int gravityOf(const Incident& incident) {
+    return incident.kind == IncidentKind::Outage ? 2 : incident.kind == IncidentKind::Conflict ? 1 : 0;
+}
+
 /// By how bad it is: what goes on before what is over.
 auto rankOf(const ListedIncident& listed) {
-    return std::tuple(listed.state != State::Over, listed.state == State::Ongoing, listed.incident.severity(),
-                      listed.incident.group() != IncidentGroup::Limit, listed.incident.samples,
-                      listed.incident.number);
+    const Incident& incident = listed.incident;
+    const bool isOngoing = listed.state == State::Ongoing;
+    const bool isGrave = isOngoing && incident.severity() == IncidentSeverity::Error;
+    return std::tuple(listed.state != State::Over, isOngoing, incident.severity(),
+                      isGrave ? gravityOf(incident) : 0, incident.group() != IncidentGroup::Limit,
+                      incident.samples, incident.number);
 }
 
 /// Which character a verdict is on: itself and all that it took over from; none for all together.

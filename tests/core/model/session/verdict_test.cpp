@@ -322,6 +322,31 @@ TEST_F(VerdictTest, IsOfOneCharacterWhereItIsAskedFor) {
     EXPECT_EQ(bad.character, (CharacterKey{sender(), 1}));
 }
 
+TEST_F(VerdictTest, OneThatSendsNothingIsWorseOffThanOneThatLosesSome) {
+    for (std::uint32_t sample = 1; sample <= 600; ++sample, m_at += 10ms) {
+        if (sample <= 300) {
+            poseOfOther(sample);
+        }
+        if (sample % 20 != 0) {
+            pose(sample);
+        }
+    }
+    EXPECT_NE(verdictOn(0).brief.find("lost"), std::string::npos) << verdictOn(0).brief;
+    EXPECT_EQ(verdict().character, (CharacterKey{sender(), 1})) << verdict().text;
+}
+
+TEST_F(VerdictTest, OneThatIsSentTwiceIsWorseOffThanOneThatLosesSome) {
+    for (std::uint32_t sample = 1; sample <= 300; ++sample, m_at += 10ms) {
+        if (sample % 20 != 0) {
+            pose(sample);
+            pose(sample, "127.0.0.1:40002");
+        }
+    }
+    const TakeVerdict said = verdict();
+    EXPECT_EQ(said.state, State::Bad);
+    EXPECT_NE(said.text.find("two senders"), std::string::npos) << said.text;
+}
+
 TEST_F(VerdictTest, MentionsTheOutageOfOneThatIsBackWhileAnotherIsStillSilent) {
     for (std::uint32_t sample = 1; sample <= 300; ++sample, m_at += 10ms) {
         pose(sample);
