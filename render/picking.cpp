@@ -112,6 +112,23 @@ SegmentCapsules segmentCapsules(const SkinnedMesh& mesh) {
     return segmentCapsules(mesh, jointSegments, segmentJoints);
 }
 
+SegmentCapsules stretched(const SegmentCapsules& capsules, std::span<const Stretch> stretches) {
+    SegmentCapsules all = capsules;
+    for (Capsule& capsule : all) {
+        if (capsule.joint >= stretches.size()) {
+            continue;
+        }
+        const Stretch& stretch = stretches[capsule.joint];
+        const glm::vec3 along = glm::abs(capsule.to - capsule.from);
+        int axis = along.x > along.y ? 0 : 1;
+        axis = along.z > along[axis] ? 2 : axis;
+        capsule.radius *= 0.5F * (stretch.scale[(axis + 1) % 3] + stretch.scale[(axis + 2) % 3]);
+        capsule.from = stretch(capsule.from);
+        capsule.to = stretch(capsule.to);
+    }
+    return all;
+}
+
 Capsule posed(const Capsule& capsule, const DualQuaternion& motion) {
     return {transformPoint(motion, capsule.from), transformPoint(motion, capsule.to), capsule.radius,
             capsule.joint};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/camera.h"
+#include "render/mesh/null_pose_fit.h"
 #include "render/skinning.h"
 
 #include <array>
@@ -27,6 +28,8 @@ SegmentCapsules segmentCapsules(const SkinnedMesh& mesh);
 /// segment, or -1.
 SegmentCapsules segmentCapsules(const SkinnedMesh& mesh, std::span<const Segment> jointSegments,
                                 std::span<const int> segmentJoints);
+/// Those of the mannequin on a body that it is fitted to; `stretches` by joint.
+SegmentCapsules stretched(const SegmentCapsules& capsules, std::span<const Stretch> stretches);
 /// The capsule where its joint's motion puts it.
 Capsule posed(const Capsule& capsule, const DualQuaternion& motion);
 

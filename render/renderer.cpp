@@ -5,6 +5,7 @@
 #include "render/passes/edges.h"
 #include "render/passes/floor_shadows.h"
 #include "render/passes/frame.h"
+#include "render/passes/instances.h"
 #include "render/passes/marks.h"
 #include "render/passes/outline.h"
 #include "render/passes/palettes.h"
@@ -56,6 +57,7 @@ struct Renderer::Impl {
     MeshStore meshes;
     gl::Buffer frameBuffer;
     Palettes palettes;
+    Instances instances;
     std::optional<ShadowPass> shadow;
     std::optional<SkinnedPass> skinned;
     std::optional<SurroundingsPass> surroundings;
@@ -119,7 +121,7 @@ void Renderer::Impl::drawPasses(unsigned target, bool isMultisampled) {
     }
     glDepthMask(GL_TRUE);
     glClear(GL_DEPTH_BUFFER_BIT);
-    skinned->drawSolid(frame, quality, isKept && frame.scene->showFloor);
+    skinned->drawSolid(instances, quality, isKept && frame.scene->showFloor);
     pass("bodies");
     if (!isKept) {
         surroundings->draw(frame);
@@ -128,9 +130,9 @@ void Renderer::Impl::drawPasses(unsigned target, bool isMultisampled) {
         floorShadows->draw(frame);
         pass("shadows on the floor");
     }
-    outline->draw(frame, isKept && frame.scene->showFloor);
+    outline->draw(frame, instances, isKept && frame.scene->showFloor);
     pass("outlines");
-    skinned->drawGhosts(frame);
+    skinned->drawGhosts(frame, instances);
     if (quality.edgeSmoothing && !isMultisampled) {
         edges->draw(frame);
         pass("edges");
@@ -155,6 +157,7 @@ tl::expected<Renderer, std::string> Renderer::create(std::optional<RenderQuality
     impl->quality = quality.value_or(interactiveQuality(impl->name));
     impl->frameBuffer = gl::Buffer::create();
     impl->palettes = Palettes::create();
+    impl->instances = Instances::create();
     std::string error;
     const bool isComplete = take(ShadowPass::create(impl->quality), impl->shadow, error) &&
                             take(SkinnedPass::create(), impl->skinned, error) &&
@@ -188,8 +191,8 @@ void Renderer::setQuality(const RenderQuality& quality) {
     }
 }
 
-MeshId Renderer::uploadMesh(const SkinnedMesh& mesh, std::span<const glm::vec3> templatePositions) {
-    return m_impl->meshes.add(mesh, templatePositions);
+MeshId Renderer::uploadMesh(const SkinnedMesh& mesh) {
+    return m_impl->meshes.add(mesh);
 }
 
 MeshId Renderer::uploadMesh(const SkinnedMesh& mesh, const MeshDress& dress) {
@@ -220,13 +223,14 @@ void Renderer::draw(const Scene& scene, const Viewport& viewport) {
     m_impl->frameBuffer.bindUniform(kFrameBinding);
     m_impl->palettes.upload(frame);
     m_impl->palettes.bind();
+    m_impl->instances.upload(frame, m_impl->quality.charactersAtOnce);
     m_impl->marks->upload(scene);
     m_impl->pass("planning");
     glDisable(GL_SCISSOR_TEST);
     glDisable(GL_STENCIL_TEST);
     glFrontFace(GL_CCW);
     glCullFace(GL_BACK);
-    m_impl->shadow->drawDepth(frame);
+    m_impl->shadow->drawDepth(m_impl->instances);
     m_impl->pass("light's picture");
     m_impl->shadow->drawFloorShadow(frame);
     m_impl->pass("floor shadow");
@@ -267,14 +271,21 @@ void Renderer::observePasses(std::function<void(std::string_view)> passed) {
     m_impl->passed = std::move(passed);
 }
 
-std::vector<glm::vec3> Renderer::skinnedPositions(MeshId id, std::span<const DualQuaternion> palette) {
-    const GpuMesh* mesh = m_impl->meshes.find(id);
-    if (mesh == nullptr || palette.size() < mesh->jointBoxes.size()) {
+std::vector<glm::vec3> Renderer::skinnedPositions(MeshId id, std::span<const DualQuaternion> palette,
+                                                  std::span<const Stretch> fit) {
+    const SkinnedInstance instance{id, MeshId::None, palette, {}, fit};
+    Scene scene;
+    scene.characters = std::span(&instance, 1);
+    Frame frame;
+    planFrame(scene, {1, 1}, m_impl->meshes, m_impl->quality, frame);
+    if (frame.characters.empty()) {
         return {};
     }
-    m_impl->palettes.upload(palette.first(mesh->jointBoxes.size()));
+    m_impl->palettes.upload(frame);
     m_impl->palettes.bind();
-    return m_impl->skinned->record(*mesh);
+    m_impl->instances.upload(frame, 0);
+    const DrawnCharacter& only = frame.characters.front();
+    return m_impl->skinned->record(m_impl->instances, Instances::only(frame, only, *only.mesh));
 }
 
 } // namespace posewire::render

@@ -92,10 +92,9 @@ public:
     /// For the pictures from here on. Sizes of shadows that the driver refuses stay as they were.
     void setQuality(const RenderQuality& quality);
 
-    /// `templatePositions` says where each vertex sits on the mannequin in its reference null pose: the suit
-    /// is painted there, so that a fitted mesh keeps its seams. Empty paints without a suit.
-    /// MeshId::None where mesh.validate() fails.
-    MeshId uploadMesh(const SkinnedMesh& mesh, std::span<const glm::vec3> templatePositions);
+    /// The mannequin, in one of its levels, for all characters that are fitted to it: SkinnedInstance::fit
+    /// makes it the body of each. MeshId::None where mesh.validate() fails.
+    MeshId uploadMesh(const SkinnedMesh& mesh);
     /// A mesh with joints, colours and textures of its own. MeshId::None where they do not fit together.
     MeshId uploadMesh(const SkinnedMesh& mesh, const MeshDress& dress);
     void releaseMesh(MeshId id);
@@ -116,7 +115,8 @@ public:
 
     /// Positions as the vertex shader skins them, in the order of the mesh's own vertices: the tests compare
     /// SkinJob with them. Empty where the mesh is unknown or the palette short.
-    std::vector<glm::vec3> skinnedPositions(MeshId id, std::span<const DualQuaternion> palette);
+    std::vector<glm::vec3> skinnedPositions(MeshId id, std::span<const DualQuaternion> palette,
+                                            std::span<const Stretch> fit = {});
 
 private:
     struct Impl;

@@ -3,6 +3,7 @@
 
 #include "render/camera.h"
 #include "render/mesh/character_file.h"
+#include "render/mesh/null_pose_fit.h"
 #include "render/skinning.h"
 
 #include <array>
@@ -112,6 +113,8 @@ struct SkinnedInstance {
     /// PaletteJob makes them, or those of OwnPaletteJob.
     std::span<const DualQuaternion> palette;
     CharacterLook look;
+    /// What makes the mesh this body, by joint; none for the mesh as it is.
+    std::span<const Stretch> fit{};
 };
 
 /// The local axes of one segment, tracker or prop, drawn over the body. Axes without length draw nothing.

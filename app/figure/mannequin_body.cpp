@@ -23,8 +23,8 @@ exporting::BodyMesh mannequinBody(const model::BodyOrigins& performer) {
         const Eigen::Vector3f at = place.cast<float>();
         return glm::vec3(at.x(), at.y(), at.z());
     });
-    render::NullPose used{};
-    const render::SkinnedMesh fitted = render::fitToNullPose(mannequin, pose, used);
+    const render::BodyFit fit = render::fitBody(pose);
+    const render::SkinnedMesh fitted = render::fitted(mannequin, fit);
     exporting::BodyMesh body;
     std::ranges::transform(fitted.positions, std::back_inserter(body.positions), plain);
     std::ranges::transform(fitted.normals, std::back_inserter(body.normals), plain);
@@ -36,7 +36,7 @@ exporting::BodyMesh mannequinBody(const model::BodyOrigins& performer) {
         return std::array{weights.x, weights.y, weights.z, weights.w};
     });
     body.indices = fitted.indices;
-    std::ranges::transform(used, body.origins.begin(),
+    std::ranges::transform(fit.origins, body.origins.begin(),
                            [](const glm::vec3& at) { return Eigen::Vector3d(at.x, at.y, at.z); });
     return body;
 }

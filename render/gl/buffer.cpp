@@ -27,6 +27,14 @@ void Buffer::upload(std::span<const std::byte> bytes, Usage usage) {
     m_size = bytes.size();
 }
 
+void Buffer::write(std::span<const std::byte> bytes, Usage usage) {
+    if (bytes.size() > m_size) {
+        return upload(bytes, usage);
+    }
+    glBindBuffer(GL_COPY_WRITE_BUFFER, name());
+    glBufferSubData(GL_COPY_WRITE_BUFFER, 0, static_cast<GLsizeiptr>(bytes.size()), bytes.data());
+}
+
 void Buffer::allocate(std::size_t size, Usage usage) {
     glBindBuffer(GL_COPY_WRITE_BUFFER, name());
     glBufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(size), nullptr, hint(usage));

@@ -24,6 +24,9 @@ public:
     void upload(std::span<const T> values, Usage usage) {
         upload(std::as_bytes(values), usage);
     }
+    /// Writes over the beginning, in the room there is where it is enough: for a buffer that nothing under
+    /// way reads any more.
+    void write(std::span<const std::byte> bytes, Usage usage);
     /// Room without content.
     void allocate(std::size_t size, Usage usage);
     void read(std::span<std::byte> bytes) const;

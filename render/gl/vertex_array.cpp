@@ -18,15 +18,30 @@ void VertexArray::bind() const {
 }
 
 void VertexArray::attach(const Buffer& buffer, std::size_t stride, const Attribute& attribute,
-                         unsigned divisor) {
+                         unsigned divisor) const {
     bind();
     glBindBuffer(GL_ARRAY_BUFFER, buffer.name());
     const void* offset = reinterpret_cast<const void*>(attribute.offset); // NOLINT: the API's own convention
     const auto step = static_cast<GLsizei>(stride);
-    if (attribute.kind == Attribute::Kind::Float) {
-        glVertexAttribPointer(attribute.location, attribute.components, GL_FLOAT, GL_FALSE, step, offset);
-    } else {
+    const auto pointer = [&](GLenum type, GLboolean isShare) {
+        glVertexAttribPointer(attribute.location, attribute.components, type, isShare, step, offset);
+    };
+    switch (attribute.kind) {
+    case Attribute::Kind::Float:
+        pointer(GL_FLOAT, GL_FALSE);
+        break;
+    case Attribute::Kind::UnsignedShare:
+        pointer(GL_UNSIGNED_SHORT, GL_TRUE);
+        break;
+    case Attribute::Kind::SignedShare:
+        pointer(GL_SHORT, GL_TRUE);
+        break;
+    case Attribute::Kind::Integer:
+        glVertexAttribIPointer(attribute.location, attribute.components, GL_INT, step, offset);
+        break;
+    case Attribute::Kind::ByteInteger:
         glVertexAttribIPointer(attribute.location, attribute.components, GL_UNSIGNED_BYTE, step, offset);
+        break;
     }
     glEnableVertexAttribArray(attribute.location);
     glVertexAttribDivisor(attribute.location, divisor);

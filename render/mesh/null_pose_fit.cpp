@@ -32,56 +32,47 @@ float girthOf(float ratio) {
 }
 
 /// From ankles to head: nothing here depends on where the null pose has its floor.
-float statureRatio(std::span<const glm::vec3> reference, std::span<const glm::vec3> performer) {
+float statureRatio(std::span<const glm::vec3> performer) {
     const auto height = [](std::span<const glm::vec3> origins) {
         return origins[Head].z - 0.5F * (origins[LeftFoot].z + origins[RightFoot].z);
     };
     const auto trunk = [](std::span<const glm::vec3> origins) { return origins[Head].z - origins[Pelvis].z; };
-    const float whole = height(performer) / height(reference);
+    const float whole = height(performer) / height(kReferenceNullPose);
     if (isUsable(whole)) {
         return whole;
     }
-    const float upper = trunk(performer) / trunk(reference);
+    const float upper = trunk(performer) / trunk(kReferenceNullPose);
     return isUsable(upper) ? upper : 1.0F;
 }
 
-struct Stretch {
-    glm::vec3 from;
-    glm::vec3 to;
-    glm::vec3 scale;
-
-    glm::vec3 operator()(const glm::vec3& v) const { return to + scale * (v - from); }
-};
-
-using Stretches = std::array<Stretch, kJointCount>;
-
 class Fit {
 public:
-    Fit(std::span<const glm::vec3> reference, std::span<const glm::vec3> performer,
-        std::span<const glm::vec3> performerFingers)
-        : m_reference(reference), m_girth(girthOf(statureRatio(reference, performer))) {
+    Fit(std::span<const glm::vec3> performer, const FingerOrigins& performerFingers)
+        : m_girth(girthOf(statureRatio(performer))) {
         for (std::size_t i = 0; i < kSegmentCount; ++i) {
             m_origins[i] = usableOrigin(i, performer);
         }
         for (std::size_t i = 0; i < kFingerJointCount; ++i) {
-            const glm::vec3 unknown(std::numeric_limits<float>::quiet_NaN());
-            m_fingers[i] = usableFinger(i, performerFingers.empty() ? unknown : performerFingers[i]);
+            m_fingers[i] = usableFinger(i, performerFingers[i]);
         }
     }
 
     const NullPose& origins() const { return m_origins; }
     const FingerOrigins& fingers() const { return m_fingers; }
 
-    Stretches stretches() const {
-        Stretches all;
+    std::array<Stretch, kJointCount> stretches() const {
+        std::array<Stretch, kJointCount> all;
+        const auto between = [](const glm::vec3& from, const glm::vec3& to, const glm::vec3& scale) {
+            return Stretch{scale, to - scale * from};
+        };
         for (std::size_t i = 0; i < kSegmentCount; ++i) {
-            all[i] = {m_reference[i], m_origins[i], scaleOf(static_cast<Segment>(i))};
+            all[i] = between(kReferenceNullPose[i], m_origins[i], scaleOf(static_cast<Segment>(i)));
         }
-        for (std::size_t i = kSegmentCount; i < kJointCount; ++i) {
+        for (std::size_t i = kSegmentCount; i < kFirstFingerJoint; ++i) {
             all[i] = all[jointSegment(i)];
         }
         for (std::size_t i = 0; i < kFingerJointCount; ++i) {
-            all[kFirstFingerJoint + i] = {restOf(i), m_fingers[i], fingerScale(i)};
+            all[kFirstFingerJoint + i] = between(restOf(i), m_fingers[i], fingerScale(i));
         }
         return all;
     }
@@ -92,27 +83,23 @@ private:
     glm::vec3 usableOrigin(std::size_t i, std::span<const glm::vec3> performer) const {
         if (kSegmentParents[i] < 0) {
             const bool isNear = isFinite(performer[i]) && glm::length(performer[i]) <= kFarthestPelvis;
-            return isNear ? performer[i] : m_reference[i];
+            return isNear ? performer[i] : kReferenceNullPose[i];
         }
         const auto parent = static_cast<std::size_t>(kSegmentParents[i]);
-        const glm::vec3 bone = m_reference[i] - m_reference[parent];
+        const glm::vec3 bone = kReferenceNullPose[i] - kReferenceNullPose[parent];
         const glm::vec3 sent = performer[i] - performer[parent];
         const bool isSane = isFinite(sent) && isUsable(glm::length(sent) / glm::length(bone));
         return m_origins[parent] + (isSane ? sent : m_girth * bone);
     }
 
-    /// Where the mesh was made with a finger, for the reference it was made for.
-    glm::vec3 restOf(std::size_t finger) const {
-        const std::size_t joint = kFirstFingerJoint + finger;
-        const Segment hand = jointSegment(joint);
-        return m_reference[hand] + (jointOrigin(joint) - kReferenceNullPose[hand]);
-    }
+    /// Where the mesh was made with a finger.
+    static glm::vec3 restOf(std::size_t finger) { return jointOrigin(kFirstFingerJoint + finger); }
 
     /// The finger's origin as sent where it is about as far from the wrist as it should be, else as the
     /// hand's size has it.
     glm::vec3 usableFinger(std::size_t finger, const glm::vec3& sent) const {
         const Segment hand = jointSegment(kFirstFingerJoint + finger);
-        const glm::vec3 reach = restOf(finger) - m_reference[hand];
+        const glm::vec3 reach = restOf(finger) - kReferenceNullPose[hand];
         const glm::vec3 found = sent - m_origins[hand];
         constexpr float kNear = 0.03F;
         const bool isSane = isFinite(found) && glm::length(found - m_girth * reach) <=
@@ -139,7 +126,7 @@ private:
     /// The stretch along one axis between two segments' origins.
     float between(Segment from, Segment to, int axis) const {
         return ratio(m_origins[to][axis] - m_origins[from][axis],
-                     m_reference[to][axis] - m_reference[from][axis]);
+                     kReferenceNullPose[to][axis] - kReferenceNullPose[from][axis]);
     }
 
     static Segment childOf(Segment segment) { return static_cast<Segment>(segment + 1); }
@@ -178,7 +165,6 @@ private:
         }
     }
 
-    std::span<const glm::vec3> m_reference;
     float m_girth;
     NullPose m_origins{};
     FingerOrigins m_fingers{};
@@ -186,63 +172,38 @@ private:
 
 } // namespace
 
-tl::expected<void, std::string> NullPoseFitJob::validate() const {
-    if (mesh == nullptr) {
-        return tl::make_unexpected("there is no mesh to fit");
-    }
-    if (reference.size() != kSegmentCount || performer.size() != kSegmentCount ||
-        origins.size() != kSegmentCount) {
-        return tl::make_unexpected("a null pose has the origins of 23 segments");
-    }
-    if ((!performerFingers.empty() && performerFingers.size() != kFingerJointCount) ||
-        (!fingerOrigins.empty() && fingerOrigins.size() != kFingerJointCount)) {
-        return tl::make_unexpected("both hands have 40 segments");
-    }
-    if (positions.size() != mesh->vertexCount() || normals.size() != mesh->vertexCount()) {
-        return tl::make_unexpected("the output differs in size from the mesh");
-    }
-    return mesh->validate(kJointCount);
+const FingerOrigins& unknownFingers() {
+    static const FingerOrigins kUnknown = [] {
+        FingerOrigins fingers;
+        fingers.fill(glm::vec3(std::numeric_limits<float>::quiet_NaN()));
+        return fingers;
+    }();
+    return kUnknown;
 }
 
-void NullPoseFitJob::run() const {
-    const Fit fit(reference, performer, performerFingers);
-    std::ranges::copy(fit.origins(), origins.begin());
-    std::copy_n(fit.fingers().begin(), fingerOrigins.size(), fingerOrigins.begin());
-    const Stretches stretches = fit.stretches();
-    for (std::size_t i = 0; i < positions.size(); ++i) {
-        glm::vec3 place(0.0F);
-        glm::vec3 scale(0.0F);
-        for (std::size_t k = 0; k < mesh->joints[i].size(); ++k) {
-            const float weight = mesh->weights[i][static_cast<int>(k)];
-            const Stretch& stretch = stretches[mesh->joints[i][k]];
-            place += weight * stretch(mesh->positions[i]);
-            scale += weight * stretch.scale;
+BodyFit fitBody(const NullPose& performer, const FingerOrigins& fingers) {
+    const Fit fit(performer, fingers);
+    return {fit.origins(), fit.fingers(), fit.stretches()};
+}
+
+SkinnedMesh fitted(const SkinnedMesh& mannequin, const BodyFit& fit) {
+    SkinnedMesh mesh = mannequin;
+    for (std::size_t i = 0; i < mesh.vertexCount(); ++i) {
+        Stretch sum{glm::vec3(0.0F), glm::vec3(0.0F)};
+        for (std::size_t k = 0; k < mesh.joints[i].size(); ++k) {
+            const float weight = mesh.weights[i][static_cast<int>(k)];
+            const Stretch& stretch = fit.stretches[mesh.joints[i][k]];
+            sum.scale += weight * stretch.scale;
+            sum.shift += weight * stretch.shift;
         }
-        positions[i] = place;
-        normals[i] = glm::normalize(mesh->normals[i] / scale);
+        mesh.positions[i] = sum(mesh.positions[i]);
+        mesh.normals[i] = glm::normalize(mesh.normals[i] / sum.scale);
     }
+    return mesh;
 }
 
 FingerOrigins fittedFingers(std::span<const glm::vec3> origins) {
-    return Fit(kReferenceNullPose, origins, {}).fingers();
-}
-
-SkinnedMesh fitToNullPose(const SkinnedMesh& mesh, const NullPose& performer,
-                          const FingerOrigins& performerFingers, NullPose& usedOrigins,
-                          FingerOrigins& usedFingers) {
-    SkinnedMesh fitted = mesh;
-    const NullPoseFitJob job{&mesh,          kReferenceNullPose, performer,        fitted.positions,
-                             fitted.normals, usedOrigins,        performerFingers, usedFingers};
-    job.run();
-    return fitted;
-}
-
-SkinnedMesh fitToNullPose(const SkinnedMesh& mesh, const NullPose& performer, NullPose& usedOrigins) {
-    SkinnedMesh fitted = mesh;
-    const NullPoseFitJob job{&mesh,          kReferenceNullPose, performer, fitted.positions,
-                             fitted.normals, usedOrigins};
-    job.run();
-    return fitted;
+    return Fit(origins, unknownFingers()).fingers();
 }
 
 } // namespace posewire::render

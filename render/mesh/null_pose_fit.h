@@ -4,47 +4,44 @@
 #include "render/mesh/joints.h"
 #include "render/mesh/mesh.h"
 
+#include <array>
 #include <span>
-#include <string>
 
 namespace posewire::render {
 
-/// Stretches a mesh from one null pose to a performer's: v' = Σ wᵢ (o'ᵢ + Sᵢ (v − oᵢ)), with the weights of
-/// twist and half joints counted for their segments. Null poses have identity orientations, so that a
-/// diagonal Sᵢ is exact: along the bone it is the ratio of the lengths, across it the girth that follows from
-/// the stature. Where a length is zero, not finite or absurd, the reference's is used.
-struct NullPoseFitJob {
-    const SkinnedMesh* mesh = nullptr;
-    /// Segment origins that the mesh was made for, metres.
-    std::span<const glm::vec3> reference;
-    /// The performer's segment origins (type 13), metres, Z-up.
-    std::span<const glm::vec3> performer;
-    /// Fitted vertices, in the performer's null-pose frame.
-    std::span<glm::vec3> positions;
-    /// The mesh's normals turned by the stretch (by the inverse of its diagonal, the change of weights left
-    /// out): they keep the template's smoothness at any detail.
-    std::span<glm::vec3> normals;
-    /// The performer's origins as used, with unusable ones replaced: the palette must be made with these.
-    std::span<glm::vec3> origins;
-    /// The origins of both hands' segments, kFingerJointCount or none; fingers that are not finite, or none,
-    /// fit the hands.
-    std::span<const glm::vec3> performerFingers{};
-    /// None, or kFingerJointCount as used.
-    std::span<glm::vec3> fingerOrigins{};
+/// Where a point of the mannequin lies on another body: v' = scale ∘ v + shift.
+struct Stretch {
+    glm::vec3 scale{1.0F};
+    glm::vec3 shift{0.0F};
 
-    tl::expected<void, std::string> validate() const;
-    void run() const;
+    glm::vec3 operator()(const glm::vec3& v) const { return scale * v + shift; }
+    bool operator==(const Stretch&) const = default;
 };
+
+/// The mannequin stretched from its null pose to a performer's: v' = Σ wᵢ (o'ᵢ + Sᵢ (v − oᵢ)), with the
+/// weights of twist and half joints counted for their segments. Null poses have identity orientations, so
+/// that a diagonal Sᵢ is exact: along the bone it is the ratio of the lengths, across it the girth that
+/// follows from the stature. Where a length is zero, not finite or absurd, the reference's is used.
+struct BodyFit {
+    /// The performer's segment origins as used, with unusable ones replaced, in metres, Z-up: palettes of
+    /// this body must be made with these.
+    NullPose origins{};
+    FingerOrigins fingerOrigins{};
+    std::array<Stretch, kJointCount> stretches{};
+};
+
+/// What is no number: the fingers of a body of which none are sent.
+const FingerOrigins& unknownFingers();
+
+/// By a performer's segment origins (type 13), metres, Z-up; any of them may be of any value. Fingers that
+/// are not finite fit the hands.
+BodyFit fitBody(const NullPose& performer, const FingerOrigins& fingers = unknownFingers());
+
+/// The mannequin's mesh on that body, as the vertex shader places it. Normals are turned by the inverse of
+/// the stretch's diagonal, the change of weights left out: they keep the template's smoothness at any detail.
+SkinnedMesh fitted(const SkinnedMesh& mannequin, const BodyFit& fit);
 
 /// Where the fit puts the fingers of a body with these segment origins where none are sent.
 FingerOrigins fittedFingers(std::span<const glm::vec3> origins);
-
-/// The mesh fitted to the performer, by NullPoseFitJob from kReferenceNullPose. `usedOrigins` receives its
-/// `origins`.
-SkinnedMesh fitToNullPose(const SkinnedMesh& mesh, const NullPose& performer, NullPose& usedOrigins);
-/// With fingers, which may be anything but finite.
-SkinnedMesh fitToNullPose(const SkinnedMesh& mesh, const NullPose& performer,
-                          const FingerOrigins& performerFingers, NullPose& usedOrigins,
-                          FingerOrigins& usedFingers);
 
 } // namespace posewire::render

@@ -21,10 +21,21 @@ public:
     void draw(const Frame& frame);
 
 private:
+    /// Of a picture, in pixels from its bottom left.
+    struct Region {
+        int x;
+        int y;
+        int width;
+        int height;
+    };
+
+    static Region regionOf(const Bounds& onScreen, const Viewport& viewport, float margin);
+
     gl::Program m_program;
     gl::VertexArray m_noVertices;
     /// A copy of the picture, as large as the viewport was.
     gl::Texture m_copy;
+    std::vector<Region> m_regions;
 };
 
 } // namespace posewire::render

@@ -9,20 +9,18 @@
 #include <epoxy/gl.h>
 
 namespace posewire::render {
-namespace {
-
 /// The parts of a line that rectangles cover between two heights at which none begins or ends.
-void addSlab(std::span<const glm::vec4> byLeft, float low, float high, std::vector<glm::vec4>& disjoint) {
+void DisjointRectangles::addSlab(float low, float high) {
     const float middle = 0.5F * (low + high);
     bool isOpen = false;
     float left = 0.0F;
     float right = 0.0F;
     const auto close = [&] {
         if (isOpen) {
-            disjoint.emplace_back(left, low, right - left, high - low);
+            m_disjoint.emplace_back(left, low, right - left, high - low);
         }
     };
-    for (const glm::vec4& one : byLeft) {
+    for (const glm::vec4& one : m_byLeft) {
         if (!(one.y < middle && one.y + one.w > middle && one.z > 0.0F)) {
             continue;
         }
@@ -38,23 +36,22 @@ void addSlab(std::span<const glm::vec4> byLeft, float low, float high, std::vect
     close();
 }
 
-} // namespace
-
-void makeDisjoint(std::span<const glm::vec4> covered, std::vector<glm::vec4>& disjoint) {
-    disjoint.clear();
-    std::vector<glm::vec4> byLeft(covered.begin(), covered.end());
-    std::ranges::sort(byLeft, {}, &glm::vec4::x);
-    std::vector<float> heights;
+std::span<const glm::vec4> DisjointRectangles::of(std::span<const glm::vec4> covered) {
+    m_disjoint.clear();
+    m_byLeft.assign(covered.begin(), covered.end());
+    std::ranges::sort(m_byLeft, {}, &glm::vec4::x);
+    m_heights.clear();
     for (const glm::vec4& one : covered) {
-        heights.push_back(one.y);
-        heights.push_back(one.y + one.w);
+        m_heights.push_back(one.y);
+        m_heights.push_back(one.y + one.w);
     }
-    std::ranges::sort(heights);
-    for (std::size_t i = 1; i < heights.size(); ++i) {
-        if (heights[i - 1] < heights[i]) {
-            addSlab(byLeft, heights[i - 1], heights[i], disjoint);
+    std::ranges::sort(m_heights);
+    for (std::size_t i = 1; i < m_heights.size(); ++i) {
+        if (m_heights[i - 1] < m_heights[i]) {
+            addSlab(m_heights[i - 1], m_heights[i]);
         }
     }
+    return m_disjoint;
 }
 
 tl::expected<FloorShadows, std::string> FloorShadows::create() {
@@ -82,11 +79,11 @@ void FloorShadows::draw(const Frame& frame) {
             m_covered.emplace_back(low.x, low.y, size.x, size.y);
         }
     }
-    makeDisjoint(m_covered, m_disjoint);
-    if (m_disjoint.empty()) {
+    const std::span<const glm::vec4> disjoint = m_disjoint.of(m_covered);
+    if (disjoint.empty()) {
         return;
     }
-    m_rectangles.upload(std::span<const glm::vec4>(m_disjoint), gl::Buffer::Usage::Stream);
+    m_rectangles.upload(disjoint, gl::Buffer::Usage::Stream);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LEQUAL);
     glDepthMask(GL_FALSE);
@@ -95,7 +92,7 @@ void FloorShadows::draw(const Frame& frame) {
     glBlendFuncSeparate(GL_ONE, GL_SRC1_COLOR, GL_ZERO, GL_ONE);
     m_program.use();
     m_array.bind();
-    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<int>(m_disjoint.size()));
+    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<int>(disjoint.size()));
     glDisable(GL_BLEND);
     glDepthMask(GL_TRUE);
 }

@@ -11,6 +11,21 @@
 
 namespace posewire::render {
 
+/// Makes of rectangles (x, y, width, height) others that cover the same and do not overlap; those without a
+/// size are left out. Keeps its room for the next time.
+class DisjointRectangles {
+public:
+    /// Good until the next call.
+    std::span<const glm::vec4> of(std::span<const glm::vec4> covered);
+
+private:
+    void addSlab(float low, float high);
+
+    std::vector<glm::vec4> m_byLeft;
+    std::vector<float> m_heights;
+    std::vector<glm::vec4> m_disjoint;
+};
+
 /// Puts the softened shadows of ShadowPass on a floor that is in the picture already, only where characters
 /// throw any.
 class FloorShadows {
@@ -24,11 +39,7 @@ private:
     gl::Buffer m_rectangles;
     gl::VertexArray m_array;
     std::vector<glm::vec4> m_covered;
-    std::vector<glm::vec4> m_disjoint;
+    DisjointRectangles m_disjoint;
 };
-
-/// Rectangles (x, y, width, height) that cover the same as `covered` and do not overlap; those without a size
-/// are left out. `disjoint` keeps its room.
-void makeDisjoint(std::span<const glm::vec4> covered, std::vector<glm::vec4>& disjoint);
 
 } // namespace posewire::render

@@ -30,8 +30,10 @@ template <typename Visit>
 void forEachCorner(const DrawnCharacter& character, Visit visit) {
     for (std::size_t joint = 0; joint < character.mesh->jointBoxes.size(); ++joint) {
         const Bounds& box = character.mesh->jointBoxes[joint];
+        const Stretch stretch = character.instance->fit.empty() ? Stretch() : character.instance->fit[joint];
         for (int corner = 0; corner < 8 && !box.isEmpty(); ++corner) {
-            const glm::vec3 world = transformPoint(character.instance->palette[joint], box.corner(corner));
+            const glm::vec3 world =
+                transformPoint(character.instance->palette[joint], stretch(box.corner(corner)));
             if (isFinite(world)) {
                 visit(world);
             }
@@ -42,23 +44,27 @@ void forEachCorner(const DrawnCharacter& character, Visit visit) {
 /// Null where there is none that the same palette moves.
 const GpuMesh* lowMesh(const SkinnedInstance& instance, const GpuMesh& mesh, const MeshStore& meshes) {
     const GpuMesh* low = meshes.find(instance.lowMesh);
-    return low != nullptr && low->jointBoxes.size() == mesh.jointBoxes.size() ? low : nullptr;
+    // What the shader knows of the body holds for both.
+    const bool isOfOneBody =
+        low != nullptr && low->jointBoxes.size() == mesh.jointBoxes.size() && low->cube == mesh.cube;
+    return isOfOneBody ? low : nullptr;
 }
 
 void findDrawable(const Scene& scene, const MeshStore& meshes, const RenderQuality& quality,
                   std::vector<DrawnCharacter>& characters) {
     characters.clear();
-    int paletteBase = 0;
+    int firstTexel = 0;
     for (const SkinnedInstance& instance : scene.characters) {
         const GpuMesh* mesh = meshes.find(instance.mesh);
-        if (mesh == nullptr || instance.palette.size() < mesh->jointBoxes.size() ||
-            !(instance.look.opacity > 0.0F)) {
+        const std::size_t joints = mesh == nullptr ? 0 : mesh->jointBoxes.size();
+        if (mesh == nullptr || instance.palette.size() < joints ||
+            (!instance.fit.empty() && instance.fit.size() < joints) || !(instance.look.opacity > 0.0F)) {
             continue;
         }
         const GpuMesh* low = lowMesh(instance, *mesh, meshes);
         const GpuMesh* caster = quality.lowShadows && low != nullptr ? low : mesh;
-        characters.push_back({&instance, mesh, mesh, caster, paletteBase, Bounds{}, Bounds{}});
-        paletteBase += kTexelsPerJoint * static_cast<int>(mesh->jointBoxes.size());
+        characters.push_back({&instance, mesh, mesh, caster, firstTexel, Bounds{}, Bounds{}});
+        firstTexel += kTexelsPerJoint * static_cast<int>(mesh->jointBoxes.size());
     }
 }
 

@@ -41,14 +41,15 @@ struct DrawnCharacter {
     const GpuMesh* mesh = nullptr;
     const GpuMesh* drawn = nullptr;
     const GpuMesh* caster = nullptr;
-    /// Its first texel in the palette.
-    int paletteBase = 0;
+    /// Of its own in the buffers of Palettes.
+    int firstTexel = 0;
     /// Device coordinates of the light's picture, z unused.
     Bounds inLight;
     /// Device coordinates of the picture, clamped to it; empty where the character is out of sight.
     Bounds onScreen;
 
     bool isGhost() const { return instance->look.opacity < 1.0F; }
+    bool castsShadow() const { return !isGhost() && !inLight.isEmpty(); }
 };
 
 /// The selected segment as a bit; 0 where there is none.

@@ -20,16 +20,32 @@ public:
     void draw(const Frame& frame);
 
 private:
+    struct Line {
+        glm::vec3 from;
+        float width;
+        glm::vec3 to;
+        float behind;
+        glm::vec4 colour;
+    };
+    struct Point {
+        glm::vec3 position;
+        float diameter;
+        glm::vec4 colour;
+        float behind;
+    };
+
+    void addAxes(const AxesInstance& axes, const Scene& scene);
+    void attach();
     void drawBatch(gl::Program& program, const gl::VertexArray& array, int count);
 
     gl::Program m_lineProgram;
     gl::Program m_pointProgram;
-    gl::Buffer m_lines;
-    gl::Buffer m_points;
+    std::vector<Line> m_lines;
+    std::vector<Point> m_points;
+    gl::Buffer m_lineBuffer;
+    gl::Buffer m_pointBuffer;
     gl::VertexArray m_lineArray;
     gl::VertexArray m_pointArray;
-    int m_lineCount = 0;
-    int m_pointCount = 0;
 };
 
 } // namespace posewire::render

@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 
-#include <epoxy/gl.h>
+#include <glm/common.hpp>
 
 namespace posewire::render {
 namespace {
@@ -14,25 +16,57 @@ namespace {
 /// A joint with less of a vertex than this hardly moves it.
 constexpr float kNoticeableWeight = 0.2F;
 
+/// Positions and occlusion in 1/65,535 of a cube and of all light, normals in 1/32,767: a hundredth of a
+/// millimetre on a person.
 struct Vertex {
-    glm::vec3 position;
-    float occlusion;
-    glm::vec3 normal;
-    glm::vec3 templatePosition;
+    std::array<std::uint16_t, 3> position;
+    std::uint16_t occlusion;
+    std::array<std::int16_t, 4> normal;
     JointIndices joints;
-    JointIndices segments;
-    glm::vec4 weights;
+    std::array<std::uint16_t, 4> weights;
 };
-static_assert(sizeof(Vertex) == 64);
+static_assert(sizeof(Vertex) == 28);
+
+constexpr float kMostShare = 65'535.0F;
+
+std::uint16_t shareOf(float value) {
+    return static_cast<std::uint16_t>(std::lround(std::clamp(value, 0.0F, 1.0F) * kMostShare));
+}
+
+/// Their sum is exactly 1.
+std::array<std::uint16_t, 4> sharesOf(const glm::vec4& weights) {
+    std::array<std::uint16_t, 4> shares{};
+    int rest = static_cast<int>(kMostShare);
+    for (int i = 1; i < 4; ++i) {
+        shares[static_cast<std::size_t>(i)] = shareOf(weights[i]);
+        rest -= shares[static_cast<std::size_t>(i)];
+    }
+    shares[0] = static_cast<std::uint16_t>(std::max(rest, 0));
+    return shares;
+}
+
+/// In steps of a quarter of a metre, so that all levels of one body have the same.
+Cube cubeAround(const SkinnedMesh& mesh) {
+    constexpr float kStep = 0.25F;
+    Bounds box;
+    for (const glm::vec3& position : mesh.positions) {
+        box.add(position);
+    }
+    if (box.isEmpty()) {
+        return {};
+    }
+    const glm::vec3 low = kStep * glm::floor(box.min / kStep);
+    const glm::vec3 size = box.max - low;
+    const float longest = std::max({size.x, size.y, size.z, kStep});
+    return {low, kStep * std::ceil(longest / kStep)};
+}
 
 void attachAttributes(GpuMesh& gpu) {
     using Kind = gl::Attribute::Kind;
-    gpu.array.attach(gpu.vertices, sizeof(Vertex), {0, 4, offsetof(Vertex, position), Kind::Float});
-    gpu.array.attach(gpu.vertices, sizeof(Vertex), {1, 3, offsetof(Vertex, normal), Kind::Float});
-    gpu.array.attach(gpu.vertices, sizeof(Vertex), {2, 3, offsetof(Vertex, templatePosition), Kind::Float});
-    gpu.array.attach(gpu.vertices, sizeof(Vertex), {3, 4, offsetof(Vertex, joints), Kind::ByteInteger});
-    gpu.array.attach(gpu.vertices, sizeof(Vertex), {4, 4, offsetof(Vertex, weights), Kind::Float});
-    gpu.array.attach(gpu.vertices, sizeof(Vertex), {5, 4, offsetof(Vertex, segments), Kind::ByteInteger});
+    gpu.array.attach(gpu.vertices, sizeof(Vertex), {0, 4, offsetof(Vertex, position), Kind::UnsignedShare});
+    gpu.array.attach(gpu.vertices, sizeof(Vertex), {1, 3, offsetof(Vertex, normal), Kind::SignedShare});
+    gpu.array.attach(gpu.vertices, sizeof(Vertex), {2, 4, offsetof(Vertex, joints), Kind::ByteInteger});
+    gpu.array.attach(gpu.vertices, sizeof(Vertex), {3, 4, offsetof(Vertex, weights), Kind::UnsignedShare});
     gpu.array.attachIndices(gpu.indices);
 }
 
@@ -63,21 +97,22 @@ void joinFingers(GpuMesh& gpu) {
     }
 }
 
-GpuMesh upload(const SkinnedMesh& mesh, std::span<const glm::vec3> templatePositions,
-               std::span<const Segment> jointSegments) {
-    const bool hasSuit = !templatePositions.empty();
+GpuMesh upload(const SkinnedMesh& mesh, std::span<const Segment> jointSegments) {
+    GpuMesh gpu;
+    gpu.cube = cubeAround(mesh);
+    gpu.segments.assign(jointSegments.begin(), jointSegments.end());
     std::vector<Vertex> vertices;
     vertices.reserve(mesh.vertexCount());
     for (std::size_t i = 0; i < mesh.vertexCount(); ++i) {
-        JointIndices segments{};
-        std::ranges::transform(mesh.joints[i], segments.begin(),
-                               [&](std::uint8_t joint) { return std::uint8_t{jointSegments[joint]}; });
-        vertices.push_back({mesh.positions[i], mesh.occlusion[i], mesh.normals[i],
-                            hasSuit ? templatePositions[i] : mesh.positions[i], mesh.joints[i], segments,
-                            mesh.weights[i]});
+        const glm::vec3 at = (mesh.positions[i] - gpu.cube.low) / gpu.cube.side;
+        const glm::vec3 normal = glm::round(32'767.0F * mesh.normals[i]);
+        vertices.push_back({{shareOf(at.x), shareOf(at.y), shareOf(at.z)},
+                            shareOf(mesh.occlusion[i]),
+                            {static_cast<std::int16_t>(normal.x), static_cast<std::int16_t>(normal.y),
+                             static_cast<std::int16_t>(normal.z), 0},
+                            mesh.joints[i],
+                            sharesOf(mesh.weights[i])});
     }
-    GpuMesh gpu;
-    gpu.hasSuit = hasSuit;
     gpu.vertices = gl::Buffer::create();
     gpu.vertices.upload(std::span<const Vertex>(vertices), gl::Buffer::Usage::Static);
     gpu.indices = gl::Buffer::create();
@@ -113,7 +148,7 @@ void addDress(const MeshDress& dress, GpuMesh& gpu) {
     if (!dress.texturePlaces.empty()) {
         gpu.texturePlaces = gl::Buffer::create();
         gpu.texturePlaces.upload(dress.texturePlaces, gl::Buffer::Usage::Static);
-        gpu.array.attach(gpu.texturePlaces, sizeof(glm::vec2), {6, 2, 0, gl::Attribute::Kind::Float});
+        gpu.array.attach(gpu.texturePlaces, sizeof(glm::vec2), {4, 2, 0, gl::Attribute::Kind::Float});
     }
     for (const TextureImage& image : dress.textures) {
         gpu.textures.push_back(
@@ -133,23 +168,12 @@ std::size_t indexOf(MeshId id) {
 
 } // namespace
 
-void GpuMesh::draw() const {
-    array.bind();
-    glDrawElements(GL_TRIANGLES, indexCount, GL_UNSIGNED_INT, nullptr);
-}
-
-void GpuMesh::draw(const MeshPart& part) const {
-    array.bind();
-    glDrawElements(GL_TRIANGLES, static_cast<int>(part.indexCount), GL_UNSIGNED_INT,
-                   reinterpret_cast<const void*>(sizeof(std::uint32_t) * std::uintptr_t{part.firstIndex}));
-}
-
-MeshId MeshStore::add(const SkinnedMesh& mesh, std::span<const glm::vec3> templatePositions) {
-    const bool doFit = templatePositions.empty() || templatePositions.size() == mesh.vertexCount();
-    if (!doFit || !mesh.validate(kJointCount)) {
+MeshId MeshStore::add(const SkinnedMesh& mesh) {
+    if (!mesh.validate(kJointCount)) {
         return MeshId::None;
     }
-    GpuMesh gpu = upload(mesh, templatePositions, mannequinSegments());
+    GpuMesh gpu = upload(mesh, mannequinSegments());
+    gpu.hasSuit = true;
     joinFingers(gpu);
     gpu.capsules = segmentCapsules(mesh);
     return keep(std::move(gpu));
@@ -159,7 +183,7 @@ MeshId MeshStore::add(const SkinnedMesh& mesh, const MeshDress& dress) {
     if (!doFit(mesh, dress)) {
         return MeshId::None;
     }
-    GpuMesh gpu = upload(mesh, {}, dress.jointSegments);
+    GpuMesh gpu = upload(mesh, dress.jointSegments);
     gpu.capsules = segmentCapsules(mesh, dress.jointSegments, dress.segmentJoints);
     addDress(dress, gpu);
     return keep(std::move(gpu));

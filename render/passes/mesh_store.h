@@ -11,6 +11,14 @@
 
 namespace posewire::render {
 
+/// Where a mesh's positions lie, which are kept as shares of it.
+struct Cube {
+    glm::vec3 low{0.0F};
+    float side = 1.0F;
+
+    bool operator==(const Cube&) const = default;
+};
+
 /// A mesh on the graphics side, with what the passes ask about its shape.
 struct GpuMesh {
     gl::VertexArray array;
@@ -19,6 +27,9 @@ struct GpuMesh {
     int indexCount = 0;
     int vertexCount = 0;
     bool hasSuit = false;
+    Cube cube;
+    /// By joint.
+    std::vector<Segment> segments;
     /// Null-pose box of the vertices that each joint moves noticeably.
     std::vector<Bounds> jointBoxes;
     SegmentCapsules capsules;
@@ -26,14 +37,12 @@ struct GpuMesh {
     std::vector<MeshPart> parts;
     gl::Buffer texturePlaces;
     std::vector<gl::Texture> textures;
-
-    void draw() const;
-    void draw(const MeshPart& part) const;
 };
 
 class MeshStore {
 public:
-    MeshId add(const SkinnedMesh& mesh, std::span<const glm::vec3> templatePositions);
+    /// The mannequin, in one of its levels.
+    MeshId add(const SkinnedMesh& mesh);
     MeshId add(const SkinnedMesh& mesh, const MeshDress& dress);
     void remove(MeshId id);
     /// Null where there is none.

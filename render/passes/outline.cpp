@@ -30,16 +30,15 @@ tl::expected<OutlinePass, std::string> OutlinePass::create() {
     return pass;
 }
 
-void OutlinePass::drawAround(const DrawnCharacter& character, int segments, float width,
+void OutlinePass::drawAround(const Instances& instances, const InstanceRun& one, int segments, float width,
                              const glm::vec3& colour) {
-    m_program.set("paletteBase", character.paletteBase);
     m_program.set("outlinedSegments", segments);
     m_program.set("width", width);
     m_program.set("colour", colour);
-    character.drawn->draw();
+    instances.draw(one);
 }
 
-void OutlinePass::draw(const Frame& frame, bool isFloorThere) {
+void OutlinePass::draw(const Frame& frame, const Instances& instances, bool isFloorThere) {
     (isFloorThere ? glEnable : glDisable)(GL_CLIP_DISTANCE0);
     glEnable(GL_DEPTH_TEST);
     glDepthMask(GL_FALSE);
@@ -55,13 +54,14 @@ void OutlinePass::draw(const Frame& frame, bool isFloorThere) {
         if (character.isGhost() || character.onScreen.isEmpty()) {
             continue;
         }
+        const InstanceRun one = Instances::only(frame, character, *character.drawn);
         if (look.isSelected) {
-            drawAround(character, kAllSegments, kCharacterWidth, outside);
-            drawAround(character, kAllSegments, kCharacterInside, kInside);
+            drawAround(instances, one, kAllSegments, kCharacterWidth, outside);
+            drawAround(instances, one, kAllSegments, kCharacterInside, kInside);
         }
         if (const int segment = selectedBit(look); segment != 0) {
-            drawAround(character, segment, kSegmentWidth, outside);
-            drawAround(character, segment, kSegmentInside, kInside);
+            drawAround(instances, one, segment, kSegmentWidth, outside);
+            drawAround(instances, one, segment, kSegmentInside, kInside);
         }
     }
     glCullFace(GL_BACK);

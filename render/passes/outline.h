@@ -3,6 +3,7 @@
 
 #include "render/gl/program.h"
 #include "render/passes/frame.h"
+#include "render/passes/instances.h"
 
 #include <string>
 
@@ -17,10 +18,11 @@ public:
     static tl::expected<OutlinePass, std::string> create();
 
     /// `isFloorThere`: see SkinnedPass::drawSolid.
-    void draw(const Frame& frame, bool isFloorThere);
+    void draw(const Frame& frame, const Instances& instances, bool isFloorThere);
 
 private:
-    void drawAround(const DrawnCharacter& character, int segments, float width, const glm::vec3& colour);
+    void drawAround(const Instances& instances, const InstanceRun& one, int segments, float width,
+                    const glm::vec3& colour);
 
     gl::Program m_program;
 };

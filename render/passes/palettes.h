@@ -4,21 +4,38 @@
 #include "render/gl/texture.h"
 #include "render/passes/frame.h"
 
+#include <array>
+#include <vector>
+
 namespace posewire::render {
 
-/// The joints' motions of all characters in one buffer texture, where blendMotion of skinning.glsl reads
-/// them.
+/// What moves and shapes all characters of a picture, in two buffer textures where skinning.glsl reads it:
+/// the motions of their joints, new for each picture, and the stretches of their bodies, which mostly stay.
 class Palettes {
 public:
     static Palettes create();
 
+    /// For the characters of the frame, in their order.
     void upload(const Frame& frame);
-    void upload(std::span<const DualQuaternion> palette);
     void bind() const;
 
 private:
-    gl::Buffer m_buffer;
-    gl::Texture m_texture;
+    /// A buffer seen as a texture.
+    struct Store {
+        gl::Buffer buffer;
+        gl::Texture texture;
+
+        static Store create();
+    };
+    /// Pictures that the driver may still be drawing, and the next.
+    static constexpr std::size_t kRing = 3;
+
+    std::array<Store, kRing> m_motions;
+    std::size_t m_current = 0;
+    Store m_fits;
+    std::vector<DualQuaternion> m_motionsOut;
+    std::vector<glm::vec4> m_fitsOut;
+    std::vector<glm::vec4> m_fitsIn; ///< what the buffer holds
 };
 
 } // namespace posewire::render

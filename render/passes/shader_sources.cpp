@@ -40,6 +40,7 @@ tl::expected<gl::Program, std::string> createProgram(const ProgramParts& parts) 
     program->bindBlock("Frame", kFrameBinding);
     program->use();
     program->set("palette", static_cast<int>(kPaletteUnit));
+    program->set("fits", static_cast<int>(kFitUnit));
     program->set("shadowMap", static_cast<int>(kShadowMapUnit));
     program->set("floorShadow", static_cast<int>(kFloorShadowUnit));
     program->set("shadowDepth", static_cast<int>(kShadowDepthUnit));

@@ -17,6 +17,7 @@ inline constexpr unsigned kFloorShadowUnit = 2;
 inline constexpr unsigned kShadowDepthUnit = 3;
 inline constexpr unsigned kPictureUnit = 4;
 inline constexpr unsigned kPartTextureUnit = 5;
+inline constexpr unsigned kFitUnit = 6;
 
 struct ProgramParts {
     std::string_view name;

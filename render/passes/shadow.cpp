@@ -5,6 +5,8 @@
 #include "shader_files.h"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 
 #include <epoxy/gl.h>
 
@@ -16,31 +18,34 @@ constexpr std::size_t kMaxCapsules = 12;
 /// Higher above the floor than this a segment darkens it too little to be seen.
 constexpr float kContactHeight = 0.30F;
 
-/// The segments that nearly touch the floor, as pairs of vec4 (from and radius, to), the lowest first.
-std::vector<glm::vec4> contacts(const DrawnCharacter& character) {
-    std::vector<Capsule> near;
-    for (std::size_t segment = 0; segment < kSegmentCount; ++segment) {
-        const Capsule& own = character.mesh->capsules[segment];
+/// Segments that nearly touch the floor, the lowest first, as pairs: from and radius, to.
+struct Contacts {
+    std::array<glm::vec4, 2 * kMaxCapsules> ends{};
+    std::size_t count = 0;
+};
+
+Contacts contacts(const DrawnCharacter& character) {
+    std::array<Capsule, kSegmentCount> near;
+    std::size_t count = 0;
+    const SegmentCapsules capsules = stretched(character.mesh->capsules, character.instance->fit);
+    for (const Capsule& own : capsules) {
         const Capsule capsule = posed(own, character.instance->palette[own.joint]);
         const float height = std::min(capsule.from.z, capsule.to.z) - capsule.radius;
         if (capsule.radius > 0.0F && height < kContactHeight && height > -1.0F) {
-            near.push_back(capsule);
+            near[count++] = capsule;
         }
     }
     const auto byHeight = [](const Capsule& a, const Capsule& b) {
         return std::min(a.from.z, a.to.z) < std::min(b.from.z, b.to.z);
     };
-    std::ranges::sort(near, byHeight);
-    std::vector<glm::vec4> packed;
-    for (std::size_t i = 0; i < std::min(near.size(), kMaxCapsules); ++i) {
-        packed.emplace_back(near[i].from, near[i].radius);
-        packed.emplace_back(near[i].to, 0.0F);
+    std::sort(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(count), byHeight);
+    Contacts packed;
+    packed.count = std::min(count, kMaxCapsules);
+    for (std::size_t i = 0; i < packed.count; ++i) {
+        packed.ends[2 * i] = glm::vec4(near[i].from, near[i].radius);
+        packed.ends[2 * i + 1] = glm::vec4(near[i].to, 0.0F);
     }
     return packed;
-}
-
-bool castsShadow(const DrawnCharacter& character) {
-    return !character.isGhost() && !character.inLight.isEmpty();
 }
 
 } // namespace
@@ -87,7 +92,7 @@ void ShadowPass::bind() const {
     m_floor.bind(kFloorShadowUnit);
 }
 
-void ShadowPass::drawDepth(const Frame& frame) {
+void ShadowPass::drawDepth(const Instances& instances) {
     m_depthTarget.bind();
     glEnable(GL_DEPTH_TEST);
     glDepthMask(GL_TRUE);
@@ -95,11 +100,8 @@ void ShadowPass::drawDepth(const Frame& frame) {
     glEnable(GL_CULL_FACE);
     glClear(GL_DEPTH_BUFFER_BIT);
     m_depthProgram.use();
-    for (const DrawnCharacter& character : frame.characters) {
-        if (castsShadow(character)) {
-            m_depthProgram.set("paletteBase", character.paletteBase);
-            character.caster->draw();
-        }
+    for (const InstanceRun& run : instances.casters()) {
+        instances.draw(run);
     }
 }
 
@@ -123,11 +125,11 @@ void ShadowPass::drawFloorShadow(const Frame& frame) {
     glBlendFunc(GL_ONE, GL_ONE);
     glBlendEquation(GL_MAX);
     for (const DrawnCharacter& character : frame.characters) {
-        if (castsShadow(character)) {
-            const std::vector<glm::vec4> capsules = contacts(character);
+        if (character.castsShadow()) {
+            const Contacts near = contacts(character);
             const Bounds& box = character.inLight;
-            m_floorProgram.set("capsuleCount", static_cast<int>(capsules.size() / 2));
-            m_floorProgram.set("capsules", std::span<const glm::vec4>(capsules));
+            m_floorProgram.set("capsuleCount", static_cast<int>(near.count));
+            m_floorProgram.set("capsules", std::span(near.ends).first(2 * near.count));
             m_floorProgram.set("region",
                                glm::vec4(box.min.x, box.min.y, box.max.x - box.min.x, box.max.y - box.min.y));
             glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);

@@ -4,6 +4,7 @@
 #include "render/gl/framebuffer.h"
 #include "render/gl/program.h"
 #include "render/passes/frame.h"
+#include "render/passes/instances.h"
 
 #include <string>
 
@@ -23,7 +24,7 @@ public:
     int mapSize() const { return m_depth.width(); }
 
     /// The depth first, then the shadow. Both leave another framebuffer bound.
-    void drawDepth(const Frame& frame);
+    void drawDepth(const Instances& instances);
     void drawFloorShadow(const Frame& frame);
     /// For the passes that follow.
     void bind() const;

@@ -31,15 +31,6 @@ tl::expected<gl::Program, std::string> paintingProgram(std::string_view shadeDef
                           .defines = defines});
 }
 
-/// A bit for each segment of that provenance.
-int segmentsOf(const CharacterLook& look, Provenance provenance) {
-    unsigned bits = 0;
-    for (std::size_t segment = 0; segment < kSegmentCount; ++segment) {
-        bits |= look.provenance[segment] == provenance ? 1U << segment : 0U;
-    }
-    return static_cast<int>(bits);
-}
-
 } // namespace
 
 tl::expected<SkinnedPass, std::string> SkinnedPass::create() {
@@ -68,34 +59,20 @@ tl::expected<SkinnedPass, std::string> SkinnedPass::create() {
     return pass;
 }
 
-void SkinnedPass::drawCharacter(Shade shade, const DrawnCharacter& character) {
-    const CharacterLook& look = character.instance->look;
-    const int selected = selectedBit(look);
-    const int solved = segmentsOf(look, Provenance::Solved);
-    const int assumed = segmentsOf(look, Provenance::Assumed);
-    const bool marks = (selected | solved | assumed) != 0;
-    const bool isOwn = !character.drawn->parts.empty();
-    gl::Program* const chosen = program(shade, marks, isOwn);
+void SkinnedPass::drawRun(Shade shade, const Instances& instances, const InstanceRun& run) {
+    gl::Program* const chosen = program(shade, run.hasMarks, run.own != nullptr);
     if (chosen == nullptr) {
         return;
     }
     gl::Program& program = *chosen;
     program.use();
-    program.set("paletteBase", character.paletteBase);
-    program.set("colour", look.colour);
-    program.set("hasSuit", character.drawn->hasSuit ? 1.0F : 0.0F);
-    program.set("dim", std::clamp(look.dim, 0.0F, 1.0F));
-    program.set("opacity", std::clamp(look.opacity, 0.0F, 1.0F));
-    program.set("hatched", look.isHatched ? 1.0F : 0.0F);
-    if (marks) {
-        program.set("selectedSegments", selected);
-        program.set("solvedSegments", solved);
-        program.set("assumedSegments", assumed);
-    }
-    if (isOwn) {
-        drawParts(program, character);
+    const Cube& cube = run.mesh->cube;
+    program.set("cube", glm::vec4(cube.low, cube.side));
+    program.set("hasSuit", run.mesh->hasSuit ? 1.0F : 0.0F);
+    if (run.own != nullptr) {
+        drawParts(program, instances, run);
     } else {
-        character.drawn->draw();
+        instances.draw(run);
     }
 }
 
@@ -115,24 +92,24 @@ gl::Program* SkinnedPass::program(Shade shade, bool marks, bool isOwn) {
     return &*own;
 }
 
-void SkinnedPass::drawParts(gl::Program& program, const DrawnCharacter& character) {
+void SkinnedPass::drawParts(gl::Program& program, const Instances& instances, const InstanceRun& run) {
     constexpr float kHoleAlpha = 0.5F;
-    const GpuMesh& mesh = *character.drawn;
+    const GpuMesh& mesh = *run.mesh;
     for (const MeshPart& part : mesh.parts) {
         const bool hasTexture = part.texture >= 0;
         // A material that names neither is in the character's own colour.
         const bool isPlain = !hasTexture && !part.hasColour;
-        program.set("partColour", isPlain ? character.instance->look.colour * 0.86F + 0.10F : part.colour);
+        program.set("partColour", isPlain ? run.own->instance->look.colour * 0.86F + 0.10F : part.colour);
         program.set("hasTexture", hasTexture ? 1.0F : 0.0F);
         program.set("leastAlpha", part.isMasked ? kHoleAlpha : 0.0F);
         (hasTexture ? mesh.textures[static_cast<std::size_t>(part.texture)] : m_white).bind(kPartTextureUnit);
         (part.isTwoSided ? glDisable : glEnable)(GL_CULL_FACE);
-        mesh.draw(part);
+        instances.draw(run, part);
     }
     glEnable(GL_CULL_FACE);
 }
 
-void SkinnedPass::drawSolid(const Frame& frame, const RenderQuality& quality, bool isFloorThere) {
+void SkinnedPass::drawSolid(const Instances& instances, const RenderQuality& quality, bool isFloorThere) {
     const Shade shade = quality.hardSelfShadow                   ? Shade::Hard
                         : quality.shadowMapSize > kFineShadowMap ? Shade::Wide
                                                                  : Shade::Soft;
@@ -142,54 +119,52 @@ void SkinnedPass::drawSolid(const Frame& frame, const RenderQuality& quality, bo
     glDepthFunc(GL_LESS);
     glEnable(GL_CULL_FACE);
     glDisable(GL_BLEND);
-    int drawn = 0;
-    for (const DrawnCharacter& character : frame.characters) {
-        if (character.isGhost() || character.onScreen.isEmpty()) {
-            continue;
-        }
-        drawCharacter(shade, character);
-        if (quality.charactersAtOnce > 0 && ++drawn % quality.charactersAtOnce == 0) {
+    int waiting = 0;
+    for (const InstanceRun& run : instances.solids()) {
+        if (quality.charactersAtOnce > 0 && waiting + run.count > quality.charactersAtOnce) {
             glFinish();
+            waiting = 0;
         }
+        drawRun(shade, instances, run);
+        waiting += run.count;
     }
     glDisable(GL_CLIP_DISTANCE0);
 }
 
-void SkinnedPass::drawGhosts(const Frame& frame) {
+void SkinnedPass::drawGhosts(const Frame& frame, const Instances& instances) {
     glEnable(GL_DEPTH_TEST);
     glEnable(GL_CULL_FACE);
     for (const DrawnCharacter& character : frame.characters) {
         if (!character.isGhost() || character.onScreen.isEmpty()) {
             continue;
         }
+        const InstanceRun run = Instances::only(frame, character, *character.drawn);
         // Depth first, so that a limb does not show through the body it is in front of.
         glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
         glDepthMask(GL_TRUE);
         glDepthFunc(GL_LESS);
         glDisable(GL_BLEND);
-        drawCharacter(Shade::Soft, character);
+        drawRun(Shade::Soft, instances, run);
         glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
         glDepthMask(GL_FALSE);
         glDepthFunc(GL_LEQUAL);
         glEnable(GL_BLEND);
         glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
-        drawCharacter(Shade::Soft, character);
+        drawRun(Shade::Soft, instances, run);
         glDisable(GL_BLEND);
         glDepthMask(GL_TRUE);
     }
 }
 
-std::vector<glm::vec3> SkinnedPass::record(const GpuMesh& mesh) {
-    std::vector<glm::vec3> positions(static_cast<std::size_t>(mesh.vertexCount));
+std::vector<glm::vec3> SkinnedPass::record(const Instances& instances, const InstanceRun& one) {
+    std::vector<glm::vec3> positions(static_cast<std::size_t>(one.mesh->vertexCount));
     gl::Buffer buffer = gl::Buffer::create();
     buffer.allocate(positions.size() * sizeof(glm::vec3), gl::Buffer::Usage::Stream);
     m_recordProgram.use();
-    m_recordProgram.set("paletteBase", 0);
-    mesh.array.bind();
     buffer.bindTransformFeedback(0);
     glEnable(GL_RASTERIZER_DISCARD);
     glBeginTransformFeedback(GL_POINTS);
-    glDrawArrays(GL_POINTS, 0, mesh.vertexCount);
+    instances.drawPoints(one);
     glEndTransformFeedback();
     glDisable(GL_RASTERIZER_DISCARD);
     glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, 0);

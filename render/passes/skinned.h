@@ -4,6 +4,7 @@
 #include "render/gl/program.h"
 #include "render/gl/texture.h"
 #include "render/passes/frame.h"
+#include "render/passes/instances.h"
 
 #include <array>
 #include <cstdint>
@@ -20,19 +21,20 @@ public:
     static tl::expected<SkinnedPass, std::string> create();
 
     /// `isFloorThere`: the floor is in the picture already, and what is below it is left out.
-    void drawSolid(const Frame& frame, const RenderQuality& quality, bool isFloorThere);
+    void drawSolid(const Instances& instances, const RenderQuality& quality, bool isFloorThere);
     /// After the floor, since they let it through.
-    void drawGhosts(const Frame& frame);
-    /// Positions as the shaders see them, in the order of GpuMesh::vertices, by transform feedback.
-    std::vector<glm::vec3> record(const GpuMesh& mesh);
+    void drawGhosts(const Frame& frame, const Instances& instances);
+    /// Positions of one character as the shaders see them, in the order of GpuMesh::vertices, by transform
+    /// feedback.
+    std::vector<glm::vec3> record(const Instances& instances, const InstanceRun& one);
 
 private:
     /// How soft the edge of a body's shadow on itself is.
     enum class Shade : std::uint8_t { Hard, Soft, Wide };
     static constexpr std::size_t kShadeCount = 3;
 
-    void drawCharacter(Shade shade, const DrawnCharacter& character);
-    void drawParts(gl::Program& program, const DrawnCharacter& character);
+    void drawRun(Shade shade, const Instances& instances, const InstanceRun& run);
+    void drawParts(gl::Program& program, const Instances& instances, const InstanceRun& run);
     /// Null where the driver refuses it.
     gl::Program* program(Shade shade, bool marks, bool isOwn);
 

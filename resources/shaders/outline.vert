@@ -2,10 +2,8 @@
 // The body's hull, a constant width on the screen larger than the body.
 layout(location = 0) in vec4 positionAndOcclusion;
 layout(location = 1) in vec3 normal;
-layout(location = 3) in uvec4 joints;
-layout(location = 4) in vec4 weights;
-// Those of the joints.
-layout(location = 5) in uvec4 segments;
+layout(location = 2) in uvec4 joints;
+layout(location = 3) in vec4 weights;
 
 // A bit for each segment to be outlined.
 uniform int outlinedSegments;
@@ -14,17 +12,13 @@ uniform float width;
 
 out float share;
 
-float shareOf(uint segment, float weight) {
-    return weight * float((outlinedSegments >> int(segment)) & 1);
-}
-
 void main() {
     Motion motion = blendMotion(joints, weights);
-    vec3 world = transform(motion, positionAndOcclusion.xyz);
-    share = shareOf(segments.x, weights.x) + shareOf(segments.y, weights.y) + shareOf(segments.z, weights.z) +
-            shareOf(segments.w, weights.w);
+    Body body = fitted(positionAndOcclusion.xyz, joints, weights);
+    vec3 world = transform(motion, body.position);
+    share = shareOf(outlinedSegments, joints, weights);
     vec4 clip = viewProjection * vec4(world, 1.0);
-    vec4 ahead = viewProjection * vec4(world + 0.01 * rotate(motion, normal), 1.0);
+    vec4 ahead = viewProjection * vec4(world + 0.01 * rotate(motion, normalize(normal / body.scale)), 1.0);
     vec2 aside = (ahead.xy * clip.w - clip.xy * ahead.w) * viewport.xy;
     float size = length(aside);
     // Behind the eye a direction on the screen means nothing.

@@ -16,12 +16,13 @@ uniform float hasTexture;
 uniform float leastAlpha;
 #endif
 
+flat in vec3 colour;
+flat in float dim;
+flat in float opacity;
+flat in float hatched;
+
 uniform sampler2DShadow shadowMap;
-uniform vec3 colour;
 uniform float hasSuit;
-uniform float dim;
-uniform float opacity;
-uniform float hatched;
 
 out vec4 fragment;
 

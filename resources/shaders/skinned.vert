@@ -1,32 +1,30 @@
 // SPDX-License-Identifier: MIT
 layout(location = 0) in vec4 positionAndOcclusion;
 layout(location = 1) in vec3 normal;
-layout(location = 2) in vec3 templatePosition;
-layout(location = 3) in uvec4 joints;
-layout(location = 4) in vec4 weights;
+layout(location = 2) in uvec4 joints;
+layout(location = 3) in vec4 weights;
 #ifdef OWN_CHARACTER
-layout(location = 6) in vec2 texturePlaceAt;
+layout(location = 4) in vec2 texturePlaceAt;
 
 out vec2 texturePlace;
 #endif
 
 #ifdef MARKS_SEGMENTS
-// Those of the joints.
-layout(location = 5) in uvec4 segments;
-
-// A bit for each segment.
-uniform int selectedSegments;
-uniform int solvedSegments;
-uniform int assumedSegments;
-
 // How much of the vertex belongs to selected, solved and assumed segments.
 out vec3 shares;
 
-vec3 sharesOf(uint segment, float weight) {
-    return weight * vec3((ivec3(selectedSegments, solvedSegments, assumedSegments) >> int(segment)) & 1);
-}
-
 #endif
+
+layout(location = 6) in vec4 colourAndDim;
+layout(location = 7) in vec2 opacityAndHatched;
+
+flat out vec3 colour;
+flat out float dim;
+flat out float opacity;
+flat out float hatched;
+
+// The mesh's cube: its lowest corner and its side. The suit is painted on the body as it was modelled.
+uniform vec4 cube;
 
 out vec3 worldPosition;
 out vec3 worldNormal;
@@ -34,14 +32,19 @@ out vec3 suitPosition;
 out float occlusion;
 
 void main() {
+    colour = colourAndDim.rgb;
+    dim = colourAndDim.a;
+    opacity = opacityAndHatched.x;
+    hatched = opacityAndHatched.y;
     Motion motion = blendMotion(joints, weights);
-    worldPosition = transform(motion, positionAndOcclusion.xyz);
-    worldNormal = rotate(motion, normal);
-    suitPosition = templatePosition;
+    Body body = fitted(positionAndOcclusion.xyz, joints, weights);
+    worldPosition = transform(motion, body.position);
+    worldNormal = rotate(motion, normalize(normal / body.scale));
+    suitPosition = cube.xyz + cube.w * positionAndOcclusion.xyz;
     occlusion = positionAndOcclusion.w;
 #ifdef MARKS_SEGMENTS
-    shares = sharesOf(segments.x, weights.x) + sharesOf(segments.y, weights.y) + sharesOf(segments.z, weights.z) +
-             sharesOf(segments.w, weights.w);
+    shares = vec3(shareOf(character.y, joints, weights), shareOf(character.z, joints, weights),
+                  shareOf(character.w, joints, weights));
 #endif
 #ifdef OWN_CHARACTER
     texturePlace = texturePlaceAt;

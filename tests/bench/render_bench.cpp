@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Fails where a picture allocates anything.
 // CPU time of all threads for one picture at 1280 x 720 by software OpenGL, read back included: 1, 2, 4 and
 // 20 characters that move, with their axes, before a camera that holds, and four before one that turns; on
 // the step that the ladder finds by the time that pictures take, or with --steps on each. The floor is moving
@@ -207,7 +208,7 @@ public:
                     kLastSimplification, 1e3 * ladder.typical());
     }
 
-    void printPasses(int pictures) {
+    std::size_t printPasses(int pictures) {
         std::vector<std::string> order;
         std::map<std::string, std::vector<double>, std::less<>> costs;
         double before = 0.0;
@@ -233,7 +234,9 @@ public:
         for (const std::string& name : order) {
             std::printf(" %s %.1f,", name.c_str(), median(costs[name]));
         }
-        std::printf(" with %zu allocations\n", allocationsOfOne());
+        const std::size_t made = allocationsOfOne();
+        std::printf(" with %zu allocations\n", made);
+        return made;
     }
 
 private:
@@ -268,9 +271,10 @@ int run(const Case& wanted, Drawing& drawing, const Options& options) {
     }
     const double ratio = median(costs) / median(floors);
     std::printf("#   %.1f ms of CPU a picture, the floor %.1f ms\n", median(costs), median(floors));
-    drawing.printPasses(std::max(options.pictures / 2, 1));
+    const std::size_t made = drawing.printPasses(std::max(options.pictures / 2, 1));
     std::printf("%s %.2f %.2f\n", wanted.name, ratio, wanted.limitMs / kFloorMs);
-    return options.isChecked && ratio > wanted.limitMs / kFloorMs ? 1 : 0;
+    const bool isSlow = options.isChecked && ratio > wanted.limitMs / kFloorMs;
+    return isSlow || made != 0 ? 1 : 0; // a picture allocates nothing, however busy the computer is
 }
 
 void printSteps(const Case& wanted, Drawing& drawing, const Options& options) {
@@ -303,7 +307,7 @@ int main(int argumentCount, char** arguments) {
     }
     const auto upload = [&](Detail detail) {
         const SkinnedMesh mesh = loadMannequin(detail);
-        return offscreen->renderer().uploadMesh(mesh, mesh.positions);
+        return offscreen->renderer().uploadMesh(mesh);
     };
     const MeshId medium = upload(Detail::Medium);
     const MeshId low = upload(Detail::Low);

@@ -46,13 +46,13 @@ double floorMs() {
 /// What a new scale message costs: milliseconds to fit a body that was not there before.
 double refitMs() {
     constexpr int kBodies = 200;
-    BodyMeshes meshes(render::Detail::Medium);
+    BodyFits bodies(render::Detail::Medium);
     render::NullPose performer = render::kReferenceNullPose;
-    static_cast<void>(meshes.of(performer)); // loads the mannequin
+    static_cast<void>(bodies.of(performer)); // loads the mannequin
     const double begin = threadCpuMs();
     for (int i = 0; i < kBodies; ++i) {
         performer[render::Head].z += 0.0001F;
-        static_cast<void>(meshes.of(performer));
+        static_cast<void>(bodies.of(performer));
     }
     return (threadCpuMs() - begin) / kBodies;
 }
@@ -115,7 +115,7 @@ int main(int argc, char** argv) {
     std::vector<double> cameras;
     std::vector<double> labels;
     std::vector<double> floors;
-    constexpr int kWarmUp = 20; // bodies are fitted a few at a time
+    constexpr int kWarmUp = 20;
     for (int picture = 0; picture < kWarmUp + pictures; ++picture) {
         const auto sample = static_cast<std::uint64_t>(picture);
         stage.perform(performer, sample, sample + 1);

@@ -195,13 +195,11 @@ TEST_F(Picture, KeepsTheSuitOnAFittedPerformer) {
     for (glm::vec3& origin : child) {
         origin *= 0.68F;
     }
-    NullPose used{};
-    const SkinnedMesh fitted = fitToNullPose(mesh(), child, used);
-    const MeshId id = renderer().uploadMesh(fitted, mesh().positions);
-    const Pose pose = poseFrom({}, used);
+    const BodyFit fit = fitBody(child);
+    const Pose pose = poseFrom({}, fit.origins);
     SkinnedInstance& instance = add(tPose(), {0.70F, 0.30F, 0.55F});
-    instance.mesh = id;
-    instance.palette = addPalette(paletteOf(pose, used));
+    instance.palette = addPalette(paletteOf(pose, fit.origins));
+    instance.fit = fit.stretches;
     look(0.30F, {0.0F, 0.0F, 0.6F}, 3.4F);
     expectMatchesBaseline(shoot(), "fitted_child");
 }
@@ -211,7 +209,7 @@ TEST_F(Picture, IsMultisampledWhereTheQualityAsksForIt) {
     scene.characters = characters;
     auto still = OffscreenRenderer::create(RenderQuality{.samples = 4, .edgeSmoothing = false});
     ASSERT_TRUE(still.has_value()) << still.error();
-    ASSERT_EQ(still->renderer().uploadMesh(mesh(), mesh().positions), meshId());
+    ASSERT_EQ(still->renderer().uploadMesh(mesh()), meshId());
     expectMatchesBaseline(still->render(scene, kWidth, kHeight), "still_quality");
 }
 
@@ -221,7 +219,7 @@ TEST_F(Picture, IsTheSameToTheBitInASecondContext) {
     const Image first = shoot();
     auto second = OffscreenRenderer::create();
     ASSERT_TRUE(second.has_value()) << second.error();
-    ASSERT_EQ(second->renderer().uploadMesh(mesh(), mesh().positions), meshId());
+    ASSERT_EQ(second->renderer().uploadMesh(mesh()), meshId());
     const Image& again = second->render(scene, kWidth, kHeight);
     EXPECT_EQ(first.pixels, again.pixels);
 }

@@ -16,7 +16,7 @@ protected:
         Studio::SetUp();
         m_interactive = renderer().quality();
         const SkinnedMesh low = loadMannequin(Detail::Low);
-        m_low = renderer().uploadMesh(low, low.positions);
+        m_low = renderer().uploadMesh(low);
     }
 
     void addPair() {
@@ -169,14 +169,14 @@ bool contains(const glm::vec4& one, float x, float y) {
     return x > one.x && x < one.x + one.z && y > one.y && y < one.y + one.w;
 }
 
-TEST(MakeDisjoint, CoversTheSameOnce) {
+TEST(DisjointRectangles, CoversTheSameOnce) {
     std::vector<glm::vec4> covered;
     for (int i = 0; i < 12; ++i) {
         covered.emplace_back(0.31F * static_cast<float>(i % 5), 0.17F * static_cast<float>(i % 7), 0.5F,
                              0.4F);
     }
-    std::vector<glm::vec4> disjoint;
-    makeDisjoint(covered, disjoint);
+    DisjointRectangles rectangles;
+    const std::span<const glm::vec4> disjoint = rectangles.of(covered);
     for (int i = 0; i < 60; ++i) {
         for (int k = 0; k < 60; ++k) {
             const float x = 0.0317F * static_cast<float>(i);
@@ -188,13 +188,11 @@ TEST(MakeDisjoint, CoversTheSameOnce) {
     }
 }
 
-TEST(MakeDisjoint, LeavesOutWhatHasNoSize) {
-    std::vector<glm::vec4> disjoint{glm::vec4(1.0F)};
-    makeDisjoint({}, disjoint);
-    EXPECT_TRUE(disjoint.empty());
+TEST(DisjointRectangles, LeavesOutWhatHasNoSize) {
+    DisjointRectangles rectangles;
+    EXPECT_TRUE(rectangles.of({}).empty());
     const std::array<glm::vec4, 3> covered{{{0, 0, 0, 1}, {0, 0, 1, 0}, {0, 0, 1, 1}}};
-    makeDisjoint(covered, disjoint);
-    EXPECT_DOUBLE_EQ(areaOf(disjoint), 1.0);
+    EXPECT_DOUBLE_EQ(areaOf(rectangles.of(covered)), 1.0);
 }
 
 } // namespace

@@ -13,7 +13,7 @@ void Studio::SetUp() {
                                      << created.error();
     m_offscreen.emplace(std::move(*created));
     m_mesh = loadMannequin(Detail::Medium);
-    m_meshId = renderer().uploadMesh(m_mesh, m_mesh.positions);
+    m_meshId = renderer().uploadMesh(m_mesh);
     ASSERT_NE(m_meshId, MeshId::None);
     characters.reserve(8);
     m_palettes.reserve(8);

@@ -54,7 +54,7 @@ QRectF roomOf(const Figure& figure, const SceneFrame& frame) {
 std::vector<QRectF> roomsOf(const SceneFrame& frame) {
     std::vector<QRectF> rooms;
     for (const Figure& figure : frame.figures) {
-        if (figure.mesh != nullptr && !figure.bounds.isEmpty()) {
+        if (figure.body != nullptr && !figure.bounds.isEmpty()) {
             rooms.push_back(roomOf(figure, frame));
         }
     }

@@ -53,7 +53,7 @@ std::optional<PickedSegment> pickIn(const SceneFrame& frame, const model::Sessio
     std::vector<render::PickTarget> targets;
     for (std::size_t i = 0; i < frame.figures.size(); ++i) {
         const Figure& figure = frame.figures[i];
-        if (figure.mesh != nullptr) {
+        if (figure.body != nullptr) {
             targets.push_back({static_cast<std::uint32_t>(i), &figure.capsules(), figure.drawnPalette()});
         }
     }

@@ -8,7 +8,6 @@
 #include <QBuffer>
 #include <QFileInfo>
 #include <QPainter>
-#include <QTimer>
 
 #include <utility>
 
@@ -70,17 +69,12 @@ void PictureSeries::showNext() {
 }
 
 void PictureSeries::draw(double seconds) {
-    constexpr int kSoon = 1; // milliseconds
     auto frame = std::make_shared<SceneFrame>();
     frame->width = m_request.size.width();
     frame->height = m_request.size.height();
     frame->pixelRatio = static_cast<float>(m_request.scale);
     frame->isBest = true;
     m_look.fill(m_builder, seconds, *frame);
-    if (m_builder.meshes().isBehind()) {
-        QTimer::singleShot(kSoon, this, [this] { draw(0); });
-        return;
-    }
     m_frame = frame;
     m_thread->draw(std::move(frame));
 }

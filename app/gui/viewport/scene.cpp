@@ -88,8 +88,8 @@ void makePalette(const model::CharacterPose& pose, Figure& figure) {
     }
     figure.bounds = boundsOf(positions);
     const PosedHands hands = handsOf(pose);
-    const render::PaletteJob job{positions,    orientations,  figure.mesh->origins,      figure.palette,
-                                 hands.left(), hands.right(), figure.mesh->fingerOrigins};
+    const render::PaletteJob job{positions,    orientations,  figure.body->fit.origins,      figure.palette,
+                                 hands.left(), hands.right(), figure.body->fit.fingerOrigins};
     if (job.validate()) {
         job.run();
     }
@@ -135,15 +135,15 @@ void SceneUpload::add(const Figure& figure, render::Renderer& renderer) {
     if (isNew) {
         meshes = uploaded(figure, renderer);
     }
-    m_instances.push_back({meshes.mesh, meshes.low, figure.drawnPalette(), figure.look});
+    m_instances.push_back({meshes.mesh, meshes.low, figure.drawnPalette(), figure.look, figure.fit()});
 }
 
 SceneUpload::Meshes SceneUpload::uploaded(const Figure& figure, render::Renderer& renderer) {
     if (figure.own != nullptr) {
         return {renderer.uploadMesh(figure.own->mesh, figure.own->dress()), render::MeshId::None};
     }
-    return {renderer.uploadMesh(figure.mesh->mesh, figure.mesh->templatePositions),
-            renderer.uploadMesh(figure.mesh->lowMesh, figure.mesh->lowTemplatePositions)};
+    return {renderer.uploadMesh(figure.body->mannequin->mesh),
+            renderer.uploadMesh(figure.body->mannequin->lowMesh)};
 }
 
 void SceneUpload::releaseUnused(const SceneFrame& frame, render::Renderer& renderer) {
@@ -176,16 +176,16 @@ float dimFor(double ageSeconds) {
     return share < 0 ? 0.0F : kGreatestDim * static_cast<float>(0.4 + 0.6 * std::min(share, 1.0));
 }
 
-std::shared_ptr<const FigureMesh> SceneBuilder::meshOf(const model::SessionView& session,
-                                                       const model::CharacterKey& key) {
+std::shared_ptr<const FigureBody> SceneBuilder::fitOf(const model::SessionView& session,
+                                                      const model::CharacterKey& key) {
     render::NullPose performer{};
     const model::BodyOrigins& origins = session.bodyOrigins(key);
     static_assert(std::tuple_size_v<decltype(origins.places)> == std::tuple_size_v<render::NullPose>);
     std::ranges::transform(origins.places, performer.begin(),
                            [](const Eigen::Vector3d& origin) { return vectorOf(origin); });
     const model::NullPose* nullPose = session.nullPose(key);
-    return nullPose == nullptr ? m_meshes.of(performer)
-                               : m_meshes.of(performer, fingerOriginsOf(*nullPose, origins));
+    return nullPose == nullptr ? m_bodies.of(performer)
+                               : m_bodies.of(performer, fingerOriginsOf(*nullPose, origins));
 }
 
 bool SceneBuilder::isUnderWay() const {
@@ -204,7 +204,6 @@ const model::CharacterPose* SceneBuilder::poseOf(const model::CharacterKey& key)
 
 void SceneBuilder::build(AxesMode axes, const Overlays& overlays, SceneFrame& frame) {
     frame.colours = themedSceneColours();
-    m_meshes.beginPicture();
     const model::Selection& selection = m_session.selection();
     const std::vector<const model::Character*> characters = m_session.currentCharacters();
     std::erase_if(m_motions, [&characters](const auto& motion) {
@@ -267,9 +266,9 @@ Figure SceneBuilder::bodyOf(const model::SessionView& session, const model::Char
                             const model::CharacterPose& pose) {
     Figure figure;
     figure.key = key;
-    figure.mesh = meshOf(session, key);
+    figure.body = fitOf(session, key);
     makePalette(pose, figure);
-    const glm::vec3 head = figure.mesh->origins[render::Head];
+    const glm::vec3 head = figure.body->fit.origins[render::Head];
     figure.labelPosition =
         render::transformPoint(figure.palette[render::Head], head) + glm::vec3(0, 0, kLabelHeight);
     return figure;
@@ -282,9 +281,10 @@ void SceneBuilder::dress(Figure& figure) {
     if (dressed == nullptr) {
         return;
     }
-    const std::shared_ptr<const OwnFigure> own = m_ownFigures.of(dressed, figure.mesh->origins);
+    const std::shared_ptr<const OwnFigure> own = m_ownFigures.of(dressed, figure.body->fit.origins);
     std::vector<render::DualQuaternion> bones(dressed->body.joints.size());
-    const render::OwnPaletteJob job{&dressed->body, own->scale, figure.palette, figure.mesh->origins, bones};
+    const render::OwnPaletteJob job{&dressed->body, own->scale, figure.palette, figure.body->fit.origins,
+                                    bones};
     if (!job.validate()) {
         return;
     }
@@ -341,7 +341,7 @@ void SceneBuilder::addGhost(const Figure& figure, const model::CharacterPose& po
     const glm::quat turn = glm::angleAxis(heading, glm::vec3(0, 0, 1));
     const glm::vec3 place(static_cast<float>(pelvis.position.x()), static_cast<float>(pelvis.position.y()),
                           0.0F);
-    const render::NullPose& origins = figure.mesh->origins;
+    const render::NullPose& origins = figure.body->fit.origins;
     const glm::vec3 stand(origins[render::Pelvis].x, origins[render::Pelvis].y,
                           static_cast<float>(model::measure(*nullPose).floor));
     std::array<glm::vec3, render::kSegmentCount> positions{};
@@ -353,11 +353,11 @@ void SceneBuilder::addGhost(const Figure& figure, const model::CharacterPose& po
     PosedHands hands{{}, {}, true, true};
     hands.orientations.fill(turn);
     for (std::size_t i = 0; i < hands.positions.size(); ++i) {
-        hands.positions[i] = place + turn * (figure.mesh->fingerOrigins[i] - stand);
+        hands.positions[i] = place + turn * (figure.body->fit.fingerOrigins[i] - stand);
     }
     Figure ghost;
     ghost.key = figure.key;
-    ghost.mesh = figure.mesh;
+    ghost.body = figure.body;
     ghost.look.colour = figure.look.colour;
     ghost.look.opacity = kGhostOpacity;
     ghost.look.selectedSegment = figure.look.selectedSegment;
@@ -367,7 +367,7 @@ void SceneBuilder::addGhost(const Figure& figure, const model::CharacterPose& po
                                  ghost.palette,
                                  hands.left(),
                                  hands.right(),
-                                 figure.mesh->fingerOrigins};
+                                 figure.body->fit.fingerOrigins};
     if (job.validate()) {
         job.run();
         frame.ghosts.push_back(std::move(ghost));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/viewport/body_meshes.h"
+#include "app/gui/viewport/body_fits.h"
 #include "app/gui/viewport/dressed_body.h"
 #include "app/gui/viewport/overlays/choice.h"
 #include "core/log/time.h"
@@ -27,7 +27,7 @@ struct ComparisonState;
 /// One character in a picture.
 struct Figure {
     model::CharacterKey key;
-    std::shared_ptr<const FigureMesh> mesh;    ///< null for tracked objects: they have axes alone
+    std::shared_ptr<const FigureBody> body;    ///< null for tracked objects: they have axes alone
     std::shared_ptr<const OwnFigure> own;      ///< drawn instead of the mannequin; null for none
     std::vector<render::DualQuaternion> bones; ///< of that
     std::array<render::DualQuaternion, render::kJointCount> palette{};
@@ -37,12 +37,17 @@ struct Figure {
 
     bool operator==(const Figure&) const = default;
 
-    /// What is drawn of it; null for nothing.
+    /// What is drawn of it, the same for all that share it; null for nothing.
     [[nodiscard]] std::shared_ptr<const void> drawn() const {
-        return own != nullptr ? std::shared_ptr<const void>(own) : std::shared_ptr<const void>(mesh);
+        const auto mannequin = body != nullptr ? body->mannequin : nullptr;
+        return own != nullptr ? std::shared_ptr<const void>(own) : std::shared_ptr<const void>(mannequin);
+    }
+    /// By joint of that; none where it is drawn as it is.
+    [[nodiscard]] std::span<const render::Stretch> fit() const {
+        return own != nullptr || body == nullptr ? std::span<const render::Stretch>() : body->fit.stretches;
     }
     [[nodiscard]] const render::SegmentCapsules& capsules() const {
-        return own != nullptr ? own->capsules : mesh->capsules;
+        return own != nullptr ? own->capsules : body->capsules;
     }
     [[nodiscard]] std::span<const render::DualQuaternion> drawnPalette() const {
         return own != nullptr ? std::span(bones) : std::span<const render::DualQuaternion>(palette);
@@ -123,7 +128,7 @@ enum class AxesMode : std::uint8_t { All, Selected, None };
 /// Session to picture: the newest pose of each character at the cursor.
 class SceneBuilder {
 public:
-    SceneBuilder(model::SessionView& session, render::Detail detail) : m_session(session), m_meshes(detail) {}
+    SceneBuilder(model::SessionView& session, render::Detail detail) : m_session(session), m_bodies(detail) {}
 
     /// Fills figures, axes, lines, points, texts and colours; camera and size are the caller's. Hidden
     /// characters are left out. Overlays are drawn of the selected character, of all where none is selected.
@@ -137,13 +142,13 @@ public:
     /// Whether the same poses would be shown elsewhere a little later.
     [[nodiscard]] bool isUnderWay() const;
     /// Of the bodies in the scenes.
-    [[nodiscard]] const BodyMeshes& meshes() const { return m_meshes; }
+    [[nodiscard]] const BodyFits& bodies() const { return m_bodies; }
     [[nodiscard]] const OwnFigures& ownFigures() const { return m_ownFigures; }
 
 private:
-    [[nodiscard]] std::shared_ptr<const FigureMesh> meshOf(const model::SessionView& session,
-                                                           const model::CharacterKey& key);
-    /// With mesh, palette and place, as yet without a look.
+    [[nodiscard]] std::shared_ptr<const FigureBody> fitOf(const model::SessionView& session,
+                                                          const model::CharacterKey& key);
+    /// With body, palette and place, as yet without a look.
     [[nodiscard]] Figure bodyOf(const model::SessionView& session, const model::CharacterKey& key,
                                 const model::CharacterPose& pose);
     [[nodiscard]] render::CharacterLook lookOf(const model::CharacterKey& key) const;
@@ -164,7 +169,7 @@ private:
     [[nodiscard]] const model::CharacterPose* poseOf(const model::CharacterKey& key);
 
     model::SessionView& m_session;
-    BodyMeshes m_meshes;
+    BodyFits m_bodies;
     OwnFigures m_ownFigures;
     Wardrobe m_wardrobe;
     bool m_isInterpolating = false;

@@ -154,7 +154,7 @@ void ViewportWidget::drawNext() {
     }
     m_followed = m_session->now();
     m_drawingBuilt = m_session->now();
-    m_isOutdated = m_builder->meshes().isBehind();
+    m_isOutdated = false;
     if (m_builder->isUnderWay()) {
         m_glideTimer.start();
     }

@@ -339,10 +339,10 @@ void MainWindow::showReceiving() {
     m_driver.setPicturesShown(m_viewport->picturesShown());
     m_driver.setPictureHealth(m_viewport->pictureHealth());
     if (const SceneBuilder* builder = m_viewport->builder()) {
-        const BodyMeshes& meshes = builder->meshes();
+        const BodyFits& bodies = builder->bodies();
         const OwnFigures& own = builder->ownFigures();
-        m_driver.setMeshMemory(meshes.memoryBytes() + own.memoryBytes(),
-                               meshes.mostBytes() + own.mostBytes());
+        m_driver.setMeshMemory(bodies.memoryBytes() + own.memoryBytes(),
+                               bodies.mostBytes() + own.mostBytes());
     }
 }
 

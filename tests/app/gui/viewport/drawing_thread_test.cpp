@@ -29,7 +29,7 @@ protected:
         one->height = 120;
         one->colours = render::lightSceneColours();
         Figure figure;
-        figure.mesh = m_meshes.of(render::kReferenceNullPose);
+        figure.body = m_bodies.of(render::kReferenceNullPose);
         one->figures.push_back(std::move(figure));
         return one;
     }
@@ -42,7 +42,7 @@ protected:
         return m_thread.take();
     }
 
-    BodyMeshes m_meshes{render::Detail::Medium};
+    BodyFits m_bodies{render::Detail::Medium};
     std::mutex m_mutex;
     std::condition_variable m_woken;
     int m_wakes = 0;

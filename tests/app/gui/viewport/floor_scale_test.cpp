@@ -59,7 +59,7 @@ TEST(FloorScale, KeepsOutOfFigures) {
     frame.width = 1200;
     frame.height = 800;
     Figure figure;
-    figure.mesh = std::make_shared<FigureMesh>();
+    figure.body = std::make_shared<FigureBody>();
     figure.bounds.add(glm::vec3(0.8F, -0.4F, 0));
     figure.bounds.add(glm::vec3(1.2F, 0.4F, 1.8F));
     frame.figures.push_back(figure);

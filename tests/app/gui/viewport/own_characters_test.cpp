@@ -170,7 +170,8 @@ TEST_F(DressedScene, ShowsTheOwnBodyOfWhoHasOneInThePoseThatIsSent) {
         const auto joint = static_cast<std::size_t>(body.segmentJoints[segment]);
         const glm::vec3 place =
             render::transformPoint(figure.bones[joint], figure.own->scale * body.joints[joint].origin);
-        const glm::vec3 sent = render::transformPoint(figure.palette[segment], figure.mesh->origins[segment]);
+        const glm::vec3 sent =
+            render::transformPoint(figure.palette[segment], figure.body->fit.origins[segment]);
         EXPECT_LT(glm::distance(place, sent), 0.06F)
             << render::kJointNames[segment] << ": the same body, but for its own proportions";
     }

@@ -54,7 +54,7 @@ TEST_F(SceneBuilderTest, ThePaletteTakesEachSegmentWhereThePoseHasIt) {
     ASSERT_NE(pose, nullptr);
     for (std::size_t i = 0; i < render::kSegmentCount; ++i) {
         const glm::vec3 place =
-            render::transformPoint(frame.figures[0].palette[i], frame.figures[0].mesh->origins[i]);
+            render::transformPoint(frame.figures[0].palette[i], frame.figures[0].body->fit.origins[i]);
         EXPECT_NEAR(place.x, pose->segments[i].position.x(), 1e-4);
         EXPECT_NEAR(place.y, pose->segments[i].position.y(), 1e-4);
         EXPECT_NEAR(place.z, pose->segments[i].position.z(), 1e-4);
@@ -90,8 +90,9 @@ TEST_F(SceneBuilderTest, FingersOfThePoseMoveTheMesh) {
     EXPECT_TRUE(frame.lines.empty());
     const auto first = static_cast<std::size_t>(pose->layout.body + pose->layout.props);
     for (std::size_t i = 0; i < render::kFingerJointCount; ++i) {
-        const glm::vec3 place = render::transformPoint(
-            frame.figures[0].palette[render::kFirstFingerJoint + i], frame.figures[0].mesh->fingerOrigins[i]);
+        const glm::vec3 place =
+            render::transformPoint(frame.figures[0].palette[render::kFirstFingerJoint + i],
+                                   frame.figures[0].body->fit.fingerOrigins[i]);
         EXPECT_NEAR(place.x, pose->segments[first + i].position.x(), 1e-4);
         EXPECT_NEAR(place.y, pose->segments[first + i].position.y(), 1e-4);
         EXPECT_NEAR(place.z, pose->segments[first + i].position.z(), 1e-4);
@@ -121,7 +122,7 @@ TEST_F(SceneBuilderTest, TheGhostStandsOnTheFloorUnderTheLivePelvisAndLooksItsWa
     EXPECT_LT(ghost.look.opacity, 1.0F);
     EXPECT_EQ(ghost.look.selectedSegment, 6);
     const auto at = [&](render::Segment segment) {
-        return render::transformPoint(ghost.palette[segment], ghost.mesh->origins[segment]);
+        return render::transformPoint(ghost.palette[segment], ghost.body->fit.origins[segment]);
     };
     const model::SegmentPose& pelvis = stage.session.pose(stage.key(1))->segments[0];
     EXPECT_NEAR(at(render::Pelvis).x, pelvis.position.x(), 1e-4);
@@ -173,7 +174,7 @@ TEST_F(SceneBuilderTest, DataThatStopFadeAndAreStripedAfterASecond) {
 
 TEST_F(SceneBuilderTest, TheMeshIsMadeOnceForANullPose) {
     perform(1);
-    EXPECT_EQ(build().figures[0].mesh, build().figures[0].mesh);
+    EXPECT_EQ(build().figures[0].body, build().figures[0].body);
 }
 
 TEST(DimFor, IsNothingForLiveDataAndNeverFalls) {
@@ -211,7 +212,7 @@ TEST_F(SceneBuilderTest, ASecondRecordingIsDrawnThroughWithLinesToWhereItDiffers
     compare(model::DifferenceFrame::World);
     const auto placeOf = [](const Figure& figure, int segment) {
         const auto place = static_cast<std::size_t>(segment);
-        return render::transformPoint(figure.palette[place], figure.mesh->origins[place]);
+        return render::transformPoint(figure.palette[place], figure.body->fit.origins[place]);
     };
     SceneFrame frame = build();
     ASSERT_EQ(frame.ghosts.size(), 1U);
