@@ -230,7 +230,10 @@ PictureHealth ViewportWidget::pictureHealth() const {
 bool ViewportWidget::isSettled() const {
     constexpr log::Duration kFresh = std::chrono::milliseconds(250);
     const bool isIdle = !m_isOutdated && m_drawing == nullptr;
-    return m_shown != nullptr && (isIdle || m_session->now() - m_shownBuilt < kFresh);
+    // A moment that is held has to be shown itself.
+    const bool isStreaming =
+        !m_session->isRecording() && m_session->cursor().mode == model::Cursor::Mode::Following;
+    return m_shown != nullptr && (isIdle || (isStreaming && m_session->now() - m_shownBuilt < kFresh));
 }
 
 void ViewportWidget::setAxes(AxesMode mode) {
