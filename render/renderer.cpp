@@ -199,6 +199,18 @@ MeshId Renderer::uploadMesh(const SkinnedMesh& mesh, const MeshDress& dress) {
     return m_impl->meshes.add(mesh, dress);
 }
 
+MeshId Renderer::uploadMesh(PropShape shape) {
+    const SkinnedMesh mesh = propMesh(shape);
+    constexpr std::array<Segment, 1> kJoint{};
+    std::array<int, kSegmentCount> noSegments{};
+    noSegments.fill(-1);
+    MeshPart whole;
+    whole.indexCount = static_cast<std::uint32_t>(mesh.indices.size());
+    whole.colour = {0.66F, 0.63F, 0.58F}; // stands out from the floors of both themes
+    whole.hasColour = true;
+    return uploadMesh(mesh, MeshDress{kJoint, noSegments, {}, std::span(&whole, 1), {}});
+}
+
 void Renderer::releaseMesh(MeshId id) {
     m_impl->meshes.remove(id);
 }

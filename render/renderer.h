@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/mesh/mesh.h"
+#include "render/mesh/prop_shapes.h"
 #include "render/scene.h"
 
 #include <functional>
@@ -97,6 +98,8 @@ public:
     MeshId uploadMesh(const SkinnedMesh& mesh);
     /// A mesh with joints, colours and textures of its own. MeshId::None where they do not fit together.
     MeshId uploadMesh(const SkinnedMesh& mesh, const MeshDress& dress);
+    /// A prop, of one joint, in a colour that no suit has.
+    MeshId uploadMesh(PropShape shape);
     void releaseMesh(MeshId id);
 
     /// Whether the driver was reset and all that this holds is lost, as far as the context tells: it must

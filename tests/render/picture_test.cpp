@@ -204,6 +204,21 @@ TEST_F(Picture, KeepsTheSuitOnAFittedPerformer) {
     expectMatchesBaseline(shoot(), "fitted_child");
 }
 
+TEST_F(Picture, ShowsEachPropInItsShape) {
+    for (std::size_t i = 0; i < kPropShapeCount; ++i) {
+        const MeshId id = renderer().uploadMesh(static_cast<PropShape>(i));
+        ASSERT_NE(id, MeshId::None);
+        const glm::vec3 place(0.0F, 1.0F - 0.32F * static_cast<float>(i), i % 2 == 0 ? 0.75F : 0.25F);
+        const glm::quat turn = glm::angleAxis(-0.6F, glm::vec3(0, 0, 1));
+        const std::vector<DualQuaternion> motion{rigidMotion(turn, glm::vec3(0.0F), place)};
+        SkinnedInstance& instance = add(tPose());
+        instance.mesh = id;
+        instance.palette = addPalette(motion);
+    }
+    look(0.25F, {0.2F, 0.0F, 0.45F}, 3.8F);
+    expectMatchesBaseline(shoot(), "props");
+}
+
 TEST_F(Picture, IsMultisampledWhereTheQualityAsksForIt) {
     addPair();
     scene.characters = characters;

@@ -217,6 +217,12 @@ bool Comparing::takeResult() {
     return true;
 }
 
+void Comparing::showMoment(model::SessionView& shown) {
+    if (m_file != nullptr && m_known.log == &shown.log()) {
+        followCursor(shown);
+    }
+}
+
 /// The second recording to the moment of the first.
 void Comparing::followCursor(model::SessionView& shown) {
     m_state.atCursor.reset();

@@ -36,6 +36,8 @@ public:
 
     /// One display tick, for about as long as `most`; true where there is something new to show.
     bool follow(model::SessionView& shown, log::Duration most);
+    /// The second recording to the moment that is shown, before the next tick.
+    void showMoment(model::SessionView& shown);
     [[nodiscard]] const ComparisonState& state() const { return m_state; }
 
     /// Writes the differences of the range that was worked out last. The answer is why not, empty where it

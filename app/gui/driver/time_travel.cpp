@@ -93,6 +93,7 @@ void SessionDriver::seek(double seconds) {
 
 void SessionDriver::showMoment(log::Stamp moment) {
     stopAt(shown().packetAt(moment));
+    m_comparing.showMoment(shown());
 }
 
 void SessionDriver::stepSamples(const model::CharacterKey& of, int steps) {

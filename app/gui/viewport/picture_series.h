@@ -47,6 +47,8 @@ public:
     /// What has been written stays.
     ~PictureSeries() override;
 
+    /// What is compared is in the pictures as well: it outlives this.
+    void setComparison(const ComparisonState* comparison) { m_builder.setComparison(comparison); }
     void start() { showNext(); }
     /// Another session is shown: the display stays where it is.
     void leave() { m_isLeft = true; }

@@ -136,6 +136,13 @@ void SceneUpload::add(const Figure& figure, render::Renderer& renderer) {
         meshes = uploaded(figure, renderer);
     }
     m_instances.push_back({meshes.mesh, meshes.low, figure.drawnPalette(), figure.look, figure.fit()});
+    render::CharacterLook look = figure.look; // where it is, is sent; whoever holds it is selected
+    look.provenance = {};
+    look.isSelected = false;
+    look.selectedSegment = -1;
+    for (const FigureProp& prop : figure.props) {
+        m_instances.push_back({m_props.of(prop.shape, renderer), render::MeshId::None, prop.motion, look});
+    }
 }
 
 SceneUpload::Meshes SceneUpload::uploaded(const Figure& figure, render::Renderer& renderer) {
@@ -258,6 +265,7 @@ void SceneBuilder::addFigure(const model::Character& character, const model::Cha
     const auto provenance = figure.look.provenance;
     figure.look = lookOf(character.key);
     figure.look.provenance = provenance;
+    figure.props = propsOf(m_session, character.key, pose);
     dress(figure);
     frame.figures.push_back(std::move(figure));
 }

@@ -4,6 +4,7 @@
 #include "app/gui/viewport/body_fits.h"
 #include "app/gui/viewport/dressed_body.h"
 #include "app/gui/viewport/overlays/choice.h"
+#include "app/gui/viewport/props.h"
 #include "core/log/time.h"
 #include "core/model/body/character_pose.h"
 #include "core/model/body/pose_interpolation.h"
@@ -31,6 +32,7 @@ struct Figure {
     std::shared_ptr<const OwnFigure> own;      ///< drawn instead of the mannequin; null for none
     std::vector<render::DualQuaternion> bones; ///< of that
     std::array<render::DualQuaternion, render::kJointCount> palette{};
+    std::vector<FigureProp> props;
     render::CharacterLook look;
     glm::vec3 labelPosition{0.0F}; ///< above the head
     render::Bounds bounds;         ///< of the segment origins
@@ -109,6 +111,7 @@ private:
     void releaseUnused(const SceneFrame& frame, render::Renderer& renderer);
 
     std::map<std::shared_ptr<const void>, Meshes> m_meshes; ///< by what is drawn
+    PropMeshes m_props;
     std::vector<render::SkinnedInstance> m_instances;
 };
 

@@ -177,6 +177,7 @@ void PicturesDialog::askWhereToSave() {
 void PicturesDialog::save(const QString& path) {
     m_series =
         std::make_unique<PictureSeries>(m_driver.session(), m_driver, m_viewport.look(), request(path));
+    m_series->setComparison(&m_driver.comparison());
     const auto showState = [this] {
         m_state->setText(tr("Writing: %1 of %2").arg(m_series->written()).arg(m_series->request().count));
     };

@@ -94,6 +94,17 @@ TEST_F(ComparingTest, BothRecordingsShowTheSameMomentByTimeCode) {
     EXPECT_EQ(state().range->worst()->slot, model::segment::kHead);
 }
 
+TEST_F(ComparingTest, AMomentThatIsAskedForIsThatOfBothAtOnce) {
+    m_driver.openFile(record("a.pcapng", 0, 300));
+    m_driver.compareWith(record("b.pcapng", 20, 280, 5000));
+    settle();
+    for (const auto moment : {1s, 3s, 2s}) {
+        m_driver.showMoment(Stage::kStart + moment); // no tick between, as a series of pictures does it
+        ASSERT_TRUE(state().atCursor);
+        EXPECT_EQ(sampleOf(*state().second), sampleOf(m_driver.session()) + 4999);
+    }
+}
+
 TEST_F(ComparingTest, TheOperatorMovesTheSecondOneByHand) {
     m_driver.openFile(record("a.pcapng", 0, 200));
     m_driver.compareWith(record("b.pcapng", 0, 200, 301));

@@ -76,6 +76,49 @@ TEST_F(SceneBuilderTest, ACorruptSegmentDoesNotLeadTheCameraAway) {
     EXPECT_LT(figure.bounds.radius(), 1.5F * well.radius());
 }
 
+TEST_F(SceneBuilderTest, PropsLookLikeWhatTheyAreCalled) {
+    performer::PerformerSettings settings = sending(1, {2, 12, 13});
+    settings.props = 4;
+    performer::Performer performer(settings);
+    stage.perform(performer, 0, 3);
+    stage.follow();
+    const model::CharacterPose* pose = stage.session.pose(stage.key());
+    ASSERT_NE(pose, nullptr);
+    const std::vector<FigureProp> props = build().figures.at(0).props;
+    ASSERT_EQ(props.size(), 4U);
+    using render::PropShape;
+    const std::array wanted{PropShape::Sword, PropShape::Stick, PropShape::Generic, PropShape::GolfClub};
+    for (std::size_t i = 0; i < props.size(); ++i) {
+        EXPECT_EQ(props[i].shape, wanted[i]) << i;
+        const glm::vec3 place = render::transformPoint(props[i].motion[0], glm::vec3(0.0F));
+        EXPECT_NEAR(place.x, pose->segments[23 + i].position.x(), 1e-4);
+        EXPECT_NEAR(place.z, pose->segments[23 + i].position.z(), 1e-4);
+    }
+}
+
+TEST_F(SceneBuilderTest, PropsWithoutANameAreDrawnAllTheSame) {
+    performer::PerformerSettings settings = sending(1, {2});
+    settings.props = 2;
+    performer::Performer performer(settings);
+    stage.perform(performer, 0, 3);
+    stage.follow();
+    const std::vector<FigureProp> props = build().figures.at(0).props;
+    ASSERT_EQ(props.size(), 2U);
+    EXPECT_EQ(props[0].shape, render::PropShape::Generic);
+}
+
+TEST_F(SceneBuilderTest, PropsOfRevisionEAreNamedByTheirOwnMessage) {
+    performer::PerformerSettings settings = sending(1, {2, 11});
+    settings.props = 1;
+    settings.revision = performer::Revision::E;
+    performer::Performer performer(settings);
+    stage.perform(performer, 0, 3);
+    stage.follow();
+    const std::vector<FigureProp> props = build().figures.at(0).props;
+    ASSERT_EQ(props.size(), 1U);
+    EXPECT_EQ(props[0].shape, render::PropShape::Sword);
+}
+
 TEST_F(SceneBuilderTest, FingersOfThePoseMoveTheMesh) {
     performer::PerformerSettings settings = sending(1, {2, 12, 13});
     settings.fingers = true;
