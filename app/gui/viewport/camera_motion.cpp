@@ -96,6 +96,7 @@ QPointF pointerAt(const glm::vec2& screen, const QSizeF& view) {
 void CameraMotion::orbit(const QPointF& movement) {
     m_camera.orbit(static_cast<float>(-movement.x() * kRadiansPerPixel),
                    static_cast<float>(movement.y() * kRadiansPerPixel));
+    m_standardView.reset();
 }
 
 void CameraMotion::pan(const QPointF& movement, const QSizeF& view) {

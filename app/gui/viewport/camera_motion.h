@@ -6,6 +6,7 @@
 #include <QPointF>
 #include <QSizeF>
 
+#include <optional>
 #include <span>
 
 namespace posewire::gui {
@@ -18,10 +19,14 @@ public:
     /// Whether follow() moves it.
     [[nodiscard]] bool isFollowing() const { return m_isFollowing; }
     /// Looks from there; one that follows moves to the first characters it is given, and looks the same way.
-    void restore(const render::Camera& camera, bool isFollowing) {
+    void restore(const render::Camera& camera, bool isFollowing,
+                 std::optional<render::StandardView> standardView = {}) {
         m_camera = camera;
         m_isFollowing = isFollowing;
+        m_standardView = standardView;
     }
+    /// That it was turned to, until it is turned by hand.
+    [[nodiscard]] std::optional<render::StandardView> standardView() const { return m_standardView; }
 
     /// Pointer movements and positions in logical pixels of a view of the given size.
     void orbit(const QPointF& movement);
@@ -29,7 +34,10 @@ public:
     /// Towards what is under the pointer; steps of a mouse wheel, positive comes closer.
     void zoom(double steps, const QPointF& pointer, const QSizeF& view);
 
-    void face(render::StandardView view) { m_camera = render::facing(m_camera, view); }
+    void face(render::StandardView view) {
+        m_camera = render::facing(m_camera, view);
+        m_standardView = view;
+    }
     /// About the vertical, radians.
     void turn(float yaw) { m_camera.orbit(yaw, 0); }
     void setProjection(render::Projection projection) { m_camera.projection = projection; }
@@ -46,6 +54,7 @@ private:
     [[nodiscard]] bool isHeld(std::span<const render::Bounds> boxes, float aspect) const;
 
     render::Camera m_camera;
+    std::optional<render::StandardView> m_standardView;
     bool m_isFollowing = true;
     bool m_hasFramed = false;
     bool m_isGliding = false;

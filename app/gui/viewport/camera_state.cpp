@@ -26,6 +26,7 @@ QJsonObject stateOf(const CameraMotion& motion) {
             {"pitch", camera.pitch},
             {"distance", camera.distance},
             {"orthographic", camera.projection == render::Projection::Orthographic},
+            {"standardView", motion.standardView() ? static_cast<int>(*motion.standardView()) : -1},
             {"following", motion.isFollowing()}};
 }
 
@@ -44,7 +45,10 @@ void restore(CameraMotion& motion, const QJsonObject& state) {
     camera.zoom(1);
     camera.projection =
         state["orthographic"].toBool() ? render::Projection::Orthographic : render::Projection::Perspective;
-    motion.restore(camera, state["following"].toBool(true));
+    const int view = state["standardView"].toInt(-1);
+    const bool isStandard = view >= 0 && view <= static_cast<int>(render::StandardView::ThreeQuarter);
+    motion.restore(camera, state["following"].toBool(true),
+                   isStandard ? std::optional(static_cast<render::StandardView>(view)) : std::nullopt);
 }
 
 } // namespace posewire::gui

@@ -2,27 +2,34 @@
 #pragma once
 
 #include <QRect>
+#include <QString>
 #include <QWidget>
 
 #include <vector>
 
 namespace posewire::gui {
 
-/// The lines between the panes of a view, and the frame around the active one.
+/// The lines between the panes of a view, their names, and the frame around the active one.
 class PaneFrame final : public QWidget {
     Q_OBJECT
 
 public:
     explicit PaneFrame(QWidget* parent);
 
+    struct NamedPane {
+        QRect place;
+        QString name;
+
+        bool operator==(const NamedPane&) const = default;
+    };
     /// None for a view that is not split.
-    void setPanes(const std::vector<QRect>& panes, int active);
+    void setPanes(const std::vector<NamedPane>& panes, int active);
 
 protected:
     void paintEvent(QPaintEvent* event) override;
 
 private:
-    std::vector<QRect> m_panes;
+    std::vector<NamedPane> m_panes;
     int m_active = 0;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/viewport/view_panes.h"
 
+#include "app/gui/theme/words.h"
 #include "app/gui/viewport/camera_state.h"
 
 #include <QJsonArray>
@@ -56,6 +57,30 @@ int ViewPanes::paneAt(const QPointF& point, const QSize& view) const {
         }
     }
     return m_active;
+}
+
+QString ViewPanes::name(int pane) const {
+    const CameraMotion& motion = m_motions[static_cast<std::size_t>(pane)];
+    const bool isFlat = motion.camera().projection == render::Projection::Orthographic;
+    const QString otherwise = isFlat ? tr("Orthographic") : tr("Perspective");
+    if (!motion.standardView()) {
+        return otherwise;
+    }
+    switch (*motion.standardView()) {
+    case render::StandardView::Front:
+        return tr("Front");
+    case render::StandardView::Back:
+        return tr("Back");
+    case render::StandardView::Left:
+        return tr("Left side");
+    case render::StandardView::Right:
+        return tr("Right side");
+    case render::StandardView::Top:
+        return tr("Top");
+    case render::StandardView::ThreeQuarter:
+        break;
+    }
+    return otherwise;
 }
 
 QJsonObject ViewPanes::state() const {

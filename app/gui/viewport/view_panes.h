@@ -42,6 +42,9 @@ public:
     /// What makes no sense stays as it is.
     void restoreState(const QJsonObject& state);
 
+    /// What a pane shows: "Front", or how it is projected where it was turned by hand.
+    [[nodiscard]] QString name(int pane) const;
+
 private:
     std::array<CameraMotion, kMost> m_motions;
     std::array<bool, kMost> m_wasShown{true};

@@ -18,7 +18,7 @@ PaneFrame::PaneFrame(QWidget* parent) : QWidget(parent) {
     setAttribute(Qt::WA_NoSystemBackground);
 }
 
-void PaneFrame::setPanes(const std::vector<QRect>& panes, int active) {
+void PaneFrame::setPanes(const std::vector<NamedPane>& panes, int active) {
     if (panes != m_panes || active != m_active) {
         m_panes = panes;
         m_active = active;
@@ -32,16 +32,29 @@ void PaneFrame::paintEvent(QPaintEvent* /*event*/) {
     }
     QPainter painter(this);
     QRegion between(rect());
-    for (const QRect& pane : m_panes) {
-        between -= pane;
+    for (const NamedPane& pane : m_panes) {
+        between -= pane.place;
     }
     for (const QRect& part : between) {
         painter.fillRect(part, theme().line);
     }
+    constexpr int kMargin = 8;
+    for (const NamedPane& pane : m_panes) {
+        const QRect inner = pane.place.adjusted(kMargin, kMargin, -kMargin, -kMargin);
+        const QRect words = fontMetrics().boundingRect(inner, Qt::AlignRight | Qt::AlignBottom, pane.name);
+        painter.setPen(Qt::NoPen);
+        painter.setBrush(withAlpha(theme().panel, 0.7));
+        painter.setRenderHint(QPainter::Antialiasing);
+        painter.drawRoundedRect(words.adjusted(-6, -2, 6, 2), 4, 4);
+        painter.setRenderHint(QPainter::Antialiasing, false);
+        painter.setPen(theme().dim);
+        painter.setBrush(Qt::NoBrush);
+        painter.drawText(words, Qt::AlignCenter, pane.name);
+    }
     constexpr qreal kWidth = 2;
     painter.setPen(QPen(parentWidget()->hasFocus() ? theme().accent : withAlpha(theme().accent, 0.55), kWidth,
                         Qt::SolidLine, Qt::SquareCap, Qt::MiterJoin));
-    const QRectF active(m_panes.at(static_cast<std::size_t>(m_active)));
+    const QRectF active(m_panes.at(static_cast<std::size_t>(m_active)).place);
     painter.drawRect(active.adjusted(kWidth / 2, kWidth / 2, -kWidth / 2, -kWidth / 2));
 }
 
@@ -89,22 +102,22 @@ void ViewportWidget::updatePanes(const SceneFrame& shown) {
     const bool isWhole = shown.panes.empty();
     m_overlay->setLabels(isWhole ? labelsOf(shown, *m_session, size()) : std::vector<ViewportLabel>());
     m_overlay->setTexts(isWhole ? textsOf(shown, size()) : std::vector<ViewportText>());
-    std::vector<QRect> places;
+    std::vector<PaneFrame::NamedPane> panes;
     for (int pane = 0; pane < ViewPanes::kMost; ++pane) {
         const auto index = static_cast<std::size_t>(pane);
         ViewportOverlay* overlay = m_paneOverlays[index];
         const bool isThere = index < shown.panes.size() && pane < m_look.panes.count();
         if (isThere) {
             const QRect place = m_look.panes.place(pane, size());
-            places.push_back(place);
+            panes.push_back({place, m_look.panes.name(pane)});
             overlay->setGeometry(place);
             overlay->setLabels(labelsOf(shown.panes[index], *m_session, place.size()));
             overlay->setTexts(textsOf(shown.panes[index], place.size()));
         }
         overlay->setVisible(isThere);
     }
-    const bool isActiveThere = m_look.panes.active() < static_cast<int>(places.size());
-    m_paneFrame->setPanes(isActiveThere ? places : std::vector<QRect>(), m_look.panes.active());
+    const bool isActiveThere = m_look.panes.active() < static_cast<int>(panes.size());
+    m_paneFrame->setPanes(isActiveThere ? panes : std::vector<PaneFrame::NamedPane>(), m_look.panes.active());
 }
 
 std::optional<PickedSegment> ViewportWidget::pickAt(const QPointF& pointer) const {

@@ -49,6 +49,22 @@ TEST(ViewPanes, BeginWithTheFrontTheSideAndTheTopOrthographically) {
     EXPECT_GT(panes.motionOf(3).camera().pitch, 1.5F);
 }
 
+TEST(ViewPanes, AreCalledByWhatTheyShowUntilTheyAreTurnedByHand) {
+    ViewPanes panes;
+    panes.split(4, 0.5F);
+    EXPECT_EQ(panes.name(0), "Perspective");
+    EXPECT_EQ(panes.name(1), "Front");
+    EXPECT_EQ(panes.name(2), "Left side");
+    EXPECT_EQ(panes.name(3), "Top");
+    ViewPanes again;
+    again.restoreState(panes.state());
+    EXPECT_EQ(again.name(3), "Top");
+    panes.motionOf(1).orbit({40, 0});
+    EXPECT_EQ(panes.name(1), "Orthographic");
+    panes.motionOf(1).face(render::StandardView::Back);
+    EXPECT_EQ(panes.name(1), "Back");
+}
+
 TEST(ViewPanes, KeepTheirCamerasWhileFewerAreShown) {
     ViewPanes panes;
     panes.split(4, 0);
