@@ -33,7 +33,9 @@ public:
         if (!due || m_isDone) {
             return;
         }
-        ++m_datagrams;
+        if (m_datagrams++ == 0) {
+            m_schedule.startNow(); // opening and reading is no part of it
+        }
         note(m_round.sendUntil(*due));
         for (SendLine& line : m_lines) {
             line.faults().offer({record.bytes.begin(), record.bytes.end()}, *due);

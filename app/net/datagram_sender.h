@@ -27,6 +27,9 @@ public:
     /// Starts now. `sleep` is for tests; by default the thread sleeps.
     explicit SendSchedule(const log::Clock& clock, Sleep sleep = {});
 
+    /// Starts now instead: for what takes a while before its first datagram.
+    void startNow() { m_start = m_clock.monotonic(); }
+
     /// Sleeps until that long after the start, or not at all if it has passed. Returns how late it is.
     log::Duration waitUntil(log::Duration afterStart);
 

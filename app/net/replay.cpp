@@ -33,7 +33,6 @@ ReplayFigures Replay::figures() const {
 void Replay::run(const std::stop_token& stop) {
     auto sender = DatagramSender::connect(m_choice.target);
     NetResult<void> result = sender ? NetResult<void>() : tl::unexpected(sender.error());
-    m_start = m_clock.monotonic();
     bool isToBegin = result.has_value();
     while (isToBegin) {
         const std::uint64_t before = sender->sent();
@@ -63,6 +62,9 @@ NetResult<void> Replay::sendRound(DatagramSender& sender, const std::stop_token&
         if (!packet) {
             ++missing;
             continue;
+        }
+        if (!first && m_roundBegin == log::Duration::zero()) {
+            m_start = m_clock.monotonic(); // looking for the first one is no part of it
         }
         first = first.value_or(packet->stamp);
         ++packets;

@@ -23,6 +23,16 @@ TEST(SendSchedule, LateSleepsDoNotAddUp) {
     EXPECT_LE(schedule.elapsed() - 239'999 * kFrame, 60us);
 }
 
+TEST(SendSchedule, BeginsAgainWhereItIsStartedLater) {
+    log::ManualClock clock;
+    SendSchedule schedule(clock, [&](log::Duration duration) { clock.advance(duration); });
+    clock.advance(4ms); // a file is opened
+    schedule.startNow();
+    EXPECT_EQ(schedule.waitUntil(0s), 0s);
+    EXPECT_EQ(schedule.waitUntil(1ms), 0s);
+    EXPECT_EQ(schedule.elapsed(), 1ms);
+}
+
 TEST(SendSchedule, SleepsAgainAfterWakingEarly) {
     log::ManualClock clock;
     int sleeps = 0;
