@@ -141,20 +141,10 @@ TakeVerdict lasting(TakeVerdict::State state, const std::string& text, std::stri
     return verdict;
 }
 
-/// Of the streams that are on the air while the character is; a stream that ended is not.
+/// A stream that ended while others of its character go on is not on the air.
 std::vector<const Stream*> streamsOnAir(const Character& character) {
-    constexpr log::Duration kEnded = std::chrono::seconds(1);
-    log::Stamp newest{};
-    for (const Stream* stream : character.streams) {
-        newest = countsSamples(stream->key.type) ? std::max(newest, stream->accounting.lastStamp()) : newest;
-    }
     std::vector<const Stream*> onAir = character.streams;
-    std::erase_if(onAir, [&](const Stream* stream) {
-        const double rateHz = stream->statistics.rateHz();
-        const log::Duration patience =
-            std::max(kEnded, rateHz > 0 ? log::durationOf(3 / rateHz) : log::Duration::zero());
-        return countsSamples(stream->key.type) && newest - stream->accounting.lastStamp() > patience;
-    });
+    std::erase_if(onAir, [](const Stream* stream) { return stream->hasEnded; });
     return onAir;
 }
 
