@@ -107,6 +107,30 @@ TEST_F(SceneBuilderTest, PropsWithoutANameAreDrawnAllTheSame) {
     EXPECT_EQ(props[0].shape, render::PropShape::Generic);
 }
 
+TEST_F(SceneBuilderTest, FollowsASenderThatAddsAndDropsPropsAndFingers) {
+    performer::PerformerSettings settings = sending(1, {2, 12, 13});
+    performer::Performer bare(settings);
+    settings.props = 2;
+    settings.fingers = true;
+    performer::Performer equipped(settings);
+    std::uint64_t frame = 0;
+    for (performer::Performer* performer : {&bare, &equipped, &bare, &equipped}) {
+        stage.perform(*performer, frame, frame + 30);
+        frame += 30;
+        stage.follow();
+        const bool isEquipped = performer == &equipped;
+        const model::CharacterPose* pose = stage.session.pose(stage.key());
+        ASSERT_NE(pose, nullptr);
+        EXPECT_EQ(pose->layout.count(), isEquipped ? 65 : 23) << frame;
+        const SceneFrame scene = build();
+        ASSERT_EQ(scene.figures.size(), 1U);
+        EXPECT_EQ(scene.figures[0].props.size(), isEquipped ? 2U : 0U) << frame;
+        const glm::vec3 hand = render::transformPoint(scene.figures[0].palette[render::LeftHand],
+                                                      scene.figures[0].body->fit.origins[render::LeftHand]);
+        EXPECT_NEAR(hand.z, pose->segments[render::LeftHand].position.z(), 1e-3) << frame;
+    }
+}
+
 TEST_F(SceneBuilderTest, PropsOfRevisionEAreNamedByTheirOwnMessage) {
     performer::PerformerSettings settings = sending(1, {2, 11});
     settings.props = 1;
