@@ -121,19 +121,22 @@ void sizeAreas(const DockLayout& layout, const std::map<Qt::DockWidgetArea, Shar
     }
 }
 
-/// The dock farthest to the right and below of those that show in an area; null where there is none.
-QDockWidget* lastDock(Qt::DockWidgetArea area, const QMainWindow& window) {
-    QDockWidget* last = nullptr;
+/// Of those that show in an area one that has tabs, else the farthest to the right and below; null where
+/// there is none.
+QDockWidget* dockForTab(Qt::DockWidgetArea area, const QMainWindow& window) {
+    QDockWidget* best = nullptr;
     for (QDockWidget* dock : window.findChildren<QDockWidget*>(Qt::FindDirectChildrenOnly)) {
         if (dock->isHidden() || dock->isFloating() || window.dockWidgetArea(dock) != area) {
             continue;
         }
-        const auto corner = [](const QDockWidget* each) { return each->x() + each->y(); };
-        if (last == nullptr || corner(dock) > corner(last)) {
-            last = dock;
+        const auto rank = [&window](QDockWidget* each) {
+            return std::pair(!window.tabifiedDockWidgets(each).isEmpty(), each->x() + each->y());
+        };
+        if (best == nullptr || rank(dock) > rank(best)) {
+            best = dock;
         }
     }
-    return last;
+    return best;
 }
 
 } // namespace
@@ -219,8 +222,8 @@ void placeDock(QDockWidget& dock, Qt::DockWidgetArea area, QMainWindow& window) 
     if (window.dockWidgetArea(&dock) != Qt::NoDockWidgetArea || dock.isFloating()) {
         return;
     }
-    QDockWidget* beside = lastDock(area, window);
-    beside = beside == nullptr ? lastDock(Qt::BottomDockWidgetArea, window) : beside;
+    QDockWidget* beside = dockForTab(area, window);
+    beside = beside == nullptr ? dockForTab(Qt::BottomDockWidgetArea, window) : beside;
     if (beside != nullptr) {
         window.tabifyDockWidget(beside, &dock);
     } else {

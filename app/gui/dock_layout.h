@@ -45,8 +45,8 @@ struct DockLayout {
 /// the layout that no dock of the window has; they are skipped.
 QStringList applyLayout(const DockLayout& layout, QMainWindow& window);
 
-/// Finds a place for a dock that has none, for the layout names it nowhere: as a tab beside the last dock of
-/// `area`, or of the bottom. A place of its own would leave too little for the others.
+/// Finds a place for a dock that has none, for the layout names it nowhere: as a tab beside others of `area`,
+/// or of the bottom. A place of its own would leave too little for the others.
 void placeDock(QDockWidget& dock, Qt::DockWidgetArea area, QMainWindow& window);
 
 } // namespace posewire::gui
