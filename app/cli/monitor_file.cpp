@@ -133,8 +133,10 @@ ExitStatus monitorFile(const MonitorOptions& options, Console& console) {
     }
     Replay replay(options, run, recorder);
     reading = &replay;
-    const auto read = log::readFile(**file, std::ref(replay), [&replay](const log::Reception& reception) {
-        replay.takeReception(reception);
+    const auto read = log::readFile(**file, std::ref(replay), [&replay](std::string_view note) {
+        if (const auto reception = log::parseReception(note)) {
+            replay.takeReception(*reception);
+        }
     });
     replay.end();
     log::Recorder::Result recorded = replay.recorded();

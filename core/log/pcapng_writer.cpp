@@ -26,6 +26,9 @@ constexpr std::array<std::string_view, 4> kFlags{"; truncated", "; between datag
 constexpr std::string_view kStampedOnReading = "; stamped on reading";
 constexpr std::string_view kClockSet = "; clock set by ";
 constexpr std::string_view kFrom = "; from ";
+constexpr std::string_view kMark = "Mark on packet ";
+constexpr std::string_view kMarkedAt = " at ";
+constexpr std::string_view kMarkComment = ": ";
 constexpr std::string_view kReceivedFor = "received for ";
 constexpr std::string_view kTheLast = ", the last ";
 constexpr std::string_view kReceiveBuffer = " without a packet; receive buffer ";
@@ -254,6 +257,40 @@ std::optional<Reception> parseReception(std::string_view note) {
     reception.time = *time;
     reception.afterLast = *afterLast;
     return reception;
+}
+
+std::string markText(const RecordedMark& mark) {
+    std::string text(kMark);
+    text.append(std::to_string(mark.packet));
+    if (!mark.time.empty()) {
+        text.append(kMarkedAt).append(mark.time);
+    }
+    if (!mark.comment.empty()) {
+        text.append(kMarkComment).append(mark.comment);
+    }
+    return text;
+}
+
+std::optional<RecordedMark> parseMark(std::string_view note) {
+    RecordedMark mark;
+    if (!takes(note, kMark)) {
+        return std::nullopt;
+    }
+    const auto number = std::from_chars(note.data(), note.data() + note.size(), mark.packet);
+    note.remove_prefix(static_cast<std::size_t>(number.ptr - note.data()));
+    if (number.ec != std::errc()) {
+        return std::nullopt;
+    }
+    if (takes(note, kMarkedAt)) {
+        const std::size_t end = std::min(note.find(kMarkComment), note.size());
+        mark.time = note.substr(0, end);
+        note.remove_prefix(end);
+    }
+    if (takes(note, kMarkComment)) {
+        mark.comment = note;
+        note = {};
+    }
+    return note.empty() ? std::optional(mark) : std::nullopt;
 }
 
 PcapngWriter::Result PcapngWriter::begin(const RecordingInfo& info) {

@@ -78,6 +78,21 @@ struct Reception {
 /// The inverse; nothing where somebody else wrote the note, or it tells of more than a year.
 [[nodiscard]] std::optional<Reception> parseReception(std::string_view note);
 
+/// What an operator said of a packet while it was recorded. In a note of the recording, in words: "Mark on
+/// packet 12 at 03:28:07.123: left hand jumps".
+struct RecordedMark {
+    std::uint64_t packet = 0; ///< counts from 0 in the file
+    std::string time;         ///< of the day, for people; may be empty
+    std::string comment;      ///< UTF-8; may be empty
+
+    friend bool operator==(const RecordedMark&, const RecordedMark&) = default;
+};
+
+[[nodiscard]] std::string markText(const RecordedMark& mark);
+
+/// The inverse; nothing where the note says something else.
+[[nodiscard]] std::optional<RecordedMark> parseMark(std::string_view note);
+
 /// What a recording says about itself; what is empty is left out.
 struct RecordingInfo {
     std::string hardware;

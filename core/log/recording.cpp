@@ -22,6 +22,7 @@ Recorder::Recorder(const PacketLog& log, ByteSink& sink, std::uint64_t from)
     : m_sink(sink),
       m_timeline(log.timeline()),
       m_follower(LogFollower::fromOldest(log, from)),
+      m_first(m_follower.position()),
       m_senders(log.senders()),
       m_writer(sink) {}
 
@@ -230,7 +231,7 @@ Recording::Result Recording::finish() {
 RecordingFigures Recording::figuresNow() const {
     const RecordingFigures file = m_recorder->figures();
     return {m_before.packets + file.packets, m_before.bytes + file.bytes, m_before.files + 1,
-            m_before.missed + file.missed};
+            m_before.missed + file.missed, file.fileBegin};
 }
 
 /// False where nothing more is written. What was written until then is ended as well as that can be.

@@ -37,6 +37,7 @@ struct RecordingFigures {
     /// Packets that the log had dropped before they could be written: the disk was too slow. The recording
     /// shows them as dropped by this computer.
     std::uint64_t missed = 0;
+    std::uint64_t fileBegin = 0; ///< the packet of the log that the newest file begins with
 };
 
 /// Follows a log and writes it down. One thread; `log` and `sink` must outlive it. After a failure nothing
@@ -60,7 +61,7 @@ public:
     Result finish(std::span<const std::string> notes = {});
 
     [[nodiscard]] RecordingFigures figures() const {
-        return {m_writer.packets(), m_writer.bytes(), 1, m_follower.overtaken()};
+        return {m_writer.packets(), m_writer.bytes(), 1, m_follower.overtaken(), m_first};
     }
     /// One past the packet written last.
     [[nodiscard]] std::uint64_t position() const { return m_follower.position(); }
@@ -71,6 +72,7 @@ private:
     ByteSink& m_sink;
     const Timeline& m_timeline;
     LogFollower m_follower;
+    const std::uint64_t m_first; ///< packet
     SenderFinder m_senders;
     PcapngWriter m_writer;
     std::uint64_t m_synced = 0; ///< the packet after the last one on the disk
@@ -124,7 +126,7 @@ private:
     std::unique_ptr<ByteSink> m_sink; ///< exchanged under the mutex
     // The thread's own:
     std::optional<Recorder> m_recorder;
-    RecordingFigures m_before{0, 0, 0, 0}; ///< of the files that have ended
+    RecordingFigures m_before{.files = 0}; ///< of the files that have ended
     std::chrono::steady_clock::time_point m_fileBegin = std::chrono::steady_clock::now();
 
     mutable std::mutex m_mutex;

@@ -213,9 +213,8 @@ std::optional<WallTime> timeOf(std::uint64_t stamp, const Interface& interface) 
 
 class PcapngReader {
 public:
-    PcapngReader(PieceReader& reader, Reassembly& reassembly, FrameNotes& notes,
-                 const ReceptionVisitor& visitReception)
-        : m_reader(reader), m_reassembly(reassembly), m_notes(notes), m_visitReception(visitReception) {}
+    PcapngReader(PieceReader& reader, Reassembly& reassembly, FrameNotes& notes, const NoteVisitor& visitNote)
+        : m_reader(reader), m_reassembly(reassembly), m_notes(notes), m_visitNote(visitNote) {}
 
     /// The first four bytes, a section header's type, have been taken.
     void read() {
@@ -357,10 +356,8 @@ private:
     void visitStatistics(Bytes body) const {
         constexpr std::size_t fixed = 12;
         visitOptions(body.subspan(std::min(body.size(), fixed)), [this](PcapngOption code, Bytes value) {
-            const auto reception =
-                code == PcapngOption::Comment ? parseReception(textOf(value)) : std::nullopt;
-            if (reception && m_visitReception) {
-                m_visitReception(*reception);
+            if (code == PcapngOption::Comment && m_visitNote) {
+                m_visitNote(textOf(value));
             }
         });
     }
@@ -391,13 +388,13 @@ private:
     PieceReader& m_reader;
     Reassembly& m_reassembly;
     FrameNotes& m_notes;
-    const ReceptionVisitor& m_visitReception;
+    const NoteVisitor& m_visitNote;
     std::vector<Interface> m_interfaces;
     std::optional<WallTime> m_first; ///< of the file
 };
 
 tl::expected<void, FileError> readCapture(ByteSource& source, std::uint32_t magic, const FileVisitor& visit,
-                                          const ReceptionVisitor& visitReception) {
+                                          const NoteVisitor& visitNote) {
     FrameNotes notes;
     const FileVisitor noted = [&](const FileRecord& record) {
         FileRecord complete = record;
@@ -407,7 +404,7 @@ tl::expected<void, FileError> readCapture(ByteSource& source, std::uint32_t magi
     Reassembly reassembly(noted);
     PieceReader reader(source);
     if (magic == kSectionHeader) {
-        PcapngReader(reader, reassembly, notes, visitReception).read();
+        PcapngReader(reader, reassembly, notes, visitNote).read();
     } else {
         readPcap(reader, magic, reassembly);
     }
@@ -438,7 +435,7 @@ tl::expected<void, FileError> readRaw(ByteSource& source, Bytes front, const Fil
 } // namespace
 
 tl::expected<void, FileError> readFile(ByteSource& source, const FileVisitor& visit,
-                                       const ReceptionVisitor& visitReception) {
+                                       const NoteVisitor& visitNote) {
     std::array<std::byte, 4> first{};
     const auto count = readFully(source, first);
     if (!count) {
@@ -446,7 +443,7 @@ tl::expected<void, FileError> readFile(ByteSource& source, const FileVisitor& vi
     }
     const std::uint32_t magic = *count == first.size() ? wire::load32(first.data()) : 0;
     const bool isPcap = std::ranges::find(kPcapMagics, magic) != kPcapMagics.end();
-    return isPcap || magic == kSectionHeader ? readCapture(source, magic, visit, visitReception)
+    return isPcap || magic == kSectionHeader ? readCapture(source, magic, visit, visitNote)
                                              : readRaw(source, std::span(first).first(*count), visit);
 }
 

@@ -43,12 +43,12 @@ private:
 
 /// Reads a file from its beginning to its end, or to where it is cut off: then the answer says so.
 ImportResult visitFile(const QString& path, const log::FileVisitor& visit,
-                       const log::IsCancelled& isCancelled) {
+                       const log::IsCancelled& isCancelled, const log::NoteVisitor& visitNote = {}) {
     const auto source = log::openFile(QFile::encodeName(path).toStdString(), isCancelled);
     if (!source) {
         return tl::unexpected(QString::fromStdString(source.error().text));
     }
-    const auto read = log::readFile(**source, visit);
+    const auto read = log::readFile(**source, visit, visitNote);
     const QString text = read ? QString() : QString::fromStdString(read.error().text);
     const bool isRead = read || read.error().kind == log::FileError::Kind::Cut;
     return isRead ? ImportResult(text) : tl::unexpected(text);
@@ -57,7 +57,8 @@ ImportResult visitFile(const QString& path, const log::FileVisitor& visit,
 } // namespace
 
 ImportResult importRawFile(const QString& path, const PacketTaker& take, log::Stamp end,
-                           log::Timeline& timeline, const std::function<bool()>& isCancelled) {
+                           log::Timeline& timeline, const std::function<bool()>& isCancelled,
+                           const log::NoteVisitor& visitNote) {
     if (const QFileInfo info(path); info.exists() && !info.isFile() && !info.isDir()) {
         return tl::unexpected(
             QCoreApplication::translate(
@@ -97,7 +98,7 @@ ImportResult importRawFile(const QString& path, const PacketTaker& take, log::St
             const log::Stamp stamp = last.value_or(end - length + place);
             take(record, record.sender.value_or(file), log::arrivalOf(record, {}, stamp));
         },
-        isCancelled);
+        isCancelled, visitNote);
     clock.end();
     return result;
 }
@@ -124,8 +125,9 @@ void FileImport::run(const std::stop_token& stop, log::Stamp end) {
             keepStep(stop);
         }
     };
-    ImportResult result =
-        importRawFile(m_path, taker, end, m_log.timeline(), [&stop] { return stop.stop_requested(); });
+    ImportResult result = importRawFile(
+        m_path, taker, end, m_log.timeline(), [&stop] { return stop.stop_requested(); },
+        [this](std::string_view note) { keepMark(note); });
     keepStep(stop);
     m_log.writer().publish(); // also where it was stopped
     if (m_past) {
@@ -166,6 +168,24 @@ void FileImport::keepComments(const log::FileRecord& record) {
     ++m_commentCount;
     const std::lock_guard lock(m_mutex);
     m_comments.emplace_back(m_packetsRead, std::move(text));
+}
+
+/// A note says whatever its writer wanted: only of packets that are there.
+void FileImport::keepMark(std::string_view note) {
+    auto mark = log::parseMark(note);
+    if (!mark || mark->packet >= m_packetsRead) {
+        return;
+    }
+    mark->comment.resize(std::min(mark->comment.size(), kLongestComment));
+    const std::lock_guard lock(m_mutex);
+    if (m_marks.size() < kMostComments) {
+        m_marks.push_back(std::move(*mark));
+    }
+}
+
+std::vector<log::RecordedMark> FileImport::takeMarks() {
+    const std::lock_guard lock(m_mutex);
+    return std::exchange(m_marks, {});
 }
 
 std::vector<FileImport::Comment> FileImport::takeComments() {

@@ -66,6 +66,12 @@ void OpenedFile::takeComments() {
         for (auto& [packet, text] : m_import->takeComments()) {
             m_session.setComment(packet, std::move(text));
         }
+        for (log::RecordedMark& mark : m_import->takeMarks()) {
+            m_session.setMarked(mark.packet, true);
+            if (!mark.comment.empty()) {
+                m_session.setComment(mark.packet, std::move(mark.comment));
+            }
+        }
     }
 }
 

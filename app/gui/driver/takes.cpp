@@ -2,6 +2,7 @@
 #include "app/gui/driver/takes.h"
 
 #include "app/gui/logging.h"
+#include "core/log/pcapng_writer.h"
 #include "core/model/session/listed_incidents.h"
 
 #include <QCoreApplication>
@@ -21,16 +22,16 @@ QDateTime localTime(log::WallTime time) {
     return QDateTime::fromMSecsSinceEpoch(log::nanosecondsOf(time) / 1'000'000);
 }
 
-/// `first`: of the take, which counts its packets from 0.
+/// `first`: of the file, which counts its packets from 0. What an earlier file of the take has is told in the
+/// last one, in other words.
 std::string noteOn(const model::SessionView& live, std::uint64_t first, std::uint64_t packet,
                    const std::string& comment) {
     const auto found = live.packet(packet);
     const QString when =
-        found ? QStringLiteral(" at ") +
-                    localTime(live.wallOf(found->stamp)).toString(QStringLiteral("HH:mm:ss.zzz"))
-              : QString();
-    return "Mark on packet " + std::to_string(packet - first) + when.toStdString() +
-           (comment.empty() ? "" : ": " + comment);
+        found ? localTime(live.wallOf(found->stamp)).toString(QStringLiteral("HH:mm:ss.zzz")) : QString();
+    const bool isHere = packet >= first;
+    return (isHere ? "" : "In an earlier file: ") +
+           log::markText({isHere ? packet - first : packet, when.toStdString(), comment});
 }
 
 } // namespace
@@ -71,8 +72,9 @@ void Takes::stop(const model::SessionView& live) {
         return;
     }
     qCInfo(filesLog).noquote() << "recorded" << m_path;
+    auto noted = notes(live);
     m_ending.push_back(std::async(std::launch::async, [recording = std::shared_ptr(std::move(m_recording)),
-                                                       notes = notes(live)]() mutable {
+                                                       notes = std::move(noted)]() mutable {
         const auto stopped = recording->stop(std::move(notes));
         return stopped ? std::string() : stopped.error().text;
     }));
@@ -106,14 +108,15 @@ std::string Takes::takeProblem() {
 std::vector<std::string> Takes::notes(const model::SessionView& live) const {
     std::vector<std::string> notes;
     const model::Annotations& annotations = live.annotations();
+    const std::uint64_t first = m_recording->figures().fileBegin;
     for (auto mark = annotations.marks.lower_bound(m_from); mark != annotations.marks.end(); ++mark) {
         if (!annotations.comments.contains(*mark)) {
-            notes.push_back(noteOn(live, m_from, *mark, {}));
+            notes.push_back(noteOn(live, first, *mark, {}));
         }
     }
     for (auto comment = annotations.comments.lower_bound(m_from); comment != annotations.comments.end();
          ++comment) {
-        notes.push_back(noteOn(live, m_from, comment->first, comment->second));
+        notes.push_back(noteOn(live, first, comment->first, comment->second));
     }
     for (const model::ListedIncident& listed : model::listedIncidents(live, m_fromStamp)) {
         if (listed.incident.lastStamp >= m_fromStamp && !model::isOnlyComing(listed)) {

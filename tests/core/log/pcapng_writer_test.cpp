@@ -226,6 +226,20 @@ TEST(RecordedOrigin, ReadsOnlyItsOwnWords) {
     }
 }
 
+TEST(RecordedMark, IsReadBackFromItsWords) {
+    const RecordedMark whole{12, "03:28:07.123", "left hand jumps: at 3"};
+    EXPECT_EQ(markText(whole), "Mark on packet 12 at 03:28:07.123: left hand jumps: at 3");
+    for (const RecordedMark& mark :
+         {whole, RecordedMark{0, "", ""}, RecordedMark{7, "03:28:07.123", ""}, RecordedMark{7, "", "here"}}) {
+        EXPECT_EQ(parseMark(markText(mark)), mark) << markText(mark);
+    }
+    for (const char* other :
+         {"", "Mark on packet", "Mark on packet x", "Mark on packet 12 of it",
+          "In an earlier file: Mark on packet 3", "Mark on packet 99999999999999999999"}) {
+        EXPECT_EQ(parseMark(other), std::nullopt) << other;
+    }
+}
+
 TEST(Reception, IsReadBackFromItsWords) {
     const Reception reception{12'031ms, 1'700ms, 4'194'304};
     const std::string text = receptionText(reception);

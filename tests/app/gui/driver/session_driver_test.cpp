@@ -114,6 +114,7 @@ TEST_F(SessionDriverTest, ATakeHasThePreRollAndWhatComesWhateverIsShown) {
     listenAndSend(50);
     ASSERT_TRUE(tickUntil(driver, [&] { return driver.live().end() == 50; }));
     driver.setMarked(20, true);
+    driver.setComment(30, QStringLiteral("left hand jumps: look"));
     driver.setPaused(true);
     ASSERT_EQ(driver.toggleRecording(choice), "");
     ASSERT_TRUE(driver.isRecording());
@@ -128,6 +129,10 @@ TEST_F(SessionDriverTest, ATakeHasThePreRollAndWhatComesWhateverIsShown) {
     }));
     ASSERT_EQ(openFile(driver, folder.filePath("take.pcapng")), "");
     EXPECT_EQ(driver.session().end(), 100U);
+    const model::Annotations& read = driver.session().annotations();
+    EXPECT_EQ(read.marks, (std::set<std::uint64_t>{20, 30}));
+    ASSERT_EQ(read.comments.size(), 1U);
+    EXPECT_EQ(read.comments.at(30), "left hand jumps: look");
 }
 
 TEST_F(SessionDriverTest, CommentsOfACaptureAreThoseOfItsPackets) {
