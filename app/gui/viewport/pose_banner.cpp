@@ -154,6 +154,7 @@ void PoseBanner::showNotes() {
 }
 
 void PoseBanner::place(const QSize& viewport) {
+    layout()->activate(); // rows within it remember the height of their last text otherwise
     const int width = std::min(viewport.width() - 2 * kBannerEdge, fontMetrics().height() * 34);
     const QSize wanted = layout()->hasHeightForWidth() ? QSize(width, layout()->totalHeightForWidth(width))
                                                        : layout()->sizeHint();

@@ -48,6 +48,22 @@ TEST_F(PoseBannerTest, LeavesOutWhatIsHidden) {
     EXPECT_TRUE(banner.isHidden());
 }
 
+TEST_F(PoseBannerTest, IsAsHighAsItsTextNeedsAlsoAfterALongerOne) {
+    performer::Performer performer(sending(4, {22}, 60.0));
+    stage.perform(performer, 0, 5);
+    stage.follow();
+    banner.refresh(stage.session);
+    const int tall = banner.height();
+    for (std::uint8_t character = 1; character < 4; ++character) {
+        stage.session.setHidden(stage.key(character), true);
+    }
+    banner.refresh(stage.session);
+    PoseBanner fresh(stage.commands, &viewport);
+    fresh.refresh(stage.session);
+    EXPECT_EQ(banner.height(), fresh.height());
+    EXPECT_LE(banner.height(), tall);
+}
+
 TEST_F(PoseBannerTest, PutsBodiesOnTheFloorThatAreBelow) {
     performer::Performer performer(sending(1, {2, 13}));
     for (wire::Datagram datagram : performer.frame(0)) {
