@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <utility>
 
 namespace posewire::gui {
 
@@ -234,34 +235,44 @@ std::vector<Property> computerFacts(model::SessionView& view, const ProgramView&
                             return PropertyValue{grouped(count), count == 0 ? Health::Good : health, toolTip};
                         }};
     };
-    return {row(tr("Lost by cause"), lostByCause),
-            row(tr("Longest gap"), longestGap),
-            row(tr("This computer"), computer),
-            row(tr("Picture"), picture),
-            row(tr("Processor"), processor),
-            row(tr("Accounting"), accounting),
-            row(tr("Memory"), memory),
-            row(tr("Memory by part"), memoryParts),
-            row(tr("Receive buffer"), buffer),
-            row(tr("Longest delay"), delay),
-            row(tr("History"), history),
-            row(tr("Packets kept"), packets),
-            trouble(tr("Dropped here"), &Sums::kernelDrops, Health::Error,
-                    tr("Datagrams that reached this computer and found its receive buffer full "
-                       "(SO_RXQ_OVFL)")),
-            row(tr("Not looked at"), overtaken),
-            Property{tr("Not listened to"),
-                     [from] {
-                         return PropertyValue{grouped(from.program.receivingState().refusedDatagrams),
-                                              Health::Good,
-                                              tr("Datagrams from hosts that are not among those to listen "
-                                                 "to; they are not recorded")};
-                     }},
-            trouble(tr("Malformed"), &Sums::malformed, Health::Error,
-                    tr("Datagrams that begin with MXTP and cannot be decoded")),
-            trouble(tr("Foreign datagrams"), &Sums::foreign, Health::Warning,
-                    tr("Datagrams that do not begin with MXTP: another program sends to this port")),
-            row(tr("Retired senders"), retired)};
+    std::vector<Property> facts{
+        row(tr("Lost by cause"), lostByCause),
+        row(tr("Longest gap"), longestGap),
+        row(tr("This computer"), computer),
+        row(tr("Picture"), picture),
+        row(tr("Processor"), processor),
+        row(tr("Accounting"), accounting),
+        row(tr("Memory"), memory),
+        row(tr("Memory by part"), memoryParts),
+        row(tr("Receive buffer"), buffer),
+        row(tr("Longest delay"), delay),
+        row(tr("History"), history),
+        row(tr("Packets kept"), packets),
+        trouble(tr("Dropped here"), &Sums::kernelDrops, Health::Error,
+                tr("Datagrams that reached this computer and found its receive buffer full "
+                   "(SO_RXQ_OVFL)")),
+        row(tr("Not looked at"), overtaken),
+        Property{tr("Not listened to"),
+                 [from] {
+                     return PropertyValue{grouped(from.program.receivingState().refusedDatagrams),
+                                          Health::Good,
+                                          tr("Datagrams from hosts that are not among those to listen "
+                                             "to; they are not recorded")};
+                 }},
+        trouble(tr("Malformed"), &Sums::malformed, Health::Error,
+                tr("Datagrams that begin with MXTP and cannot be decoded")),
+        trouble(tr("Foreign datagrams"), &Sums::foreign, Health::Warning,
+                tr("Datagrams that do not begin with MXTP: another program sends to this port")),
+        row(tr("Retired senders"), retired)};
+    for (Property& fact : facts) { // nothing is good before anything arrived
+        fact.read = [from, read = std::move(fact.read)] {
+            PropertyValue value = read();
+            const bool isEarly = value.health == Health::Good && from.view.end() == 0;
+            value.health = isEarly ? Health::Unknown : value.health;
+            return value;
+        };
+    }
+    return facts;
 }
 
 } // namespace posewire::gui

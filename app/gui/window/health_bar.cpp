@@ -116,7 +116,8 @@ void HealthBar::refresh(const ReceivingState& receiving) {
                            .arg(grouped(static_cast<std::uint64_t>(receiving.datagramsPerSecond)),
                                 tr("%1 MB/s").arg(fixed(receiving.bytesPerSecond / 1e6, 2))));
     m_history->setContent(Health::Unknown, historyText(m_session));
-    m_dropped->setContent(receiving.kernelDropped == 0 ? Health::Good : Health::Error,
+    const Health untroubled = m_session.end() == 0 ? Health::Unknown : Health::Good;
+    m_dropped->setContent(receiving.kernelDropped == 0 ? untroubled : Health::Error,
                           tr("dropped here %1 in all").arg(grouped(receiving.kernelDropped)));
     for (ColourText* text :
          {m_rate, m_history, m_dropped}) { // numbers grow and shrink; their neighbours stay
