@@ -66,6 +66,7 @@ struct Stream {
     std::uint32_t toldStep = 0;      ///< IncidentFollower
     std::uint64_t toldStepSince = 0; ///< IncidentFollower: so many datagrams when it was first so
     bool isFollowed = false;         ///< IncidentFollower
+    bool isUneven = false;           ///< IncidentFollower: it had a step
     bool hasEnded = false;           ///< IncidentFollower: others of its character go on
 };
 

@@ -272,7 +272,18 @@ void IncidentFollower::takeVerdict(Stream& stream, const Verdict& verdict) {
 void IncidentFollower::noteStep(Stream& stream, const Verdict& verdict) {
     constexpr std::uint64_t kSettled = 128;
     const std::uint32_t step = stream.accounting.step();
-    if (step == 0 || step == stream.toldStep) {
+    const std::uint64_t known = stream.accounting.datagrams() - stream.toldStepSince;
+    if (step == 0 && stream.toldStep != 0 && known >= kSettled && !std::exchange(stream.isUneven, true)) {
+        Occurrence one = ofStream(IncidentKind::Step, stream.key, verdict); // until it has another one
+        one.detail =
+            "The sample counter moves unevenly now, before by " + std::to_string(stream.toldStep) + '.';
+        m_incidents.report(one);
+    }
+    if (step == 0) {
+        return;
+    }
+    stream.isUneven = false;
+    if (step == stream.toldStep) {
         return;
     }
     const std::uint32_t before = std::exchange(stream.toldStep, step);

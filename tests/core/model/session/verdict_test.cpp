@@ -138,6 +138,17 @@ TEST_F(VerdictTest, NeverTakesANewRateForLossWhileItIsLearnt) {
     EXPECT_EQ(told(), lost());
 }
 
+TEST_F(VerdictTest, IsNotGoodBetweenOneRateAndTheNext) {
+    poses(1, 500);
+    for (std::uint32_t sample = 502; sample <= 640; sample += 2, m_at += 20ms) {
+        pose(sample);
+        const TakeVerdict now = verdict();
+        EXPECT_EQ(now.state, State::Warning) << sample << ": " << now.text;
+    }
+    ASSERT_EQ(of(IncidentKind::Step).size(), 1U);
+    EXPECT_EQ(of(IncidentKind::Step).front().detail, "The sample counter moves by 2 now, before by 1.");
+}
+
 TEST_F(VerdictTest, EvenGapsAreLossOnceTheyAreNotEvenAnyMore) {
     poses(1, 500);
     for (std::uint32_t sample = 504; sample <= 540; sample += 4, m_at += 40ms) {
