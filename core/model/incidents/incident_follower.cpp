@@ -268,37 +268,6 @@ void IncidentFollower::takeVerdict(Stream& stream, const Verdict& verdict) {
     }
 }
 
-/// The sender sends another share of its samples.
-void IncidentFollower::noteStep(Stream& stream, const Verdict& verdict) {
-    constexpr std::uint64_t kSettled = 128;
-    const std::uint32_t step = stream.accounting.step();
-    const std::uint64_t known = stream.accounting.datagrams() - stream.toldStepSince;
-    if (step == 0 && stream.toldStep != 0 && known >= kSettled && !std::exchange(stream.isUneven, true)) {
-        Occurrence one = ofStream(IncidentKind::Step, stream.key, verdict); // until it has another one
-        one.detail =
-            "The sample counter moves unevenly now, before by " + std::to_string(stream.toldStep) + '.';
-        m_incidents.report(one);
-    }
-    if (step == 0) {
-        return;
-    }
-    stream.isUneven = false;
-    if (step == stream.toldStep) {
-        return;
-    }
-    const std::uint32_t before = std::exchange(stream.toldStep, step);
-    const std::uint64_t since = std::exchange(stream.toldStepSince, stream.accounting.datagrams());
-    if (before == 0 || stream.accounting.datagrams() - since < kSettled) {
-        return; // nobody knew it before
-    }
-    Occurrence one = ofStream(IncidentKind::Step, stream.key, verdict);
-    one.detail = "The sample counter moves by " + std::to_string(step) + " now, before by " +
-                 std::to_string(before) + '.';
-    m_incidents.report(one);
-    excuse(stream.key, verdict.stamp);
-    stream.usualHz = 0;
-}
-
 /// A time code that moves differently from our clock while the counter runs on. What came out of order is
 /// no evidence.
 void IncidentFollower::noteTimeCode(const log::StreamKey& stream, const Verdict& verdict) {
