@@ -9,6 +9,7 @@
 #include <epoxy/gl.h>
 
 namespace posewire::render {
+
 /// The parts of a line that rectangles cover between two heights at which none begins or ends.
 void DisjointRectangles::addSlab(float low, float high) {
     const float middle = 0.5F * (low + high);
@@ -73,7 +74,7 @@ tl::expected<FloorShadows, std::string> FloorShadows::create() {
 void FloorShadows::draw(const Frame& frame) {
     m_covered.clear();
     for (const DrawnCharacter& character : frame.characters) {
-        if (!character.isGhost() && !character.inLight.isEmpty()) {
+        if (character.castsShadow()) {
             const glm::vec3 low = glm::max(character.inLight.min, -1.0F);
             const glm::vec3 size = glm::min(character.inLight.max, 1.0F) - low;
             m_covered.emplace_back(low.x, low.y, size.x, size.y);

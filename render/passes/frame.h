@@ -49,6 +49,7 @@ struct DrawnCharacter {
     Bounds onScreen;
 
     bool isGhost() const { return instance->look.opacity < 1.0F; }
+    bool isSolid() const { return !isGhost() && !onScreen.isEmpty(); }
     bool castsShadow() const { return !isGhost() && !inLight.isEmpty(); }
 };
 

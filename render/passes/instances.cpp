@@ -79,7 +79,7 @@ void Instances::upload(const Frame& frame, int atOnce) {
     m_ordered.clear();
     for (const DrawnCharacter& character : frame.characters) {
         m_data.push_back(dataOf(character));
-        if (!character.isGhost() && !character.onScreen.isEmpty()) {
+        if (character.isSolid()) {
             m_ordered.push_back(&character);
         }
     }

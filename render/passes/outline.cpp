@@ -51,7 +51,7 @@ void OutlinePass::draw(const Frame& frame, const Instances& instances, bool isFl
     const glm::vec3& outside = frame.scene->colours.selection;
     for (const DrawnCharacter& character : frame.characters) {
         const CharacterLook& look = character.instance->look;
-        if (character.isGhost() || character.onScreen.isEmpty()) {
+        if (!character.isSolid()) {
             continue;
         }
         const InstanceRun one = Instances::only(frame, character, *character.drawn);

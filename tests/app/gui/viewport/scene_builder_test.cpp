@@ -11,8 +11,9 @@ namespace {
 
 class SceneBuilderTest : public testing::Test {
 protected:
-    void perform(int characters) {
-        performer::Performer performer(sending(characters, {2, 12, 13}));
+    void perform(int characters) { perform(sending(characters, {2, 12, 13})); }
+    void perform(const performer::PerformerSettings& settings) {
+        performer::Performer performer(settings);
         stage.perform(performer, 0, 3);
         stage.follow();
     }
@@ -79,9 +80,7 @@ TEST_F(SceneBuilderTest, ACorruptSegmentDoesNotLeadTheCameraAway) {
 TEST_F(SceneBuilderTest, PropsLookLikeWhatTheyAreCalled) {
     performer::PerformerSettings settings = sending(1, {2, 12, 13});
     settings.props = 4;
-    performer::Performer performer(settings);
-    stage.perform(performer, 0, 3);
-    stage.follow();
+    perform(settings);
     const model::CharacterPose* pose = stage.session.pose(stage.key());
     ASSERT_NE(pose, nullptr);
     const std::vector<FigureProp> props = build().figures.at(0).props;
@@ -99,9 +98,7 @@ TEST_F(SceneBuilderTest, PropsLookLikeWhatTheyAreCalled) {
 TEST_F(SceneBuilderTest, PropsWithoutANameAreDrawnAllTheSame) {
     performer::PerformerSettings settings = sending(1, {2});
     settings.props = 2;
-    performer::Performer performer(settings);
-    stage.perform(performer, 0, 3);
-    stage.follow();
+    perform(settings);
     const std::vector<FigureProp> props = build().figures.at(0).props;
     ASSERT_EQ(props.size(), 2U);
     EXPECT_EQ(props[0].shape, render::PropShape::Generic);
@@ -135,9 +132,7 @@ TEST_F(SceneBuilderTest, PropsOfRevisionEAreNamedByTheirOwnMessage) {
     performer::PerformerSettings settings = sending(1, {2, 11});
     settings.props = 1;
     settings.revision = performer::Revision::E;
-    performer::Performer performer(settings);
-    stage.perform(performer, 0, 3);
-    stage.follow();
+    perform(settings);
     const std::vector<FigureProp> props = build().figures.at(0).props;
     ASSERT_EQ(props.size(), 1U);
     EXPECT_EQ(props[0].shape, render::PropShape::Sword);
@@ -146,9 +141,7 @@ TEST_F(SceneBuilderTest, PropsOfRevisionEAreNamedByTheirOwnMessage) {
 TEST_F(SceneBuilderTest, FingersOfThePoseMoveTheMesh) {
     performer::PerformerSettings settings = sending(1, {2, 12, 13});
     settings.fingers = true;
-    performer::Performer performer(settings);
-    stage.perform(performer, 0, 3);
-    stage.follow();
+    perform(settings);
     const SceneFrame frame = build();
     const model::CharacterPose* pose = stage.session.pose(stage.key());
     ASSERT_NE(pose, nullptr);

@@ -49,6 +49,16 @@ protected:
             put(sample, sent);
         }
     }
+    /// 200 samples of two streams fail to come; `next`: what comes first after them.
+    void silentInBothStreams(const Sent& next) {
+        for (std::uint32_t sample = 1; sample <= 400; ++sample, m_at += 4ms) {
+            if (sample <= 100 || sample > 300) {
+                put(sample, sample == 301 ? next : Sent());
+                put(sample, {.type = 24});
+            }
+        }
+        follow();
+    }
     const Gap& onlyGap() {
         follow();
         EXPECT_EQ(m_session.gaps().size(), 1U);

@@ -119,13 +119,7 @@ TEST_F(AttributionTest, BlamesTheSenderOnTcp) {
 }
 
 TEST_F(AttributionTest, BlamesTheSenderThatPausesAllItsStreams) {
-    for (std::uint32_t sample = 1; sample <= 400; ++sample, m_at += 4ms) {
-        if (sample <= 100 || sample > 300) {
-            put(sample, {});
-            put(sample, {.type = 24});
-        }
-    }
-    follow();
+    silentInBothStreams({});
     ASSERT_EQ(m_session.gaps().size(), 2U);
     for (const Gap& gap : m_session.gaps()) {
         EXPECT_EQ(gap.cause, LossCause::Sender);
@@ -136,13 +130,7 @@ TEST_F(AttributionTest, BlamesTheSenderThatPausesAllItsStreams) {
 }
 
 TEST_F(AttributionTest, BlamesThisComputerForWhatWasSentWhileItsInputWasRemoved) {
-    for (std::uint32_t sample = 1; sample <= 400; ++sample, m_at += 4ms) {
-        if (sample <= 100 || sample > 300) {
-            put(sample, {.afterClosed = sample == 301});
-            put(sample, {.type = 24});
-        }
-    }
-    follow();
+    silentInBothStreams({.afterClosed = true});
     ASSERT_EQ(m_session.gaps().size(), 2U);
     for (const Gap& gap : m_session.gaps()) {
         EXPECT_EQ(gap.cause, LossCause::ThisComputer);
