@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/viewport/props.h"
 
+#include "app/gui/viewport/overlays/drawing.h"
 #include "core/model/session/prop_names.h"
 
 namespace posewire::gui {
@@ -13,11 +14,10 @@ std::vector<FigureProp> propsOf(const model::SessionView& session, const model::
         if (segment >= pose.segments.size() || !pose.isPresent(segment)) {
             continue;
         }
-        const Eigen::Vector3f place = pose.segments[segment].position.cast<float>();
-        const Eigen::Quaternionf turn = pose.segments[segment].orientation.cast<float>();
-        props.push_back({render::propShapeOf(model::propName(session, key, pose.layout, prop)),
-                         {render::rigidMotion(glm::quat(turn.w(), turn.x(), turn.y(), turn.z()),
-                                              glm::vec3(0.0F), {place.x(), place.y(), place.z()})}});
+        const model::SegmentPose& at = pose.segments[segment];
+        props.push_back(
+            {render::propShapeOf(model::propName(session, key, pose.layout, prop)),
+             {render::rigidMotion(turnOf(at.orientation), glm::vec3(0.0F), pointOf(at.position))}});
     }
     return props;
 }

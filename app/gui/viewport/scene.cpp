@@ -7,6 +7,7 @@
 #include "app/gui/theme/theme.h"
 #include "app/gui/viewport/captions.h"
 #include "app/gui/viewport/hands.h"
+#include "app/gui/viewport/overlays/drawing.h"
 #include "app/gui/viewport/overlays/overlays.h"
 #include "core/model/body/null_pose_measures.h"
 #include "core/model/body/reference_body.h"
@@ -26,15 +27,6 @@ constexpr float kShortestAxes = 0.03F; ///< metres
 constexpr float kLongestAxes = 0.25F;
 constexpr float kUnselectedAxesAlpha = 0.85F;
 constexpr float kLabelHeight = 0.24F;
-
-glm::vec3 vectorOf(const Eigen::Vector3d& vector) {
-    return {static_cast<float>(vector.x()), static_cast<float>(vector.y()), static_cast<float>(vector.z())};
-}
-
-glm::quat rotationOf(const Eigen::Quaterniond& rotation) {
-    return {static_cast<float>(rotation.w()), static_cast<float>(rotation.x()),
-            static_cast<float>(rotation.y()), static_cast<float>(rotation.z())};
-}
 
 glm::vec3 vectorOf(const QColor& colour) {
     return {static_cast<float>(colour.redF()), static_cast<float>(colour.greenF()),
@@ -82,8 +74,8 @@ void makePalette(const model::CharacterPose& pose, Figure& figure) {
     std::array<glm::vec3, render::kSegmentCount> positions{};
     std::array<glm::quat, render::kSegmentCount> orientations{};
     for (std::size_t i = 0; i < render::kSegmentCount; ++i) {
-        positions[i] = vectorOf(pose.segments[i].position);
-        orientations[i] = rotationOf(pose.segments[i].orientation);
+        positions[i] = pointOf(pose.segments[i].position);
+        orientations[i] = turnOf(pose.segments[i].orientation);
         figure.look.provenance[i] = provenanceOf(pose, i);
     }
     figure.bounds = boundsOf(positions);
@@ -189,7 +181,7 @@ std::shared_ptr<const FigureBody> SceneBuilder::fitOf(const model::SessionView& 
     const model::BodyOrigins& origins = session.bodyOrigins(key);
     static_assert(std::tuple_size_v<decltype(origins.places)> == std::tuple_size_v<render::NullPose>);
     std::ranges::transform(origins.places, performer.begin(),
-                           [](const Eigen::Vector3d& origin) { return vectorOf(origin); });
+                           [](const Eigen::Vector3d& origin) { return pointOf(origin); });
     const model::NullPose* nullPose = session.nullPose(key);
     return nullPose == nullptr ? m_bodies.of(performer)
                                : m_bodies.of(performer, fingerOriginsOf(*nullPose, origins));
@@ -325,12 +317,12 @@ void SceneBuilder::addObjects(const model::Character& character, const model::Ch
         if (!pose.isPresent(i)) {
             continue;
         }
-        const glm::vec3 position = vectorOf(pose.segments[i].position);
+        const glm::vec3 position = pointOf(pose.segments[i].position);
         const bool isHighest = objects.bounds.isEmpty() || position.z > objects.labelPosition.z;
         objects.labelPosition = isHighest ? position : objects.labelPosition;
         objects.bounds.add(position);
         frame.axes.push_back(
-            {position, rotationOf(pose.segments[i].orientation), kPropAxesLength, 1.0F - objects.look.dim});
+            {position, turnOf(pose.segments[i].orientation), kPropAxesLength, 1.0F - objects.look.dim});
     }
     objects.labelPosition.z += kLabelHeight;
     if (!objects.bounds.isEmpty()) {
@@ -393,7 +385,7 @@ void SceneBuilder::addAxes(const model::CharacterPose& pose, int selectedSegment
         const bool isBody = i < static_cast<std::size_t>(pose.layout.body);
         const bool isSelected = static_cast<int>(i) == selectedSegment;
         const float length = isBody ? kBodyAxesLength : kPropAxesLength;
-        frame.axes.push_back({vectorOf(pose.segments[i].position), rotationOf(pose.segments[i].orientation),
+        frame.axes.push_back({pointOf(pose.segments[i].position), turnOf(pose.segments[i].orientation),
                               isSelected ? 1.6F * length : length,
                               strength * (isSelected ? 1.0F : kUnselectedAxesAlpha)});
     }
