@@ -133,11 +133,14 @@ ExitStatus monitorFile(const MonitorOptions& options, Console& console) {
     }
     Replay replay(options, run, recorder);
     reading = &replay;
-    const auto read = log::readFile(**file, std::ref(replay), [&replay](std::string_view note) {
-        if (const auto reception = log::parseReception(note)) {
-            replay.takeReception(*reception);
-        }
-    });
+    const auto read =
+        log::readFile(**file, std::ref(replay), [&replay](std::span<const std::string_view> notes) {
+            for (const std::string_view note : notes) {
+                if (const auto reception = log::parseReception(note)) {
+                    replay.takeReception(*reception);
+                }
+            }
+        });
     replay.end();
     log::Recorder::Result recorded = replay.recorded();
     if (recorder && recorded) {

@@ -150,7 +150,7 @@ tl::expected<std::string, FileError> DiskHistory::createNext() {
 }
 
 DiskHistory::Result DiskHistory::endFile() {
-    return m_writer->finish().and_then([this] { return handOver(); });
+    return m_writer->addStatistics().and_then([this] { return handOver(); });
 }
 
 /// The disk is full, say. What was not handed over by now is missing in the history.

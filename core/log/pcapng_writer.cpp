@@ -370,7 +370,7 @@ PcapngWriter::Result PcapngWriter::add(const Packet& packet, const SenderInfo& s
     return write();
 }
 
-PcapngWriter::Result PcapngWriter::finish(std::span<const std::string> notes) {
+PcapngWriter::Result PcapngWriter::addStatistics(std::span<const std::string> notes) {
     const auto last = static_cast<std::uint64_t>(nanosecondsOf(m_lastTime));
     const auto first =
         m_firstTime <= m_lastTime ? static_cast<std::uint64_t>(nanosecondsOf(m_firstTime)) : last;

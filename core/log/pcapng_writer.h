@@ -101,7 +101,7 @@ struct RecordingInfo {
 };
 
 /// Writes packets as pcapng (draft-ietf-opsawg-pcapng): a section header, one interface with nanosecond
-/// stamps, an enhanced packet block for each packet, interface statistics at the end. Each packet gets IP and
+/// stamps, an enhanced packet block for each packet, interface statistics. Each packet gets IP and
 /// UDP headers that are made up from its sender; what they cannot hold (TCP, a file name, flags) is in a
 /// comment, see RecordedOrigin; packets from before 1970 are of a second interface, whose stamps begin
 /// earlier. readFile() gives back the same packets: bytes, stamps, senders, kernel drops, flags, comments.
@@ -120,8 +120,9 @@ public:
     Result add(const Packet& packet, const SenderInfo& sender, std::span<const std::string> comments = {},
                Duration setBy = {});
 
-    /// Last of all. `notes` are about the whole recording: UTF-8, cut as comments are.
-    Result finish(std::span<const std::string> notes = {});
+    /// Last of all, and whenever the notes should outlast what may happen before: the newest statistics of a
+    /// file count. `notes` are about all of it so far: UTF-8, cut as comments are.
+    Result addStatistics(std::span<const std::string> notes = {});
 
     /// Where the bytes of the packet added last begin in the file.
     [[nodiscard]] std::uint64_t packetOffset() const { return m_packetOffset; }

@@ -16,6 +16,8 @@ namespace {
 constexpr std::chrono::milliseconds kPause{50};
 constexpr std::chrono::seconds kSync{1};
 
+constexpr const char* kInEarlierFile = "In an earlier file: ";
+
 } // namespace
 
 Recorder::Recorder(const PacketLog& log, ByteSink& sink, std::uint64_t from)
@@ -37,11 +39,16 @@ Recorder::Result Recorder::follow() {
     return written && m_writer.packets() != before ? m_sink.flush() : written;
 }
 
+Recorder::Result Recorder::note(std::span<const std::string> notes) {
+    const auto noted = m_writer.addStatistics(notes);
+    return noted ? m_sink.flush() : noted;
+}
+
 Recorder::Result Recorder::finish(std::span<const std::string> notes) {
     if (auto written = writeNew(); !written) {
         return written;
     }
-    const auto ended = m_writer.finish(notes);
+    const auto ended = m_writer.addStatistics(notes);
     return ended ? m_sink.finish() : ended;
 }
 
@@ -117,6 +124,11 @@ Recording::~Recording() {
     static_cast<void>(stop());
 }
 
+void Recording::setMarks(std::vector<RecordedMark> marks) {
+    const std::lock_guard lock(m_mutex);
+    m_marks = std::move(marks);
+}
+
 tl::expected<void, FileError> Recording::stop(std::vector<std::string> notes) {
     {
         const std::lock_guard lock(m_mutex);
@@ -160,7 +172,7 @@ void Recording::run() {
         const auto now = std::chrono::steady_clock::now();
         if (!isStopping && now - synced >= kSync) {
             synced = now;
-            if (!note(m_recorder->sync())) {
+            if (!note(keepMarks()) || !note(m_recorder->sync())) {
                 return;
             }
             if (const auto room = checkRoom(); !room) {
@@ -184,15 +196,16 @@ bool Recording::isFileFull() const {
 
 /// In another file.
 Recording::Result Recording::goOn() {
-    auto next = createFile(partPath(m_path, m_before.files + 2));
+    auto next = createFile(partPath(m_path, m_ended.files + 2));
     if (!next) {
         return tl::unexpected(next.error());
     }
-    if (auto ended = m_recorder->finish(); !ended) {
+    if (auto ended = finish(); !ended) {
         return ended;
     }
+    m_before = m_kept;
     const std::uint64_t from = m_recorder->position();
-    m_before = figuresNow();
+    m_ended = figuresNow();
     {
         const std::lock_guard lock(m_mutex);
         m_recorder.reset(); // it writes to the sink
@@ -219,19 +232,50 @@ Recording::Result Recording::checkRoom() const {
                                     " MB are free on its disk; free some, or record to another one"});
 }
 
-Recording::Result Recording::finish() {
-    std::vector<std::string> notes;
+/// Those that are set by now, for the file that is being written.
+std::vector<std::string> Recording::noteMarks() {
     {
         const std::lock_guard lock(m_mutex);
-        notes = m_notes;
+        m_kept = m_marks;
+    }
+    const std::uint64_t first = m_recorder->figures().fileBegin;
+    std::vector<std::string> notes;
+    for (RecordedMark mark : m_kept) {
+        if (mark.packet >= first) {
+            mark.packet -= first;
+            notes.push_back(markText(mark));
+        } else if (std::ranges::find(m_before, mark) == m_before.end()) {
+            notes.push_back(kInEarlierFile + markText(mark));
+        }
+    }
+    return notes;
+}
+
+/// So that they are there whatever happens.
+Recording::Result Recording::keepMarks() {
+    {
+        const std::lock_guard lock(m_mutex);
+        if (m_marks == m_kept) {
+            return {};
+        }
+    }
+    return m_recorder->note(noteMarks());
+}
+
+/// Of the file; the last one has the other notes too.
+Recording::Result Recording::finish() {
+    std::vector<std::string> notes = noteMarks();
+    {
+        const std::lock_guard lock(m_mutex);
+        notes.insert(notes.end(), m_notes.begin(), m_notes.end());
     }
     return m_recorder->finish(notes);
 }
 
 RecordingFigures Recording::figuresNow() const {
     const RecordingFigures file = m_recorder->figures();
-    return {m_before.packets + file.packets, m_before.bytes + file.bytes, m_before.files + 1,
-            m_before.missed + file.missed, file.fileBegin};
+    return {m_ended.packets + file.packets, m_ended.bytes + file.bytes, m_ended.files + 1,
+            m_ended.missed + file.missed, file.fileBegin};
 }
 
 /// False where nothing more is written. What was written until then is ended as well as that can be.

@@ -57,6 +57,9 @@ public:
     /// Brings what was written to the disk, where anything was since the last time. May take long.
     Result sync();
 
+    /// Writes the statistics so far with notes on all of it, which is what counts if nothing comes after.
+    Result note(std::span<const std::string> notes);
+
     /// Writes what is new and the statistics that a recording ends with; all of it is on the disk then.
     Result finish(std::span<const std::string> notes = {});
 
@@ -96,6 +99,11 @@ public:
     /// Stops as stop() does.
     ~Recording();
 
+    /// What operators have said so far of packets of the log, by its numbers: all of it, in place of what was
+    /// set before. Each is in the file that has its packet within about a second; where that had ended, in
+    /// the one that is being written, in other words.
+    void setMarks(std::vector<RecordedMark> marks);
+
     /// Writes what the log holds and ends the file with notes on it. Fails with what went wrong since the
     /// start; again and again with the same.
     tl::expected<void, FileError> stop(std::vector<std::string> notes = {});
@@ -116,7 +124,9 @@ private:
     bool note(const Result& result);
     [[nodiscard]] bool isFileFull() const;
     Result goOn();
+    Result keepMarks();
     [[nodiscard]] Result checkRoom() const;
+    [[nodiscard]] std::vector<std::string> noteMarks();
     Result finish();
 
     const PacketLog& m_log;
@@ -126,10 +136,13 @@ private:
     std::unique_ptr<ByteSink> m_sink; ///< exchanged under the mutex
     // The thread's own:
     std::optional<Recorder> m_recorder;
-    RecordingFigures m_before{.files = 0}; ///< of the files that have ended
+    RecordingFigures m_ended{.files = 0}; ///< of the files that have ended
     std::chrono::steady_clock::time_point m_fileBegin = std::chrono::steady_clock::now();
+    std::vector<RecordedMark> m_kept;   ///< marks as they are noted
+    std::vector<RecordedMark> m_before; ///< as they were when the file before ended
 
     mutable std::mutex m_mutex;
+    std::vector<RecordedMark> m_marks;
     std::vector<std::string> m_notes;
     std::condition_variable m_changed;
     bool m_isStopping = false;

@@ -213,8 +213,9 @@ std::optional<WallTime> timeOf(std::uint64_t stamp, const Interface& interface) 
 
 class PcapngReader {
 public:
-    PcapngReader(PieceReader& reader, Reassembly& reassembly, FrameNotes& notes, const NoteVisitor& visitNote)
-        : m_reader(reader), m_reassembly(reassembly), m_notes(notes), m_visitNote(visitNote) {}
+    PcapngReader(PieceReader& reader, Reassembly& reassembly, FrameNotes& notes,
+                 const NotesVisitor& visitNotes)
+        : m_reader(reader), m_reassembly(reassembly), m_notes(notes), m_visitNotes(visitNotes) {}
 
     /// The first four bytes, a section header's type, have been taken.
     void read() {
@@ -355,11 +356,16 @@ private:
 
     void visitStatistics(Bytes body) const {
         constexpr std::size_t fixed = 12;
-        visitOptions(body.subspan(std::min(body.size(), fixed)), [this](PcapngOption code, Bytes value) {
-            if (code == PcapngOption::Comment && m_visitNote) {
-                m_visitNote(textOf(value));
+        if (!m_visitNotes || body.size() < fixed || m_reader.read32(body.data()) != 0) {
+            return; // a recording notes all on its first interface
+        }
+        std::vector<std::string_view> notes;
+        visitOptions(body.subspan(fixed), [&notes](PcapngOption code, Bytes value) {
+            if (code == PcapngOption::Comment) {
+                notes.push_back(textOf(value));
             }
         });
+        m_visitNotes(notes);
     }
 
     /// Nothing for a time that is further than half of what a duration holds from the first one.
@@ -388,13 +394,13 @@ private:
     PieceReader& m_reader;
     Reassembly& m_reassembly;
     FrameNotes& m_notes;
-    const NoteVisitor& m_visitNote;
+    const NotesVisitor& m_visitNotes;
     std::vector<Interface> m_interfaces;
     std::optional<WallTime> m_first; ///< of the file
 };
 
 tl::expected<void, FileError> readCapture(ByteSource& source, std::uint32_t magic, const FileVisitor& visit,
-                                          const NoteVisitor& visitNote) {
+                                          const NotesVisitor& visitNotes) {
     FrameNotes notes;
     const FileVisitor noted = [&](const FileRecord& record) {
         FileRecord complete = record;
@@ -404,7 +410,7 @@ tl::expected<void, FileError> readCapture(ByteSource& source, std::uint32_t magi
     Reassembly reassembly(noted);
     PieceReader reader(source);
     if (magic == kSectionHeader) {
-        PcapngReader(reader, reassembly, notes, visitNote).read();
+        PcapngReader(reader, reassembly, notes, visitNotes).read();
     } else {
         readPcap(reader, magic, reassembly);
     }
@@ -435,7 +441,7 @@ tl::expected<void, FileError> readRaw(ByteSource& source, Bytes front, const Fil
 } // namespace
 
 tl::expected<void, FileError> readFile(ByteSource& source, const FileVisitor& visit,
-                                       const NoteVisitor& visitNote) {
+                                       const NotesVisitor& visitNotes) {
     std::array<std::byte, 4> first{};
     const auto count = readFully(source, first);
     if (!count) {
@@ -443,7 +449,7 @@ tl::expected<void, FileError> readFile(ByteSource& source, const FileVisitor& vi
     }
     const std::uint32_t magic = *count == first.size() ? wire::load32(first.data()) : 0;
     const bool isPcap = std::ranges::find(kPcapMagics, magic) != kPcapMagics.end();
-    return isPcap || magic == kSectionHeader ? readCapture(source, magic, visit, visitNote)
+    return isPcap || magic == kSectionHeader ? readCapture(source, magic, visit, visitNotes)
                                              : readRaw(source, std::span(first).first(*count), visit);
 }
 

@@ -36,16 +36,17 @@ struct FileRecord {
 }
 
 using FileVisitor = std::function<void(const FileRecord&)>;
-/// Told of each note that a recording has on itself (parseReception, parseMark).
-using NoteVisitor = std::function<void(std::string_view)>;
+/// Told of the notes that a recording has on itself (parseReception, parseMark): all of them, in place of
+/// what it was told before.
+using NotesVisitor = std::function<void(std::span<const std::string_view>)>;
 
 /// Reads a file of any format that is known, found by its content: datagrams back to back, as on TCP; pcap
 /// (microseconds or nanoseconds, either byte order); pcapng. In captures it finds what Reassembly finds. A
 /// capture that is cut off is read up to its last whole packet, and fails then with FileError::Kind::Cut and
 /// the byte where it ends. What PcapngWriter has written comes back as it was. A time before 1740 or after
 /// 2260, or 146 years from the first one of the file, is none: all others can be subtracted from each other
-/// and from now. `visitNote` is called for what a pcapng file says about itself at its end.
+/// and from now. `visitNotes` is called for what a pcapng file says about itself, mostly at its end.
 tl::expected<void, FileError> readFile(ByteSource& source, const FileVisitor& visit,
-                                       const NoteVisitor& visitNote = {});
+                                       const NotesVisitor& visitNotes = {});
 
 } // namespace posewire::log

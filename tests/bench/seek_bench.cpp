@@ -54,7 +54,7 @@ bool record(const std::string& path, std::uint64_t bytes) {
                                    {"10.0.0.2:4000", log::Transport::Udp, 9763});
         }
     }
-    return isWritten && writer.finish() && (*sink)->flush();
+    return isWritten && writer.addStatistics() && (*sink)->flush();
 }
 
 class Seeking {

@@ -43,12 +43,12 @@ private:
 
 /// Reads a file from its beginning to its end, or to where it is cut off: then the answer says so.
 ImportResult visitFile(const QString& path, const log::FileVisitor& visit,
-                       const log::IsCancelled& isCancelled, const log::NoteVisitor& visitNote = {}) {
+                       const log::IsCancelled& isCancelled, const log::NotesVisitor& visitNotes = {}) {
     const auto source = log::openFile(QFile::encodeName(path).toStdString(), isCancelled);
     if (!source) {
         return tl::unexpected(QString::fromStdString(source.error().text));
     }
-    const auto read = log::readFile(**source, visit, visitNote);
+    const auto read = log::readFile(**source, visit, visitNotes);
     const QString text = read ? QString() : QString::fromStdString(read.error().text);
     const bool isRead = read || read.error().kind == log::FileError::Kind::Cut;
     return isRead ? ImportResult(text) : tl::unexpected(text);
@@ -58,7 +58,7 @@ ImportResult visitFile(const QString& path, const log::FileVisitor& visit,
 
 ImportResult importRawFile(const QString& path, const PacketTaker& take, log::Stamp end,
                            log::Timeline& timeline, const std::function<bool()>& isCancelled,
-                           const log::NoteVisitor& visitNote) {
+                           const log::NotesVisitor& visitNotes) {
     if (const QFileInfo info(path); info.exists() && !info.isFile() && !info.isDir()) {
         return tl::unexpected(
             QCoreApplication::translate(
@@ -98,7 +98,7 @@ ImportResult importRawFile(const QString& path, const PacketTaker& take, log::St
             const log::Stamp stamp = last.value_or(end - length + place);
             take(record, record.sender.value_or(file), log::arrivalOf(record, {}, stamp));
         },
-        isCancelled, visitNote);
+        isCancelled, visitNotes);
     clock.end();
     return result;
 }
@@ -127,7 +127,7 @@ void FileImport::run(const std::stop_token& stop, log::Stamp end) {
     };
     ImportResult result = importRawFile(
         m_path, taker, end, m_log.timeline(), [&stop] { return stop.stop_requested(); },
-        [this](std::string_view note) { keepMark(note); });
+        [this](std::span<const std::string_view> notes) { keepMarks(notes); });
     keepStep(stop);
     m_log.writer().publish(); // also where it was stopped
     if (m_past) {
@@ -171,21 +171,22 @@ void FileImport::keepComments(const log::FileRecord& record) {
 }
 
 /// A note says whatever its writer wanted: only of packets that are there.
-void FileImport::keepMark(std::string_view note) {
-    auto mark = log::parseMark(note);
-    if (!mark || mark->packet >= m_packetsRead) {
-        return;
+void FileImport::keepMarks(std::span<const std::string_view> notes) {
+    std::vector<log::RecordedMark> marks;
+    for (const std::string_view note : notes) {
+        auto mark = log::parseMark(note);
+        if (mark && mark->packet < m_packetsRead && marks.size() < kMostComments) {
+            mark->comment.resize(std::min(mark->comment.size(), kLongestComment));
+            marks.push_back(std::move(*mark));
+        }
     }
-    mark->comment.resize(std::min(mark->comment.size(), kLongestComment));
     const std::lock_guard lock(m_mutex);
-    if (m_marks.size() < kMostComments) {
-        m_marks.push_back(std::move(*mark));
-    }
+    m_marks = std::move(marks);
 }
 
-std::vector<log::RecordedMark> FileImport::takeMarks() {
+std::vector<log::RecordedMark> FileImport::marks() const {
     const std::lock_guard lock(m_mutex);
-    return std::exchange(m_marks, {});
+    return m_marks;
 }
 
 std::vector<FileImport::Comment> FileImport::takeComments() {

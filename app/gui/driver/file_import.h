@@ -40,7 +40,7 @@ using PacketTaker = std::function<void(const log::FileRecord& record, const log:
 [[nodiscard]] ImportResult importRawFile(const QString& path, const PacketTaker& take, log::Stamp end,
                                          log::Timeline& timeline,
                                          const std::function<bool()>& isCancelled = {},
-                                         const log::NoteVisitor& visitNote = {});
+                                         const log::NotesVisitor& visitNotes = {});
 
 /// Brings a file into a log on a thread of its own, which alone writes that log, in step with who follows it:
 /// what was read waits until all before it was looked at, so that nothing of a file is ever overtaken,
@@ -67,8 +67,8 @@ public:
     using Comment = std::pair<std::uint64_t, std::string>;
     /// Those that were read since this was asked last; of a file that has too many the first ones.
     [[nodiscard]] std::vector<Comment> takeComments();
-    /// What was marked while the file was recorded, likewise: known at its end.
-    [[nodiscard]] std::vector<log::RecordedMark> takeMarks();
+    /// What was marked while the file was recorded, as it says up to where it was read.
+    [[nodiscard]] std::vector<log::RecordedMark> marks() const;
     /// Once everything is in the log, or nothing more comes.
     [[nodiscard]] std::optional<ImportResult> result() const;
 
@@ -76,7 +76,7 @@ private:
     void run(const std::stop_token& stop, log::Stamp end);
     void take(const log::FileRecord& record, log::Arrival arrival);
     void keepComments(const log::FileRecord& record);
-    void keepMark(std::string_view note);
+    void keepMarks(std::span<const std::string_view> notes);
     /// Waits until all that was read was looked at.
     void keepStep(const std::stop_token& stop);
 
@@ -90,8 +90,8 @@ private:
     mutable std::mutex m_mutex;            ///< guards the members below
     std::condition_variable_any m_moved;
     std::uint64_t m_followed = 0;
-    std::vector<Comment> m_comments;        ///< that nobody has taken
-    std::vector<log::RecordedMark> m_marks; ///< likewise
+    std::vector<Comment> m_comments; ///< that nobody has taken
+    std::vector<log::RecordedMark> m_marks;
     std::optional<ImportResult> m_result;
     std::jthread m_thread; ///< last: it uses all of the above
 };

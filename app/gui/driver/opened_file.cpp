@@ -66,11 +66,15 @@ void OpenedFile::takeComments() {
         for (auto& [packet, text] : m_import->takeComments()) {
             m_session.setComment(packet, std::move(text));
         }
-        for (log::RecordedMark& mark : m_import->takeMarks()) {
-            m_session.setMarked(mark.packet, true);
-            if (!mark.comment.empty()) {
-                m_session.setComment(mark.packet, std::move(mark.comment));
-            }
+    }
+}
+
+void OpenedFile::takeMarks() {
+    for (log::RecordedMark& mark :
+         m_import != nullptr ? m_import->marks() : std::vector<log::RecordedMark>()) {
+        m_session.setMarked(mark.packet, true);
+        if (!mark.comment.empty()) {
+            m_session.setComment(mark.packet, std::move(mark.comment));
         }
     }
 }
@@ -78,6 +82,7 @@ void OpenedFile::takeComments() {
 /// All that is in the log: at most what is read at once.
 void OpenedFile::readRest() {
     takeComments();
+    takeMarks();
     m_import.reset();
     const bool isAtEnd = isShownAtEnd();
     while (m_session.followFile(m_log.timeline().now(m_clock))) {

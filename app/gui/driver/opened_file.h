@@ -49,6 +49,7 @@ public:
 private:
     void finish(const ImportResult& result);
     void takeComments();
+    void takeMarks(); ///< once: they are known at the end
     void readRest();
     [[nodiscard]] bool isShownAtEnd() const;
     void showEnd();

@@ -169,6 +169,7 @@ QString SessionDriver::toggleRecording(const RecordingChoice& choice) {
 
 /// One that ends by itself is an incident of this computer.
 void SessionDriver::watchTakes(log::Stamp now) {
+    m_takes.keepMarks(m_live);
     const std::string problem = m_takes.takeProblem();
     if (problem.empty()) {
         return;

@@ -22,16 +22,11 @@ QDateTime localTime(log::WallTime time) {
     return QDateTime::fromMSecsSinceEpoch(log::nanosecondsOf(time) / 1'000'000);
 }
 
-/// `first`: of the file, which counts its packets from 0. What an earlier file of the take has is told in the
-/// last one, in other words.
-std::string noteOn(const model::SessionView& live, std::uint64_t first, std::uint64_t packet,
-                   const std::string& comment) {
+log::RecordedMark markOn(const model::SessionView& live, std::uint64_t packet, const std::string& comment) {
     const auto found = live.packet(packet);
     const QString when =
         found ? localTime(live.wallOf(found->stamp)).toString(QStringLiteral("HH:mm:ss.zzz")) : QString();
-    const bool isHere = packet >= first;
-    return (isHere ? "" : "In an earlier file: ") +
-           log::markText({isHere ? packet - first : packet, when.toStdString(), comment});
+    return {packet, when.toStdString(), comment};
 }
 
 } // namespace
@@ -63,6 +58,8 @@ QString Takes::start(const RecordingChoice& choice, const model::SessionView& li
         return QString::fromStdString(recording.error().text);
     }
     m_recording = std::move(*recording);
+    m_annotations = {};
+    keepMarks(live);
     qCInfo(filesLog).noquote() << "recording to" << m_path << "from packet" << m_from;
     return {};
 }
@@ -72,9 +69,9 @@ void Takes::stop(const model::SessionView& live) {
         return;
     }
     qCInfo(filesLog).noquote() << "recorded" << m_path;
-    auto noted = notes(live);
+    keepMarks(live);
     m_ending.push_back(std::async(std::launch::async, [recording = std::shared_ptr(std::move(m_recording)),
-                                                       notes = std::move(noted)]() mutable {
+                                                       notes = incidents(live)]() mutable {
         const auto stopped = recording->stop(std::move(notes));
         return stopped ? std::string() : stopped.error().text;
     }));
@@ -105,19 +102,27 @@ std::string Takes::takeProblem() {
     return problem;
 }
 
-std::vector<std::string> Takes::notes(const model::SessionView& live) const {
-    std::vector<std::string> notes;
-    const model::Annotations& annotations = live.annotations();
-    const std::uint64_t first = m_recording->figures().fileBegin;
-    for (auto mark = annotations.marks.lower_bound(m_from); mark != annotations.marks.end(); ++mark) {
-        if (!annotations.comments.contains(*mark)) {
-            notes.push_back(noteOn(live, first, *mark, {}));
+void Takes::keepMarks(const model::SessionView& live) {
+    if (m_recording == nullptr || live.annotations() == m_annotations) {
+        return;
+    }
+    m_annotations = live.annotations();
+    std::vector<log::RecordedMark> marks;
+    const auto& comments = m_annotations.comments;
+    for (auto mark = m_annotations.marks.lower_bound(m_from); mark != m_annotations.marks.end(); ++mark) {
+        if (!comments.contains(*mark)) {
+            marks.push_back(markOn(live, *mark, {}));
         }
     }
-    for (auto comment = annotations.comments.lower_bound(m_from); comment != annotations.comments.end();
-         ++comment) {
-        notes.push_back(noteOn(live, first, comment->first, comment->second));
+    for (auto comment = comments.lower_bound(m_from); comment != comments.end(); ++comment) {
+        marks.push_back(markOn(live, comment->first, comment->second));
     }
+    marks.resize(std::min(marks.size(), kMostNotes));
+    m_recording->setMarks(std::move(marks));
+}
+
+std::vector<std::string> Takes::incidents(const model::SessionView& live) const {
+    std::vector<std::string> notes;
     for (const model::ListedIncident& listed : model::listedIncidents(live, m_fromStamp)) {
         if (listed.incident.lastStamp >= m_fromStamp && !model::isOnlyComing(listed)) {
             notes.push_back(headlineOf(live, listed) + whenOf(live, listed));

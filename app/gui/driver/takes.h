@@ -38,7 +38,9 @@ public:
     /// Begins a take with what the pre-roll wants of the past. The answer is why it cannot, empty where it
     /// does.
     QString start(const RecordingChoice& choice, const model::SessionView& live);
-    /// Ends it, with the marks, the comments and the incidents of its time noted in the file.
+    /// Has the marks and comments of the take as they are now noted in its file, without waiting for it.
+    void keepMarks(const model::SessionView& live);
+    /// Ends it, with the incidents of its time noted in the file too.
     void stop(const model::SessionView& live);
     [[nodiscard]] bool isRecording() const { return m_recording != nullptr; }
     [[nodiscard]] std::optional<TakeState> state(const model::SessionView& live) const;
@@ -48,12 +50,13 @@ public:
     [[nodiscard]] std::string takeProblem();
 
 private:
-    [[nodiscard]] std::vector<std::string> notes(const model::SessionView& live) const;
+    [[nodiscard]] std::vector<std::string> incidents(const model::SessionView& live) const;
 
     const log::PacketLog& m_log;
     std::unique_ptr<log::Recording> m_recording; ///< null while none runs
     QString m_path;
-    std::uint64_t m_from = 0; ///< the first packet
+    std::uint64_t m_from = 0;         ///< the first packet
+    model::Annotations m_annotations; ///< as they are noted
     log::Stamp m_fromStamp{};
     log::Stamp m_begin{};                           ///< when it was started
     std::vector<std::future<std::string>> m_ending; ///< with what went wrong

@@ -32,7 +32,7 @@ public:
     }
     /// Ends the file; its path.
     std::string finish() {
-        static_cast<void>(m_writer.finish());
+        static_cast<void>(m_writer.addStatistics());
         static_cast<void>(m_sink->flush());
         return m_path;
     }

@@ -23,7 +23,7 @@ ByteVector written(const std::vector<Recorded>& packets, bool isFinished = true)
         EXPECT_TRUE(writer.add(packet, one.sender, one.comments));
     }
     if (isFinished) {
-        EXPECT_TRUE(writer.finish());
+        EXPECT_TRUE(writer.addStatistics());
     }
     EXPECT_EQ(writer.bytes(), sink.bytes.size());
     EXPECT_EQ(writer.packets(), packets.size());

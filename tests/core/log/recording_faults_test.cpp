@@ -121,7 +121,7 @@ TEST(RecordingStatistics, AreThoseOfTheWholeRecording) {
         ASSERT_TRUE(writer.add({0, stamp, {}, drops, {.stampedByKernel = true}, bytes}, kSender));
     }
     const std::size_t start = sink.bytes.size();
-    ASSERT_TRUE(writer.finish());
+    ASSERT_TRUE(writer.addStatistics());
     const auto block = std::span<const std::byte>(sink.bytes).subspan(start);
     ASSERT_EQ(numberAt(block, 0, 4), 5U);
     ASSERT_EQ(numberAt(block, 4, 4), block.size());

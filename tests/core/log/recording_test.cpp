@@ -32,6 +32,15 @@ std::vector<Recorded> recordedInFile(const std::string& path) {
     return recordedIn(std::as_bytes(std::span(text)));
 }
 
+/// What counts at the end.
+std::vector<std::string> notesIn(const std::string& path) {
+    std::vector<std::string> notes;
+    const auto file = openFile(path);
+    static_cast<void>(readFile(**file, {[](const FileRecord&) {}},
+                               [&notes](auto told) { notes.assign(told.begin(), told.end()); }));
+    return notes;
+}
+
 TEST(Recording, HoldsEveryPacketThatWasWrittenMeanwhile) {
     constexpr std::uint32_t count = 20'000;
     PacketLog log;
@@ -92,6 +101,41 @@ TEST(Recording, GoesOnInAnotherFileWithoutLosingAPacket) {
     EXPECT_EQ(next, sample);
     EXPECT_EQ((*recording)->figures().packets, sample);
     EXPECT_EQ((*recording)->figures().bytes, bytes);
+}
+
+TEST(Recording, HasMarksInTheFileOfTheirPacketBeforeItEnds) {
+    PacketLog log;
+    const std::string path = newFile();
+    const auto recording = Recording::start(log, path, {}, {}, 0, {.fileBytes = 10'000});
+    ASSERT_TRUE(recording) << recording.error().text;
+    std::uint32_t sample = 0;
+    const auto receive = [&](std::uint64_t until) {
+        for (; sample < until; ++sample) {
+            log.writer().append(poseDatagram(sample), {Stamp(Duration(sample)), {}, 0, {}});
+        }
+        log.writer().publish();
+    };
+    const auto waitFor = [](const auto& condition) {
+        for (int turn = 0; turn < 500 && !condition(); ++turn) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        }
+        return condition();
+    };
+    receive(5);
+    (*recording)->setMarks({{1, "", "taken back"}, {2, "", ""}});
+    ASSERT_TRUE(waitFor([&] { return notesIn(path).size() == 2; })) << "as the process might be killed";
+    EXPECT_EQ((*recording)->figures().files, 1U);
+    (*recording)->setMarks({{2, "", ""}, {3, "", "jumps"}});
+    receive(100);
+    ASSERT_TRUE(waitFor([&] { return (*recording)->figures().files == 2; }));
+    const std::uint64_t second = (*recording)->figures().fileBegin;
+    receive(second + 1);
+    (*recording)->setMarks({{2, "", ""}, {3, "", "jumps"}, {4, "", "late"}, {second, "", "here"}});
+    ASSERT_TRUE((*recording)->stop({"3 samples lost"}));
+    EXPECT_THAT(notesIn(path), testing::ElementsAre("Mark on packet 2", "Mark on packet 3: jumps"));
+    EXPECT_THAT(notesIn(partPath(path, 2)), testing::ElementsAre("In an earlier file: Mark on packet 4: late",
+                                                                 "Mark on packet 0: here", "3 samples lost"));
+    EXPECT_EQ(recordedInFile(path).size() + recordedInFile(partPath(path, 2)).size(), second + 1);
 }
 
 TEST(Recording, BeginsNothingOnADiskThatIsTooFull) {

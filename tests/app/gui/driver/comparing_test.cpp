@@ -42,7 +42,7 @@ protected:
                     writer.add({0, at, {}, 0, {}, bytes}, {"10.0.0.2:4000", log::Transport::Udp, 9763}));
             }
         }
-        EXPECT_TRUE(writer.finish());
+        EXPECT_TRUE(writer.addStatistics());
         EXPECT_TRUE(sink->flush());
         return QString::fromStdString(path);
     }
@@ -215,7 +215,7 @@ TEST_F(ComparingTest, SaysWhereThereIsNoPose) {
                                        {"10.0.0.2:4000", log::Transport::Udp, 9763}));
             }
         }
-        ASSERT_TRUE(writer.finish());
+        ASSERT_TRUE(writer.addStatistics());
         ASSERT_TRUE(sink->flush());
     }
     m_driver.openFile(record("a.pcapng", 0, 60));

@@ -114,7 +114,7 @@ TEST_F(RawFileImport, ACaptureKeepsItsSendersTransportsStampsAndDrops) {
             packet.bytes = bytes;
             ASSERT_TRUE(writer.add(packet, senders[i]));
         }
-        ASSERT_TRUE(writer.finish());
+        ASSERT_TRUE(writer.addStatistics());
     }
     ASSERT_EQ(import(path), "");
     EXPECT_EQ(stamps(), (std::vector<log::Stamp>{Stage::kStart, Stage::kStart + 1'000'003ns,

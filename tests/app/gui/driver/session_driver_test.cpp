@@ -118,8 +118,12 @@ TEST_F(SessionDriverTest, ATakeHasThePreRollAndWhatComesWhateverIsShown) {
     driver.setPaused(true);
     ASSERT_EQ(driver.toggleRecording(choice), "");
     ASSERT_TRUE(driver.isRecording());
+    driver.setMarked(35, true);
+    driver.setMarked(20, false);
     listenAndSend(50);
     ASSERT_TRUE(tickUntil(driver, [&] { return driver.take()->figures.packets == 100; }));
+    driver.setMarked(20, true);
+    driver.setMarked(35, false);
     EXPECT_EQ(driver.take()->path, folder.filePath("take.pcapng"));
     EXPECT_EQ(driver.toggleRecording(choice), "");
     EXPECT_FALSE(driver.isRecording());
@@ -152,7 +156,7 @@ TEST_F(SessionDriverTest, CommentsOfACaptureAreThoseOfItsPackets) {
             ASSERT_TRUE(writer.add(packet, {"10.0.0.5:50000", log::Transport::Udp, 9763},
                                    i == 7 ? comments : std::vector<std::string>()));
         }
-        ASSERT_TRUE(writer.finish());
+        ASSERT_TRUE(writer.addStatistics());
     }
     ASSERT_EQ(openFile(driver, path), "");
     const auto& comments = driver.session().annotations().comments;

@@ -33,7 +33,7 @@ protected:
             ASSERT_TRUE(writer.add({0, momentOf(sample), {}, 0, {}, bytes},
                                    {"10.0.0.2:4000", log::Transport::Udp, 9763}));
         }
-        ASSERT_TRUE(writer.finish());
+        ASSERT_TRUE(writer.addStatistics());
         ASSERT_TRUE(sink->flush());
         m_driver.openFile(QString::fromStdString(path));
         for (int i = 0; i < 5000 && m_driver.isOpening(); ++i) {
