@@ -156,8 +156,6 @@ tl::expected<Renderer, std::string> Renderer::create(std::optional<RenderQuality
     impl->name = glText(GL_RENDERER);
     impl->quality = quality.value_or(interactiveQuality(impl->name));
     impl->frameBuffer = gl::Buffer::create();
-    impl->palettes = Palettes::create();
-    impl->instances = Instances::create();
     std::string error;
     const bool isComplete = take(ShadowPass::create(impl->quality), impl->shadow, error) &&
                             take(SkinnedPass::create(), impl->skinned, error) &&

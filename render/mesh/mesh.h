@@ -14,6 +14,9 @@
 
 namespace posewire::render {
 
+/// Bytes of each vertex on the graphics side.
+inline constexpr std::size_t kGpuVertexBytes = 28;
+
 /// Up to four joints per vertex; unused places have joint 0 and weight 0.
 using JointIndices = std::array<std::uint8_t, 4>;
 

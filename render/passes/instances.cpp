@@ -30,14 +30,6 @@ bool isOwn(const GpuMesh& mesh) {
 
 } // namespace
 
-Instances Instances::create() {
-    Instances instances;
-    for (gl::Buffer& buffer : instances.m_buffers) {
-        buffer = gl::Buffer::create();
-    }
-    return instances;
-}
-
 Instances::Data Instances::dataOf(const DrawnCharacter& character) {
     const CharacterLook& look = character.instance->look;
     return {character.firstTexel,
@@ -94,8 +86,7 @@ void Instances::upload(const Frame& frame, int atOnce) {
         }
     }
     addRuns(&DrawnCharacter::caster, false, atOnce, m_casters);
-    m_current = (m_current + 1) % kRing;
-    m_buffers[m_current].write(std::as_bytes(std::span(m_data)), gl::Buffer::Usage::Stream);
+    m_buffers.next().write(std::as_bytes(std::span(m_data)), gl::Buffer::Usage::Stream);
 }
 
 InstanceRun Instances::only(const Frame& frame, const DrawnCharacter& character, const GpuMesh& mesh) {
@@ -106,7 +97,7 @@ InstanceRun Instances::only(const Frame& frame, const DrawnCharacter& character,
 /// Without a base instance, which OpenGL 3.3 does not know.
 void Instances::attach(const InstanceRun& run) const {
     using Kind = gl::Attribute::Kind;
-    const gl::Buffer& buffer = m_buffers[m_current];
+    const gl::Buffer& buffer = m_buffers.current();
     const std::size_t first = sizeof(Data) * static_cast<std::size_t>(run.first);
     const auto attach = [&](unsigned location, int components, std::size_t offset, Kind kind) {
         run.mesh->array.attach(buffer, sizeof(Data), {location, components, first + offset, kind}, 1);
@@ -122,8 +113,7 @@ void Instances::draw(const InstanceRun& run) const {
     glDrawElementsInstanced(GL_TRIANGLES, run.mesh->indexCount, GL_UNSIGNED_INT, nullptr, run.count);
 }
 
-void Instances::draw(const InstanceRun& run, const MeshPart& part) const {
-    attach(run);
+void Instances::drawPart(const InstanceRun& run, const MeshPart& part) {
     const auto first = sizeof(std::uint32_t) * std::uintptr_t{part.firstIndex};
     glDrawElementsInstanced(GL_TRIANGLES, static_cast<int>(part.indexCount), GL_UNSIGNED_INT,
                             reinterpret_cast<const void*>(first), // NOLINT: the API's own convention

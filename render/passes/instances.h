@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "render/gl/ring.h"
 #include "render/passes/frame.h"
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -25,7 +25,8 @@ struct InstanceRun {
 /// each.
 class Instances {
 public:
-    static Instances create();
+    /// Of the context that is current.
+    Instances() : m_buffers(&gl::Buffer::create) {}
 
     /// For the characters of the frame; at most `atOnce` to a run, 0 for any number.
     void upload(const Frame& frame, int atOnce);
@@ -38,8 +39,10 @@ public:
     static InstanceRun only(const Frame& frame, const DrawnCharacter& character, const GpuMesh& mesh);
 
     void draw(const InstanceRun& run) const;
-    void draw(const InstanceRun& run, const MeshPart& part) const;
     void drawPoints(const InstanceRun& run) const;
+    /// Before parts of it.
+    void attach(const InstanceRun& run) const;
+    static void drawPart(const InstanceRun& run, const MeshPart& part);
 
 private:
     struct Data {
@@ -52,17 +55,13 @@ private:
         float opacity = 1.0F;
         float hatched = 0.0F;
     };
-    /// Pictures that the driver may still be drawing, and the next.
-    static constexpr std::size_t kRing = 3;
 
     static Data dataOf(const DrawnCharacter& character);
     /// Of m_ordered, which it sorts. `paints`: those with marks are drawn otherwise.
     void addRuns(const GpuMesh* DrawnCharacter::*mesh, bool paints, int atOnce,
                  std::vector<InstanceRun>& runs);
-    void attach(const InstanceRun& run) const;
 
-    std::array<gl::Buffer, kRing> m_buffers;
-    std::size_t m_current = 0;
+    gl::Ring<gl::Buffer> m_buffers;
     std::vector<Data> m_data; ///< first of all characters in their order, then by runs
     std::vector<const DrawnCharacter*> m_ordered;
     std::vector<InstanceRun> m_solids;

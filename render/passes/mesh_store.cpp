@@ -25,7 +25,7 @@ struct Vertex {
     JointIndices joints;
     std::array<std::uint16_t, 4> weights;
 };
-static_assert(sizeof(Vertex) == 28);
+static_assert(sizeof(Vertex) == kGpuVertexBytes);
 
 constexpr float kMostShare = 65'535.0F;
 

@@ -29,15 +29,6 @@ Palettes::Store Palettes::Store::create() {
     return store;
 }
 
-Palettes Palettes::create() {
-    Palettes palettes;
-    for (Store& motions : palettes.m_motions) {
-        motions = Store::create();
-    }
-    palettes.m_fits = Store::create();
-    return palettes;
-}
-
 void Palettes::upload(const Frame& frame) {
     m_motionsOut.clear();
     m_fitsOut.clear();
@@ -50,8 +41,7 @@ void Palettes::upload(const Frame& frame) {
     if (m_motionsOut.empty()) {
         return;
     }
-    m_current = (m_current + 1) % kRing;
-    m_motions[m_current].buffer.write(std::as_bytes(std::span(m_motionsOut)), gl::Buffer::Usage::Stream);
+    m_motions.next().buffer.write(std::as_bytes(std::span(m_motionsOut)), gl::Buffer::Usage::Stream);
     if (m_fitsOut != m_fitsIn) {
         m_fits.buffer.upload(std::as_bytes(std::span(m_fitsOut)), gl::Buffer::Usage::Static);
         std::swap(m_fitsIn, m_fitsOut);
@@ -59,7 +49,7 @@ void Palettes::upload(const Frame& frame) {
 }
 
 void Palettes::bind() const {
-    m_motions[m_current].texture.bind(kPaletteUnit);
+    m_motions.current().texture.bind(kPaletteUnit);
     m_fits.texture.bind(kFitUnit);
 }
 

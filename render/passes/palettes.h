@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "render/gl/ring.h"
 #include "render/gl/texture.h"
 #include "render/passes/frame.h"
 
-#include <array>
 #include <vector>
 
 namespace posewire::render {
@@ -13,7 +13,8 @@ namespace posewire::render {
 /// the motions of their joints, new for each picture, and the stretches of their bodies, which mostly stay.
 class Palettes {
 public:
-    static Palettes create();
+    /// Of the context that is current.
+    Palettes() : m_motions(&Store::create), m_fits(Store::create()) {}
 
     /// For the characters of the frame, in their order.
     void upload(const Frame& frame);
@@ -27,11 +28,8 @@ private:
 
         static Store create();
     };
-    /// Pictures that the driver may still be drawing, and the next.
-    static constexpr std::size_t kRing = 3;
 
-    std::array<Store, kRing> m_motions;
-    std::size_t m_current = 0;
+    gl::Ring<Store> m_motions;
     Store m_fits;
     std::vector<DualQuaternion> m_motionsOut;
     std::vector<glm::vec4> m_fitsOut;

@@ -95,6 +95,7 @@ gl::Program* SkinnedPass::program(Shade shade, bool marks, bool isOwn) {
 void SkinnedPass::drawParts(gl::Program& program, const Instances& instances, const InstanceRun& run) {
     constexpr float kHoleAlpha = 0.5F;
     const GpuMesh& mesh = *run.mesh;
+    instances.attach(run);
     for (const MeshPart& part : mesh.parts) {
         const bool hasTexture = part.texture >= 0;
         // A material that names neither is in the character's own colour.
@@ -104,7 +105,7 @@ void SkinnedPass::drawParts(gl::Program& program, const Instances& instances, co
         program.set("leastAlpha", part.isMasked ? kHoleAlpha : 0.0F);
         (hasTexture ? mesh.textures[static_cast<std::size_t>(part.texture)] : m_white).bind(kPartTextureUnit);
         (part.isTwoSided ? glDisable : glEnable)(GL_CULL_FACE);
-        instances.draw(run, part);
+        Instances::drawPart(run, part);
     }
     glEnable(GL_CULL_FACE);
 }

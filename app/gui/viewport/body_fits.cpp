@@ -49,10 +49,10 @@ std::size_t BodyFits::mannequinBytes() const {
     }
     constexpr std::size_t kHere =
         2 * sizeof(glm::vec3) + sizeof(float) + sizeof(render::JointIndices) + sizeof(glm::vec4);
-    constexpr std::size_t kThere = 28;
     std::size_t bytes = 0;
     for (const auto* mesh : {&m_mannequin->mesh, &m_mannequin->lowMesh}) {
-        bytes += mesh->vertexCount() * (kHere + kThere) + 2 * mesh->indices.size() * sizeof(mesh->indices[0]);
+        bytes += mesh->vertexCount() * (kHere + render::kGpuVertexBytes) +
+                 2 * mesh->indices.size() * sizeof(mesh->indices[0]);
     }
     return bytes;
 }
