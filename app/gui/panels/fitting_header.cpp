@@ -155,7 +155,14 @@ void FittingHeader::fit() {
     if (model() == nullptr || open < 0 || m_isFitting) {
         return;
     }
-    const QScopedValueRollback guard(m_isFitting, true);
+    {
+        const QScopedValueRollback guard(m_isFitting, true);
+        shareOut(open);
+    }
+    emit fitted();
+}
+
+void FittingHeader::shareOut(int open) {
     const int width = m_table->viewport()->width();
     std::vector<bool> isShown;
     int needed = leastOpenWidth();
@@ -182,7 +189,7 @@ void FittingHeader::fit() {
     fitElastic(width - needed);
     const int others = length() - sectionSize(open);
     // One that is kept for what it says gets narrower before all of it is scrolled away.
-    const int least = m_kept == Kept::Open ? textWidth(QStringLiteral("12345678")) : leastOpenWidth();
+    const int least = m_kept == Kept::Open ? textWidth(QStringLiteral("123456")) : leastOpenWidth();
     resizeSection(open, std::max(least, width - others));
 }
 

@@ -58,6 +58,11 @@ public:
     void fit();
     /// The next column that is shown; the same one at the end.
     [[nodiscard]] int columnBeside(int column, int direction) const;
+    /// Columns are not yet as wide as they will be.
+    [[nodiscard]] bool isFitting() const { return m_isFitting; }
+
+signals:
+    void fitted();
 
 private:
     struct Elastic {
@@ -67,6 +72,7 @@ private:
         QString soon;
     };
 
+    void shareOut(int open);
     void fitElastic(int spare);
     [[nodiscard]] int columns() const { return static_cast<int>(m_samples.size()); }
     [[nodiscard]] int openColumn() const;

@@ -51,8 +51,7 @@ void PacketView::paintRow(QPainter& painter, int row, const QRect& rect) const {
         painter.fillRect(rect, palette().brush(QPalette::AlternateBase));
     }
     for (int column = 0; column < model()->columnCount(); ++column) {
-        const int width = m_header->sectionSize(column);
-        const QRect cell(m_header->sectionViewportPosition(column), rect.top(), width, rect.height());
+        const QRect cell = roomOf(model()->index(row, column));
         if (cell.intersects(viewport()->rect())) {
             paintCell(painter, model()->index(row, column), cell, isSelected);
         }
@@ -66,6 +65,20 @@ void PacketView::paintRow(QPainter& painter, int row, const QRect& rect) const {
     if (begin.data(kPausedHereRole).toBool()) {
         painter.fillRect(QRect(rect.left(), rect.bottom() - 1, rect.width(), 2), theme().accent);
     }
+}
+
+/// Words run on over empty cells beside them.
+QRect PacketView::roomOf(const QModelIndex& index) const {
+    QRect room = visualRect(index);
+    if (room.isEmpty() || CellDelegate::isNumber(index)) {
+        return room;
+    }
+    for (int last = index.column(), beside = m_header->columnBeside(last, 1);
+         beside != last && index.siblingAtColumn(beside).data().toString().isEmpty();
+         last = beside, beside = m_header->columnBeside(last, 1)) {
+        room.setRight(room.right() + m_header->sectionSize(beside));
+    }
+    return room;
 }
 
 void PacketView::paintCell(QPainter& painter, const QModelIndex& index, QRect rect, bool isSelected) const {

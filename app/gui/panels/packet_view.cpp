@@ -44,10 +44,16 @@ PacketView::PacketView(const QString& name, QWidget* parent)
     m_newest->setFocusPolicy(Qt::NoFocus); // the End key does the same
     m_newest->hide();
     connect(m_newest, &QPushButton::clicked, this, &PacketView::newestRequested);
-    connect(m_header, &QHeaderView::sectionResized, this, [this] {
+    const auto placeAll = [this] {
         updateGeometries();
         viewport()->update();
+    };
+    connect(m_header, &QHeaderView::sectionResized, this, [this, placeAll] {
+        if (!m_header->isFitting()) { // scroll bars would come and go, and take width meanwhile
+            placeAll();
+        }
     });
+    connect(m_header, &FittingHeader::fitted, this, placeAll);
     connect(verticalScrollBar(), &QScrollBar::valueChanged, this, [this](int value) {
         if (!m_isAdjusting) {
             noteFollowing(value >= verticalScrollBar()->maximum());

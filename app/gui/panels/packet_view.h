@@ -85,6 +85,7 @@ private:
     [[nodiscard]] int topRow() const;
     [[nodiscard]] int wholeRows() const;
     void paintRow(QPainter& painter, int row, const QRect& rect) const;
+    [[nodiscard]] QRect roomOf(const QModelIndex& index) const;
     void paintCell(QPainter& painter, const QModelIndex& index, QRect rect, bool isSelected) const;
 
     FittingHeader* m_header;
