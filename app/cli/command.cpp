@@ -224,6 +224,7 @@ void Arguments::beginGroup(const std::string& title) {
 CommandLine::CommandLine(const std::string& name, const std::string& text, const std::string& version,
                          const std::string& footer)
     : m_parser(std::make_unique<CLI::App>(text, name)) {
+    m_parser->allow_windows_style_options(false); // a path may begin with a slash there too
     m_parser->set_version_flag("--version", version, "Print the version and exit");
     m_parser->footer(footer);
 }

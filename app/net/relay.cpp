@@ -106,7 +106,7 @@ struct Relay::Target {
     bool write(const log::Packet& packet) {
         const auto size = static_cast<qint64>(packet.bytes.size());
         const char* bytes = reinterpret_cast<const char*>(packet.bytes.data());
-        return (isConnected() ? socket->writeDatagram(bytes, size, QHostAddress(), 0)
+        return (isConnected() ? socket->write(bytes, size)
                               : socket->writeDatagram(bytes, size, address, endpoint.port)) == size;
     }
     /// Whether a datagram was refused since the last call: one report at a time is kept.

@@ -130,9 +130,11 @@ TEST_F(ExportCommand, GivesEachCharacterAFileWhereOneHoldsOne) {
     const ProgramRun piped = exported(performance(10), "-", {"--format", "bvh"});
     EXPECT_EQ(piped.status, 2);
     EXPECT_THAT(piped.err, HasSubstr("choose one with --characters"));
+#ifndef _WIN32 // where NUL is a device and "NUL-Mira Lindqvist" a file
     const ProgramRun device = exported(performance(10), nullDevice(), {"--format", "bvh"});
     EXPECT_EQ(device.status, 2);
     EXPECT_THAT(device.err, HasSubstr(nullDevice() + ": is a folder or a device"));
+#endif
     EXPECT_EQ(exported(performance(10), m_folder, {"--format", "bvh"}).status, 2);
     EXPECT_EQ(fileCount(), 2U);
     EXPECT_EQ(exported(performance(10), output("one.bvh"), {"--characters", "1"}).status, 0);

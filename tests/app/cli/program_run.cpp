@@ -8,6 +8,7 @@
 #include <QTemporaryDir>
 
 #include <fstream>
+#include <regex>
 
 namespace posewire::cli::test {
 
@@ -31,6 +32,14 @@ ProgramRun runProgram(const std::vector<std::string>& arguments, const std::stri
             process.readAllStandardError().toStdString()};
 }
 
+QStringList endingByItself() {
+#ifdef _WIN32
+    return {"--duration", "10"};
+#else
+    return {};
+#endif
+}
+
 std::string newPath() {
     static const QTemporaryDir folder;
     static int number = 0;
@@ -49,6 +58,10 @@ std::string nullDevice() {
 #else
     return "/dev/null";
 #endif
+}
+
+bool contains(const std::string& text, const std::string& pattern) {
+    return std::regex_search(text, std::regex(pattern));
 }
 
 std::string asText(const std::vector<std::byte>& bytes) {

@@ -2,6 +2,7 @@
 #include "app/net/allow_list.h"
 
 #include "tests/app/net/net_fixture.h"
+#include "tests/support/loopback.h"
 
 #include <QUdpSocket>
 
@@ -79,6 +80,9 @@ protected:
 };
 
 TEST_P(ListeningToSomeTest, OthersAreCountedAndNotLogged) {
+    if (!posewire::test::hasManyLoopbackAddresses()) {
+        GTEST_SKIP() << "all senders of this system are 127.0.0.1";
+    }
     receiving.receiver->listenTo(*AllowList::of({"127.0.0.2"}));
     send("127.0.0.3", 20);
     send("127.0.0.2", 5);

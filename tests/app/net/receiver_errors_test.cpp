@@ -4,6 +4,8 @@
 #include "app/net/receiver.h"
 #include "tests/app/net/net_fixture.h"
 
+#include <QUdpSocket>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -73,6 +75,9 @@ TEST_P(ReceiverErrorsTest, AnInputThatFailsLeavesTheOthersAlone) {
 }
 
 TEST_P(ReceiverErrorsTest, AddressOfAnotherComputerIsClear) {
+    if (QUdpSocket().bind(QHostAddress(QStringLiteral("192.0.2.1")), 0)) { // as Wine does
+        GTEST_SKIP() << "this system takes addresses of other computers";
+    }
     const NetError error = errorOf({{"192.0.2.1", 0}, {}});
     EXPECT_EQ(error.kind, NetError::Kind::AddressNotHere);
     EXPECT_THAT(error.text, HasSubstr("192.0.2.1 is not an address of this computer"));
