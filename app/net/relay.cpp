@@ -106,8 +106,8 @@ struct Relay::Target {
     bool write(const log::Packet& packet) {
         const auto size = static_cast<qint64>(packet.bytes.size());
         const char* bytes = reinterpret_cast<const char*>(packet.bytes.data());
-        return (isConnected() ? socket->write(bytes, size)
-                              : socket->writeDatagram(bytes, size, address, endpoint.port)) == size;
+        // The address also where it is connected: Qt sends nowhere on Windows without one.
+        return socket->writeDatagram(bytes, size, address, endpoint.port) == size;
     }
     /// Whether a datagram was refused since the last call: one report at a time is kept.
     [[nodiscard]] bool takeRefusal() {

@@ -156,7 +156,7 @@ bool ClockHistory::isStraggler(const Reading& reading) {
 /// How far the time code is off, in ms; nothing where it advanced with the samples.
 std::optional<double> ClockHistory::jumpBetween(const Reading& before, const Reading& reading) const {
     const auto samples = static_cast<std::int32_t>(reading.sample - before.sample);
-    const auto advanced = static_cast<std::int32_t>(reading.timeCode - before.timeCode);
+    const auto advanced = model::timeCodeStep(before.timeCode, reading.timeCode);
     const auto hz = m_rate.frameHz();
     // A restarted counter says nothing about time: then the receive stamps have to do.
     const bool byStamps = samples < 0 || !hz;

@@ -74,13 +74,14 @@ void Attribution::retire(log::SenderId sender) {
 }
 
 void Attribution::takePacket(const log::Packet& packet, std::uint16_t localPort) {
-    judgeDue(packet.stamp, packet.number);
+    // First what it says of itself: it may be why something before it is due.
     if (packet.kernelDropsBefore != 0) {
         keepNewest(m_drops, {packet.number, std::uint64_t{packet.kernelDropsBefore}, localPort}, kMostDrops);
     }
     if (packet.flags.afterClosed) {
         keepNewest(m_drops, {packet.number, 0, localPort, true}, kMostDrops);
     }
+    judgeDue(packet.stamp, packet.number);
     m_lastPacket = packet.number;
 }
 

@@ -18,7 +18,18 @@ constexpr std::int64_t kMostParts = 128;
 /// Fewer parts than these show no skew.
 constexpr std::size_t kLeastParts = 8;
 
+constexpr std::int32_t kDayMs = 86'400'000;
+/// What came around midnight came within so much.
+constexpr std::int32_t kMidnightMs = 60'000;
+
 } // namespace
+
+std::int32_t timeCodeStep(std::uint32_t before, std::uint32_t after) {
+    const auto step = static_cast<std::int32_t>(after - before);
+    const bool isMidnight = step < kMidnightMs - kDayMs && step > -kDayMs - kMidnightMs &&
+                            after < static_cast<std::uint32_t>(kMidnightMs);
+    return isMidnight ? step + kDayMs : step;
+}
 
 bool SenderClock::isOff(std::int32_t moved, std::int32_t timeCodeMoved) const {
     const double dueMs = m_sumMoved > 0 ? moved * m_sumSinceMs / m_sumMoved : 0;
@@ -40,7 +51,7 @@ void SenderClock::add(const Sample& sample) {
         return;
     }
     const auto moved = static_cast<std::int32_t>(sample.sample - m_previous.sample);
-    const auto timeCodeMoved = static_cast<std::int32_t>(sample.timeCode - m_previous.timeCode);
+    const auto timeCodeMoved = timeCodeStep(m_previous.timeCode, sample.timeCode);
     if (std::abs(timeCodeMoved) > kMostTimeCodeMs || (isOff(moved, timeCodeMoved) && m_isInDoubt)) {
         restart();
         add(sample);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/incidents/incident_follower.h"
 
+#include "core/model/accounting/sender_clock.h"
 #include "core/model/text.h"
 
 #include <algorithm>
@@ -279,7 +280,7 @@ void IncidentFollower::noteTimeCode(const log::StreamKey& stream, const Verdict&
         return;
     }
     const std::int64_t passedMs = (verdict.stamp - character.stamp) / std::chrono::milliseconds(1);
-    const std::int64_t jumpMs = static_cast<std::int32_t>(verdict.timeCode - character.timeCode) - passedMs;
+    const std::int64_t jumpMs = timeCodeStep(character.timeCode, verdict.timeCode) - passedMs;
     const bool isSame = verdict.timeCode == character.timeCode;
     Occurrence one = occurrenceOf(IncidentKind::TimeCode, stream, verdict);
     if (isBeginning) {

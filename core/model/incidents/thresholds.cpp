@@ -12,6 +12,8 @@ namespace {
 
 constexpr double kMost = 100'000;
 constexpr double kPercent = 100;
+/// So many intervals between samples are no gap, however slow a stream is.
+constexpr double kSlow = 3;
 /// What has been silent for longer is looked at again when something comes.
 constexpr double kAsleepS = 10;
 /// What is missing may still come until then, and whose loss it was is known.
@@ -35,6 +37,17 @@ constexpr std::array kRows{
     ThresholdRow{&T::hysteresis, "hysteresis", "Alert ends &below", " % of its limit",
                  "So that a figure that hovers about its limit alerts once", 1 / kPercent, 1, kPercent},
 };
+
+/// Seconds between samples as they usually come; 0 where that is not known.
+double usualIntervalS(const Stream& stream, const RangeFigures& read) {
+    const double meanMs = std::fmax(0, rowOf(Figure::SpacingMean).read(read));
+    return stream.usualHz > 0 ? 1 / stream.usualHz : meanMs / 1000;
+}
+
+/// Of a time between samples; a limit of 0 is none.
+double slackened(double limit, double intervals) {
+    return limit > 0 ? std::max(limit, kSlow * intervals) : limit;
+}
 
 } // namespace
 
@@ -67,15 +80,19 @@ void ThresholdWatch::check(Stream& stream, log::Stamp stamp, Incidents& incident
     const log::Stamp to = stamp - kSettling;
     const log::Stamp from = to - log::durationOf(m_thresholds.windowS);
     const double ageS = log::secondsOf(stamp - accounting.lastStamp());
-    hold(stream, {IncidentKind::AgeLimit, ageS, m_thresholds.ageS}, stamp, incidents);
     const RangeFigures read = countedFigures(accounting, TimeRange{from, to});
+    const double intervalS = usualIntervalS(stream, read);
+    hold(stream, {IncidentKind::AgeLimit, ageS, slackened(m_thresholds.ageS, intervalS)}, stamp, incidents);
     if (read.counts.samples == 0) {
         return;
     }
     for (const ThresholdRow& row : kRows) {
         if (row.figure) {
             const double value = std::fmax(0, rowOf(*row.figure).read(read)); // 0 where it is not known
-            hold(stream, {row.alert, value, m_thresholds.*row.limit}, stamp, incidents);
+            const double limit = m_thresholds.*row.limit;
+            const bool isGap = row.alert == IncidentKind::GapLimit;
+            hold(stream, {row.alert, value, isGap ? slackened(limit, 1000 * intervalS) : limit}, stamp,
+                 incidents);
         }
     }
     const bool isWholeWindow = accounting.firstStamp() <= from && ageS < m_thresholds.windowS / 2;

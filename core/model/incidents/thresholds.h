@@ -18,8 +18,8 @@ namespace posewire::model {
 struct Thresholds {
     double lossPercent = 1;  ///< of the samples expected in the window, incomplete ones included
     double jitterMs = 10;    ///< RFC 3550
-    double gapMs = 250;      ///< longest time between samples in the window
-    double ageS = 1;         ///< since the newest sample
+    double gapMs = 250;      ///< longest time between samples in the window; at least three usual intervals
+    double ageS = 1;         ///< since the newest sample; likewise
     double ratePercent = 20; ///< how far the rate in the window is off what it was before
     double windowS = 5;      ///< the past that counts
     double hysteresis = 0.8; ///< an alert ends below this part of its limit

@@ -247,6 +247,26 @@ std::string headlineOf(const SessionView& session, const ListedIncident& listed,
     }
 }
 
+std::string outageHeadlineOf(const SessionView& session, std::span<const ListedIncident> outages) {
+    std::vector<std::string> names;
+    bool isOneCause = true;
+    for (const ListedIncident& one : outages) {
+        isOneCause = isOneCause && one.incident.cause == outages.front().incident.cause;
+        for (const std::uint8_t character : one.incident.characters()) {
+            const std::string name = session.displayName({one.incident.sender, character}).shown();
+            if (std::ranges::find(names, name) == names.end()) {
+                names.push_back(name);
+            }
+        }
+        if (one.incident.characters().empty()) {
+            names.push_back(session.addressOf(one.incident.sender).shown());
+        }
+    }
+    const std::string who = names.size() > 2 ? counted(names.size(), "character") : listed(names);
+    const bool hasCause = isOneCause && outages.front().incident.cause;
+    return "no data from " + who + (hasCause ? causeOf(outages.front().incident) : std::string());
+}
+
 std::string briefOf(const SessionView& session, const ListedIncident& listed) {
     const Incident& incident = listed.incident;
     const std::string count = grouped(incident.count);

@@ -3,6 +3,7 @@
 
 #include "core/model/session/session_view.h"
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -41,6 +42,10 @@ struct ListedIncident {
 /// of how much it lost in all.
 [[nodiscard]] std::string headlineOf(const SessionView& session, const ListedIncident& listed,
                                      const std::string& lost = {});
+
+/// Of several outages that go on at once: all who are silent, and the cause where it is one.
+[[nodiscard]] std::string outageHeadlineOf(const SessionView& session,
+                                           std::span<const ListedIncident> outages);
 
 /// The same without whose: "37 lost, network".
 [[nodiscard]] std::string briefOf(const SessionView& session, const ListedIncident& listed);

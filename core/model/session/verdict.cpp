@@ -104,7 +104,10 @@ private:
     std::optional<Losses> m_losses;
 };
 
-TakeVerdict fromIncident(const SessionView& session, const ListedIncident& worst, RecentLosses& losses) {
+/// `together`: the worst one, and outages beside it where it is one.
+TakeVerdict fromIncidents(const SessionView& session, const std::vector<ListedIncident>& together,
+                          RecentLosses& losses) {
+    const ListedIncident& worst = together.front();
     const bool isBad = worst.state == State::Ongoing && worst.incident.severity() == IncidentSeverity::Error;
     TakeVerdict verdict;
     verdict.state = isBad ? TakeVerdict::State::Bad : TakeVerdict::State::Warning;
@@ -112,7 +115,9 @@ TakeVerdict fromIncident(const SessionView& session, const ListedIncident& worst
     const std::string answer = isBad ? "Not good" : "Not quite good";
     const std::string lasts = verdict.isOver ? ", over" : ", going on";
     const std::string lately = losses.isOfAll() ? std::string() : losses.amountOf(worst, "sample");
-    const std::string what = headlineOf(session, worst, lately) + whenOf(session, worst);
+    const std::string what =
+        (together.size() > 1 ? outageHeadlineOf(session, together) : headlineOf(session, worst, lately)) +
+        whenOf(session, worst);
     verdict.text = answer + ": " + what + lasts;
     verdict.narrow = answer + lasts + ": " + what;
     const std::string amount = losses.amountOf(worst, {});
@@ -124,7 +129,7 @@ TakeVerdict fromIncident(const SessionView& session, const ListedIncident& worst
     verdict.brief += (verdict.isOver ? ", over" : "");
     verdict.since = worst.incident.firstStamp;
     verdict.incident = worst.incident.number;
-    if (const auto character = worst.incident.character()) {
+    if (const auto character = worst.incident.character(); character && together.size() == 1) {
         verdict.character = CharacterKey{worst.incident.sender, *character};
     }
     return verdict;
@@ -148,8 +153,17 @@ std::vector<const Stream*> streamsOnAir(const Character& character) {
     return onAir;
 }
 
-/// What speaks against the body that is drawn of a character; nothing where all of it was sent.
-std::optional<TakeVerdict> onPose(const SessionView& session, const Character& character, log::Stamp since) {
+/// What speaks against the body that is drawn of a character.
+struct PoseDoubt {
+    std::string reason; ///< empty where no pose can be drawn
+    std::string brief;
+    std::vector<std::uint8_t> types; ///< that it sends instead
+
+    bool operator==(const PoseDoubt&) const = default;
+};
+
+/// Nothing where all of it was sent.
+std::optional<PoseDoubt> doubtOf(const SessionView& session, const Character& character) {
     const std::vector<const Stream*> onAir = streamsOnAir(character);
     const bool isPosed =
         std::ranges::any_of(onAir, [](const Stream* one) { return hasPoses(one->key.type); });
@@ -158,21 +172,42 @@ std::optional<TakeVerdict> onPose(const SessionView& session, const Character& c
     if (remark && !remark->isAssumed) {
         return std::nullopt;
     }
-    const std::string name = session.displayName(character.key).shown();
-    std::string text = "Not quite good: ";
     if (remark) {
-        text += name + ": " + remark->reason;
+        return PoseDoubt{remark->reason, remark->brief, {}};
+    }
+    PoseDoubt doubt{{}, "no pose", {}};
+    for (const Stream* stream : onAir) {
+        doubt.types.push_back(stream->key.type);
+    }
+    return doubt;
+}
+
+/// Of all characters with the same doubt.
+TakeVerdict onPoses(const SessionView& session, const PoseDoubt& doubt,
+                    const std::vector<CharacterKey>& characters, log::Stamp since) {
+    std::string who = counted(characters.size(), "character");
+    if (characters.size() <= 2) {
+        std::vector<std::string> names;
+        for (const CharacterKey& key : characters) {
+            names.push_back(session.displayName(key).shown());
+        }
+        who = listed(names);
+    }
+    std::string text = "Not quite good: ";
+    if (!doubt.reason.empty()) {
+        text += who + ": " + doubt.reason;
     } else {
         std::vector<std::string> types;
-        for (const Stream* stream : onAir) {
-            types.push_back(wire::typeDigits(stream->key.type));
+        for (const std::uint8_t type : doubt.types) {
+            types.push_back(wire::typeDigits(type));
         }
-        text += "no pose to draw of " + name + ", which sends " + (types.size() == 1 ? "type " : "types ") +
-                listed(types);
+        text += "no pose to draw of " + who + (characters.size() == 1 ? ", which sends " : ", which send ") +
+                (types.size() == 1 ? "type " : "types ") + listed(types);
     }
-    TakeVerdict verdict =
-        lasting(TakeVerdict::State::Warning, text, remark ? remark->brief : "no pose", since);
-    verdict.character = character.key;
+    TakeVerdict verdict = lasting(TakeVerdict::State::Warning, text, doubt.brief, since);
+    if (characters.size() == 1) {
+        verdict.character = characters.front();
+    }
     return verdict;
 }
 
@@ -187,10 +222,17 @@ TakeVerdict withoutIncident(const SessionView& session, const std::optional<Char
     if (characters.empty()) {
         return lasting(TakeVerdict::State::None, "No data yet", "no data yet", {});
     }
+    std::optional<PoseDoubt> first;
+    std::vector<CharacterKey> doubtful;
     for (const Character* one : characters) {
-        if (auto verdict = onPose(session, *one, since)) {
-            return *verdict;
+        const std::optional<PoseDoubt> doubt = doubtOf(session, *one);
+        first = first ? first : doubt;
+        if (doubt && doubt == first) {
+            doubtful.push_back(one->key);
         }
+    }
+    if (first) {
+        return onPoses(session, *first, doubtful, since);
     }
     const std::string who =
         only ? session.displayName(*only).shown() : counted(characters.size(), "character");
@@ -209,7 +251,7 @@ ListedIncident ofOne(const SessionView& session, RecentLosses& losses, const Lis
     if (isLimited && !losses.isAboveLimit(own.incident)) {
         own.incident.value = 0;
     }
-    own.state = one.state == State::Provisional ? one.state : stateOf(session, own.incident);
+    own.state = one.state == State::Ongoing ? stateOf(session, own.incident) : one.state;
     return own;
 }
 
@@ -247,11 +289,30 @@ public:
                 worst = std::move(mine);
             }
         }
-        return worst ? fromIncident(m_session, *worst, m_losses)
+        return worst ? fromIncidents(m_session, besides(*worst, character.has_value()), m_losses)
                      : withoutIncident(m_session, character, endOfTheLast(line));
     }
 
 private:
+    /// With the outages that go on beside one, of others: who is silent is named whole, since the first was.
+    [[nodiscard]] std::vector<ListedIncident> besides(const ListedIncident& worst, bool isOfOne) const {
+        std::vector<ListedIncident> together{worst};
+        const auto isSilence = [](const ListedIncident& one) {
+            return one.incident.kind == IncidentKind::Outage && one.state == State::Ongoing;
+        };
+        if (isOfOne || !isSilence(worst)) {
+            return together;
+        }
+        for (const ListedIncident& one : m_listed) {
+            if (isSilence(one) && one.incident.number != worst.incident.number) {
+                together.push_back(one);
+                log::Stamp& since = together.front().incident.firstStamp;
+                since = std::min(since, one.incident.firstStamp);
+            }
+        }
+        return together;
+    }
+
     /// When the last incident before the span was over; when the session began, where there was none.
     [[nodiscard]] log::Stamp endOfTheLast(const Line& line) const {
         const auto last =

@@ -74,6 +74,17 @@ TEST_F(AttributionTest, CountsIncompleteSamplesByCauseToo) {
     EXPECT_EQ(stream.lostByCause(), (std::array<std::uint64_t, 4>{1, 1, 0, 0}));
 }
 
+TEST_F(AttributionTest, BlamesThisComputerForTheRestThatItDroppedWhileItWasStopped) {
+    frames(1, 50);
+    put(51, {.datagramCounter = 0x00});
+    m_at += 520ms;
+    put(180, {.drops = 129});
+    m_at += 4ms;
+    frames(181, 300);
+    follow();
+    EXPECT_EQ(m_session.streams().front().lostByCause(), (std::array<std::uint64_t, 4>{129, 0, 0, 0}));
+}
+
 TEST_F(AttributionTest, BlamesTheSenderForWhatIsIncompleteOnTcp) {
     frames(1, 50, {.transport = log::Transport::Tcp});
     put(51, {.transport = log::Transport::Tcp, .datagramCounter = 0x00});

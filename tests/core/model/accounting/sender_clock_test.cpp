@@ -184,6 +184,17 @@ TEST(ClockFit, SaysNothingOfTheFirstSeconds) {
     EXPECT_NE(fitted(500, 2'500ms, 10ms).skewPpm, 0);
 }
 
+TEST(TimeCodeStep, IsThatOfTheClockAtMidnightToo) {
+    constexpr std::uint32_t day = 86'400'000;
+    EXPECT_EQ(timeCodeStep(1'000, 1'017), 17);
+    EXPECT_EQ(timeCodeStep(1'017, 1'000), -17);
+    EXPECT_EQ(timeCodeStep(day - 1, 16), 17);
+    EXPECT_EQ(timeCodeStep(day - 10'000, 20'000), 30'000);
+    EXPECT_EQ(timeCodeStep(UINT32_MAX, 16), 17) << "as the counter of milliseconds that it may be";
+    EXPECT_EQ(timeCodeStep(day + 1'000, day - 3'600'000), -3'601'000) << "a jump";
+    EXPECT_EQ(timeCodeStep(2 * day, day), -static_cast<std::int32_t>(day)) << "no time of day";
+}
+
 TEST(ClockFit, SaysNothingWithoutTime) {
     EXPECT_EQ(ClockFit(10s).skew().skewPpm, 0);
     ClockFit one(10s);

@@ -217,6 +217,23 @@ TEST_F(Limits, HoldEveryStreamOnItsOwn) {
     EXPECT_EQ(m_events.all().front().character(), 0);
 }
 
+TEST_F(Limits, LeaveTheUsualIntervalOfASlowStreamAlone) {
+    for (int i = 0; i < 60; ++i) { // one a second, of which one is lost
+        if (i != 30) {
+            sendOne();
+        }
+        step(500ms);
+        step(500ms);
+    }
+    EXPECT_TRUE(of(IncidentKind::GapLimit).empty());
+    EXPECT_TRUE(of(IncidentKind::AgeLimit).empty());
+    for (int i = 0; i < 8; ++i) {
+        step(500ms);
+    }
+    EXPECT_TRUE(isAlert(IncidentKind::AgeLimit)) << "four intervals are one too many";
+    EXPECT_NEAR(of(IncidentKind::AgeLimit)[0].limit, 3, 0.2);
+}
+
 TEST_F(Limits, SayNothingWhereAnIncidentSaysWhy) {
     sendFor(10s);
     m_streams.front().excusedUntil = m_stamp + 30s;

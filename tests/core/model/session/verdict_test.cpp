@@ -75,6 +75,20 @@ TEST_F(VerdictTest, IsNotGoodWithoutAPoseToDraw) {
     EXPECT_EQ(verdict().text, "Not quite good: no pose to draw of Character 0, which sends types 24 and 21");
 }
 
+TEST_F(VerdictTest, NamesAllWithoutAPoseToDraw) {
+    for (std::uint32_t sample = 1; sample <= 100; ++sample, m_at += 10ms) {
+        for (std::uint8_t character = 0; character < 2; ++character) {
+            wire::Datagram datagram{{}, wire::CentreOfMass{}, {}};
+            datagram.header.sampleCounter = sample;
+            datagram.header.character = character;
+            wire::completeHeader(datagram, wire::HeaderEra::Counted);
+            sendBytes(*wire::encode(datagram), m_at);
+        }
+    }
+    EXPECT_EQ(verdict().text,
+              "Not quite good: no pose to draw of Character 0 and Character 1, which send type 24");
+}
+
 TEST_F(VerdictTest, IsNotGoodWhereOnlyThePoseIsNotSentAnyMore) {
     for (std::uint32_t sample = 1; sample <= 2'000; ++sample, m_at += 10ms) {
         if (sample <= 300) {
@@ -344,6 +358,23 @@ TEST_F(VerdictTest, OneThatSendsNothingIsWorseOffThanOneThatLosesSome) {
     }
     EXPECT_NE(verdictOn(0).brief.find("lost"), std::string::npos) << verdictOn(0).brief;
     EXPECT_EQ(verdict().character, (CharacterKey{sender(), 1})) << verdict().text;
+}
+
+TEST_F(VerdictTest, NamesAllWhoAreSilentSinceTheFirstWas) {
+    for (std::uint32_t sample = 1; sample <= 900; ++sample, m_at += 10ms) {
+        if (sample <= 300) {
+            poseOfOther(sample);
+        }
+        if (sample <= 600) {
+            pose(sample);
+        }
+        pose(sample, "127.0.0.1:40002");
+    }
+    EXPECT_NE(verdictOn(1).text.find("no data from Character 1"), std::string::npos);
+    const TakeVerdict said = verdict();
+    EXPECT_NE(said.text.find("no data from "), std::string::npos) << said.text;
+    EXPECT_NE(said.text.find(" and Character 1"), std::string::npos) << said.text;
+    EXPECT_EQ(said.since, verdictOn(1).since);
 }
 
 TEST_F(VerdictTest, OneThatIsSentTwiceIsWorseOffThanOneThatLosesSome) {
