@@ -12,6 +12,7 @@
 #include "core/log/recording.h"
 #include "core/log/time.h"
 #include "core/model/accounting/stream_figures.h"
+#include "core/model/session/held_up.h"
 #include "core/model/session/session.h"
 
 #include <array>
@@ -124,6 +125,7 @@ private:
     system::Interruption m_interruption;
     log::PacketLog m_log;
     model::Session m_session{m_log};
+    model::HeldUp m_heldUp;
     const bool m_isTerminal = system::isTerminal(system::kStandardOutput);
     std::optional<TableWriter> m_table; ///< where tables or lines were asked for
     exporting::VerdictLines m_lines;

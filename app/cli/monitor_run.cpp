@@ -122,6 +122,7 @@ bool MonitorRun::isOver() const {
 }
 
 void MonitorRun::follow(log::Stamp now) {
+    m_session.setHeldUp(m_heldUp.at(now));
     while (m_session.follow(now)) {
     }
     if (m_options.isVerbose) {

@@ -187,19 +187,21 @@ void addPerformer(Arguments arguments, SendOptions& options) {
     arguments.add("--rate", settings.rateHz, "samples per second").within(1.0, 1000.0).showDefault();
     arguments.add("--types", options.types, "message types, such as 02,12,13, or all of the revision")
         .showDefault();
-    arguments.add("--revision", options.revision, "of the specification").form("E|J|K|N").showDefault();
+    arguments.add("--revision", options.revision, "of the specification that they follow")
+        .form("E|J|K|N")
+        .showDefault();
     arguments.add("--seed", settings.seed, "the same seed gives the same bytes and faults")
         .wholeUpTo(UINT64_MAX)
         .showDefault();
-    arguments.add("--motion", settings.motion, "what they do").form(motionList()).showDefault();
+    arguments.add("--motion", settings.motion, "how they move").form(motionList()).showDefault();
     arguments.add("--props", settings.props, "props of each character").wholeUpTo(4).showDefault();
-    arguments.flag("--fingers", settings.fingers, "with both hands (revision N)");
+    arguments.flag("--fingers", settings.fingers, "send the fingers of both hands too (revision N)");
     arguments
         .add("--first-sample", settings.firstSample,
              "sample counter to begin with; near 4294967295 it wraps around")
         .wholeUpTo(UINT32_MAX)
         .showDefault();
-    arguments.add("--senders", options.senders, "number of sockets that send characters with the same ids")
+    arguments.add("--senders", options.senders, "number of sockets that send characters with the same IDs")
         .within(1, 16)
         .showDefault();
 }

@@ -103,7 +103,7 @@ Finding lossFinding(const model::StreamFigures& sum) {
     }
     return {IncidentSeverity::Warning,
             grouped(missing) + " of " + counted(sum.count(Samples) + missing, "sample", "samples") + " (" +
-                percent(sum[Missing] / sum.expected()) + ") did not arrive whole."};
+                percent(sum[Missing] / sum.expected()) + ") were lost or incomplete."};
 }
 
 /// One sentence about a count, unless it is 0.
@@ -123,7 +123,7 @@ void addCauses(std::vector<Finding>& findings, const model::StreamFigures& sum) 
     std::vector<Share> shares{{sum.count(LostHere), "in this computer, which did not fetch them in time."},
                               {sum.count(LostOnNetwork), "on the network."},
                               {sum.count(LostAtSender), "at the sender."},
-                              {sum.count(LostUnknown), "without evidence whose fault it was."}};
+                              {sum.count(LostUnknown), "with no sign of where."}};
     std::ranges::stable_sort(shares, std::greater{}, &Share::lost);
     for (const Share& share : shares) {
         addCounted(findings, share.lost, "sample was lost ", "samples were lost ", share.words);
@@ -165,11 +165,11 @@ void addSession(std::vector<Finding>& findings, const model::SessionView& sessio
 void addSenders(std::vector<Finding>& findings, const model::SessionView& session) {
     for (const model::Sender& sender : session.senders()) {
         if (sender.kernelDrops != 0) {
-            findings.push_back(
-                {IncidentSeverity::Error, "This computer dropped " +
-                                              counted(sender.kernelDrops, "datagram", "datagrams") +
-                                              " at the socket that hears " + sender.address().shown() +
-                                              ": it was too busy, or its receive buffer is too small."});
+            findings.push_back({IncidentSeverity::Error,
+                                "This computer dropped " +
+                                    counted(sender.kernelDrops, "datagram", "datagrams") +
+                                    " at the socket that receives from " + sender.address().shown() +
+                                    ": it was too busy, or its receive buffer is too small."});
         }
         const std::string from = " from " + sender.address().shown();
         addCounted(findings, sender.malformed, "datagram", "datagrams", from + " could not be decoded.");

@@ -13,9 +13,10 @@ constexpr TypeInfo kRow<PoseEuler>{
     "Centimetres and degrees. The same data as type 02: (x, y, z) is 100 · (y, z, x) of it. "
     "Since N the fingers of both hands follow body and props."};
 template <>
-constexpr TypeInfo kRow<PoseQuaternion>{"Pose, quaternion", Frame::ZUp, "E–N", "2.5.2",
-                                        "Metres on the wire, although the text says centimetres. The text "
-                                        "also allows Y-up; no sender is known to use it."};
+constexpr TypeInfo kRow<PoseQuaternion>{
+    "Pose, quaternion", Frame::ZUp, "E–N", "2.5.2",
+    "Metres on the wire, although the specification says centimetres. The text "
+    "also allows Y-up; no sender is known to use it."};
 template <>
 constexpr TypeInfo kRow<PointPositions>{
     "Point positions", Frame::YUp, "E–N", "2.5.3",
@@ -61,7 +62,7 @@ constexpr TypeInfo kRow<JointAngles>{
     "Joint angles", Frame::Isb, "J–N", "2.7.1",
     "22 joints in the text; real senders add 4 or 6 ergonomic angles (26 or 28 items), two "
     "of which have the same pair of IDs. Angles are about the ISB axes of the joint, "
-    "although the text names the axes of the segment."};
+    "although the specification names the axes of the segment."};
 template <>
 constexpr TypeInfo kRow<LinearKinematics>{"Linear kinematics", Frame::ZUp, "J–N", "2.7.2"};
 template <>

@@ -10,6 +10,7 @@
 #include "app/gui/driver/takes.h"
 #include "app/gui/program_view.h"
 #include "core/log/disk_history.h"
+#include "core/model/session/held_up.h"
 #include "core/model/session/playback.h"
 #include "core/model/session/session.h"
 
@@ -267,6 +268,7 @@ private:
     bool m_isLooping = false;
     std::jthread m_demo;
     QTimer m_timer;
+    model::HeldUp m_heldUp;
     HealthMeter m_meter;
     std::uint64_t m_pictures = 0;
     std::size_t m_meshBytes = 0;

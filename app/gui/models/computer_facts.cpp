@@ -139,10 +139,11 @@ PropertyValue memory(const Source& from) {
     const MonitorHealth health = from.program.monitorHealth();
     const model::MemoryFigures figures = memoryFigures(from);
     const QString own = health.memoryBytes ? megabytes(*health.memoryBytes) : dash();
-    return {tr("%1 · kept %2 of %3").arg(own, grouped(figures.sum() >> 20), megabytes(figures.budget())),
-            figures.sum() <= figures.budget() ? Health::Unknown : Health::Warning,
-            tr("Memory of this program, and of it what is kept of what came with the limit of that, whatever "
-               "comes; at the limit the oldest go")};
+    return {
+        tr("%1 · kept %2 of %3").arg(own, grouped(figures.sum() >> 20), megabytes(figures.budget())),
+        figures.sum() <= figures.budget() ? Health::Unknown : Health::Warning,
+        tr("The memory that this program takes; the part of it that holds what came, and the limit of that "
+           "part: there the oldest goes")};
 }
 
 PropertyValue memoryParts(const Source& from) {

@@ -17,7 +17,7 @@ using IncidentColumn = TableColumn<IncidentLine>;
 
 QString lasted(const IncidentLine& line) {
     if (line.state == State::Provisional) {
-        return tr("not settled");
+        return tr("provisional");
     }
     const model::Incident& incident = line.incident();
     if (line.state == State::Ongoing && (!line.isPart || line.part()->isCurrent)) {
@@ -33,7 +33,7 @@ QString fromTo(const model::SessionView& view, const IncidentLine& line) {
     return tr("From %1 to %2")
         .arg(timeOfDay(view.wallOf(incident.firstStamp)), line.state == State::Over
                                                               ? timeOfDay(view.wallOf(incident.lastStamp))
-                                                              : tr("now: it goes on, or may"));
+                                                              : tr("now (it may go on)"));
 }
 
 /// "12 not yet here", of an incident or of one of its streams.

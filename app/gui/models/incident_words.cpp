@@ -85,7 +85,7 @@ QString briefWords(const model::Incident& incident) {
     case IncidentKind::Reordered:
         return tr("%1 reordered").arg(grouped(incident.count));
     case IncidentKind::Duplicates:
-        return tr("%1 doubled").arg(grouped(incident.count));
+        return tr("%1 duplicated").arg(grouped(incident.count));
     case IncidentKind::Malformed:
         return tr("%1 malformed").arg(grouped(incident.count));
     case IncidentKind::Foreign:

@@ -194,7 +194,8 @@ void CharactersPanel::showEmptyState() {
     const std::vector<PortState> ports = m_program.receivingState().ports;
     const auto open =
         std::ranges::find_if(ports, [](const PortState& state) { return state.id.has_value(); });
-    const auto port = open == ports.end() ? kDefaultPort : open->status.endpoint.port;
+    const auto wanted = ports.empty() ? kDefaultPort : ports.front().port.port;
+    const auto port = open == ports.end() ? wanted : open->status.endpoint.port;
     m_table->setEmptyText(
         tr("No character on the air.\nIn MVN: Options > Preferences > Network Streamer, add "
            "this computer with port %1 and tick the stream.")

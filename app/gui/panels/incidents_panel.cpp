@@ -116,7 +116,7 @@ IncidentsPanel::IncidentsPanel(model::SessionView& view, Commands& commands, QWi
     m_table->setModel(&m_incidents);
     m_table->setColumnSamples({QStringLiteral("    ▲ warning"), QStringLiteral("10:42:17.508"),
                                QStringLiteral("Mira Lindqvist · 02"), QString(), QStringLiteral("99 999"),
-                               QStringLiteral("this computer"), QStringLiteral("not settled"),
+                               QStringLiteral("this computer"), QStringLiteral("provisional"),
                                QStringLiteral("99 999"), QStringLiteral("metadata change"),
                                QStringLiteral("Content")},
                               QStringLiteral("11509 samples lost in 11293 gaps"));

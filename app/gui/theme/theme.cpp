@@ -160,7 +160,7 @@ QToolButton[flat="true"]::menu-indicator { image: none; width: 0; }
 QToolButton[flat="true"]:hover { background: @raised; border-color: @line; }
 QToolButton[flat="true"]:focus { border-color: @accent; }
 QToolButton[flat="true"]:checked { background: @selection; color: @text; border-color: @accent; }
-QLineEdit, QAbstractSpinBox, QPlainTextEdit, QTextEdit, QTextBrowser { background: @panel; color: @text; border: 1px solid @line;
+QLineEdit, QAbstractSpinBox, QPlainTextEdit, QTextEdit, QTextBrowser { background: @panel; border: 1px solid @line;
   border-radius: 5px; padding: 3px 6px; selection-background-color: @selection; selection-color: @text; }
 
 QTabBar::tab { background: @header; color: @dim; border: none; border-right: 1px solid @line;

@@ -109,12 +109,19 @@ void HealthBar::say(const QString& text, const QString& helpPlace) {
     m_about->setVisible(!text.isEmpty() && !helpPlace.isEmpty());
 }
 
+QString HealthBar::byteRateText(double bytesPerSecond) {
+    constexpr double kLeastMegabytes = 0.1;
+    const double megabytes = bytesPerSecond / 1e6;
+    return megabytes >= kLeastMegabytes || megabytes == 0 ? tr("%1 MB/s").arg(fixed(megabytes, 2))
+                                                          : tr("%1 kB/s").arg(fixed(1e3 * megabytes, 1));
+}
+
 void HealthBar::refresh(const ReceivingState& receiving) {
     refreshCharacters();
     m_rate->setContent(Health::Unknown,
                        tr("%1 datagrams/s · %2")
                            .arg(grouped(static_cast<std::uint64_t>(receiving.datagramsPerSecond)),
-                                tr("%1 MB/s").arg(fixed(receiving.bytesPerSecond / 1e6, 2))));
+                                byteRateText(receiving.bytesPerSecond)));
     m_history->setContent(Health::Unknown, historyText(m_session));
     const Health untroubled = m_session.end() == 0 ? Health::Unknown : Health::Good;
     m_dropped->setContent(receiving.kernelDropped == 0 ? untroubled : Health::Error,

@@ -39,6 +39,7 @@ public:
 private:
     /// Selects a character, and says in a popup why it is as it is.
     void explain(const model::CharacterKey& key, QWidget& anchor);
+    [[nodiscard]] static QString byteRateText(double bytesPerSecond);
     void showList();
     void refreshCharacters();
     void fitEntries();

@@ -171,6 +171,7 @@ private:
     std::unique_ptr<HelpPages> m_helpPages; ///< once the guide was asked for
     QString m_covered; ///< dock that the newest request for another one hid; empty for none
     bool m_isRestored = false;
+    bool m_saysOpening = false; ///< the bar at the bottom does
 };
 
 /// Where a window of that place can be seen and grabbed on the screens there are; empty if nowhere.

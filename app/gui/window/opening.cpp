@@ -160,7 +160,10 @@ void MainWindow::showOpening() {
     const bool isOpening = m_driver.isOpening();
     if (isOpening) {
         say(m_driver.openingText());
+    } else if (m_saysOpening) {
+        say({});
     }
+    m_saysOpening = isOpening;
     m_menus.action("stopOpening")->setEnabled(isOpening); // else Escape is for others
     m_stopOpening->setVisible(isOpening);
 }

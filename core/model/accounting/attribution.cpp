@@ -266,7 +266,7 @@ void Attribution::judgeMessage(Stream& stream, log::Stamp stamp, std::uint64_t f
                                           .to = stamp,
                                           .fromPacket = fromPacket,
                                           .toPacket = toPacket,
-                                          .evidence = "Of a message only a part arrived."});
+                                          .evidence = "Only a part of a message arrived."});
     keepNewest(m_judgedPartials, partial, kMostJudged);
 }
 
@@ -303,7 +303,7 @@ void Attribution::judge(Partial& partial, std::uint64_t packet) {
                   .to = partial.stamp,
                   .fromPacket = partial.packet,
                   .toPacket = partial.packet,
-                  .evidence = "Of sample " + std::to_string(partial.sample) + " only a part arrived."});
+                  .evidence = "Only a part of sample " + std::to_string(partial.sample) + " arrived."});
     keepNewest(m_judgedPartials, partial, kMostJudged);
     m_judgedPartials.back().stream = stream;
 }

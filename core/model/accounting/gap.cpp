@@ -24,22 +24,22 @@ std::string Gap::evidenceText() const {
     case Evidence::Damaged:
         return "Sample " + std::to_string(figure) + " arrived truncated or damaged.";
     case Evidence::Partial:
-        return "Of sample " + std::to_string(figure) + ", next to the gap, only a part arrived.";
+        return "Only a part of sample " + std::to_string(figure) + ", next to the gap, arrived.";
     case Evidence::OtherStream:
-        return "Type " + wire::typeDigits(otherType) + " of the same source brought sample " +
+        return "Type " + wire::typeDigits(otherType) + " of the same sender brought sample " +
                std::to_string(figure) + ", which is missing here.";
     case Evidence::Reliable:
         return "TCP loses nothing: " + counted(lost, "sample was", "samples were") + " not sent.";
     case Evidence::Paused:
-        return "All " + counted(figure, "stream") + " of the source paused together for " +
+        return "All " + counted(figure, "stream") + " of the sender paused together for " +
                std::to_string(lastedMs) + " ms, and the time code moved by " + std::to_string(timeCodeMoved) +
                " ms.";
     case Evidence::None:
         break;
     }
-    return isJudged ? "Nothing was dropped here, and nothing else of the source shows where " +
+    return isJudged ? "Nothing was dropped here, and no other stream of the sender shows where " +
                           counted(lost, "sample") + " went in " + std::to_string(lastedMs) + " ms."
-                    : "Late arrivals are still waited for.";
+                    : "Still waiting for late arrivals.";
 }
 
 } // namespace posewire::model

@@ -88,7 +88,8 @@ void findUnknownNames(const NullPose& pose, Findings& findings) {
     if (!unknown.empty()) {
         findings.push_back(
             {NullPoseFault::UnknownName, Severity::Warning, -1,
-             counted(unknown.size(), "segment name") + " not in the specification: " + listed(unknown) + ".",
+             counted(unknown.size(), "segment name") + (unknown.size() == 1 ? " is" : " are") +
+                 " not in the specification: " + listed(unknown) + ".",
              "Posewire goes by the order of the segments; receivers that go by names lack these."});
     }
     if (!respelled.empty()) {
@@ -182,9 +183,8 @@ void findAboutParts(const NullPoseEvidence& evidence, Findings& findings) {
     if (evidence.record.incompleteMessages > 0) {
         findings.push_back(
             {NullPoseFault::EarlierPartMissing, isWhole ? Severity::Note : Severity::Warning, -1,
-             counted(evidence.record.incompleteMessages, "earlier scale message") +
-                 " came without all parts.",
-             isWhole ? "The network loses datagrams now and then; what is shown is whole."
+             counted(evidence.record.incompleteMessages, "earlier scale message") + " arrived incomplete.",
+             isWhole ? "What is shown is complete."
                      : "Segments or points are missing below. Something between here and the sender "
                        "loses datagrams, or the sender leaves them out."});
     }
@@ -193,10 +193,10 @@ void findAboutParts(const NullPoseEvidence& evidence, Findings& findings) {
 void findLeftOut(const NullPose& pose, Findings& findings) {
     if (pose.leftOut != 0) {
         findings.push_back({NullPoseFault::TooLarge, Severity::Error, -1,
-                            counted(pose.leftOut, "segment or point", "segments and points") +
+                            counted(pose.leftOut, "segment or point was", "segments and points were") +
                                 " left out: the scale message takes more than " +
                                 std::to_string(NullPose::kMostBytes / 1024) + " KB.",
-                            "MVN's take a tenth of it. Whatever sends this is no MVN."});
+                            "MVN's take a tenth of it. Whatever sends this is not MVN."});
     }
 }
 

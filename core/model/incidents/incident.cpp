@@ -194,7 +194,7 @@ std::string Incident::text() const {
     case IncidentKind::TimeCode:
         return !detail.empty() ? detail : "The time code jumped by " + fixedText(value, 0) + " ms.";
     case IncidentKind::Conflict:
-        return "Two sources send character " + std::to_string(character().value_or(0)) +
+        return "Two senders send character " + std::to_string(character().value_or(0)) +
                " at the same time; the other is " + detail + '.';
     case IncidentKind::ClockSet:
         return std::string("The receiving computer's clock was set ") + (value < 0 ? "back" : "forward") +

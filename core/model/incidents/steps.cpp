@@ -25,7 +25,7 @@ void IncidentFollower::noteStep(Stream& stream, const Verdict& verdict) {
     if (step == 0 && stream.toldStep != 0 && known >= kSettled && !std::exchange(stream.isUneven, true)) {
         Occurrence one = stepOf(stream.key, verdict); // until it has another one
         one.detail =
-            "The sample counter moves unevenly now, before by " + std::to_string(stream.toldStep) + '.';
+            "The step of the sample counter is irregular; it was " + std::to_string(stream.toldStep) + '.';
         m_incidents.report(one);
     }
     if (step == 0) {
@@ -41,7 +41,7 @@ void IncidentFollower::noteStep(Stream& stream, const Verdict& verdict) {
         return; // nobody knew it before
     }
     Occurrence one = stepOf(stream.key, verdict);
-    one.detail = "The sample counter moves by " + std::to_string(step) + " now, before by " +
+    one.detail = "The step of the sample counter is " + std::to_string(step) + " now; it was " +
                  std::to_string(before) + '.';
     m_incidents.report(one);
     excuse(stream.key, verdict.stamp);

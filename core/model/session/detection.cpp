@@ -161,7 +161,7 @@ std::vector<Contradiction> Detector::contradictions(const SenderOverride& declar
         const std::string read = std::string(unitName(*declared.positionUnit));
         found.push_back({"looks like " + looks + ", read as " + read, "positions look like " + looks + " (" +
                                                                           m_zUp.evidence() + "), read as " +
-                                                                          read + " because you said so"});
+                                                                          read + " because you set it"});
     }
     if (!m_zUp.before().empty()) {
         found.push_back({"unit has changed to " + looks, "positions were in " + m_zUp.before() +

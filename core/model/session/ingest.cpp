@@ -75,7 +75,7 @@ bool Ingest::follow(log::Stamp now, std::size_t most) {
     if (count > 0) {
         m_isLive = now - m_observed < kLive && m_observed - now < kLive;
     }
-    if (m_isLive && m_follower.lag() == 0) {
+    if (m_isLive && !m_isHeldUp && m_follower.lag() == 0) {
         m_attribution->advance(now - kUnderWay);
         m_incidents->advance(now);
     }

@@ -106,6 +106,7 @@ public:
 
     /// Reads at most `most` new packets; true if there were any.
     bool follow(log::Stamp now, std::size_t most);
+    void setHeldUp(bool isHeldUp) { m_isHeldUp = isHeldUp; }
     /// The same while a file is read: however new its packets are, silence after them is no silence.
     bool followFile(log::Stamp now, std::size_t most);
     /// Nothing more is read: what is not there by now is lost.
@@ -253,7 +254,8 @@ private:
     std::unique_ptr<Attribution> m_attribution; ///< tells them of losses
     log::Stamp m_nextContradictions{};
     bool m_isFile = false;
-    bool m_isLive = false; ///< packets have come as they were stamped
+    bool m_isHeldUp = false; ///< only packets tell what time it is
+    bool m_isLive = false;   ///< packets have come as they were stamped
 };
 
 } // namespace posewire::model

@@ -219,9 +219,9 @@ std::string headlineOf(const SessionView& session, const ListedIncident& listed,
     case IncidentKind::Outage:
         return "no data from " + who + (incident.cause ? causeOf(incident) : std::string());
     case IncidentKind::Reordered:
-        return counted(incident.count, "datagram") + " of " + who + " out of order";
+        return counted(incident.count, "datagram") + " of " + who + " reordered";
     case IncidentKind::Duplicates:
-        return counted(incident.count, "datagram") + " of " + who + " came twice";
+        return counted(incident.count, "datagram") + " of " + who + " duplicated";
     case IncidentKind::Malformed:
         return counted(incident.count, "datagram") + " of " + who + " malformed";
     case IncidentKind::Foreign:
@@ -281,9 +281,9 @@ std::string briefOf(const SessionView& session, const ListedIncident& listed) {
     case IncidentKind::Outage:
         return silenceOf(session, listed) + (incident.cause ? causeOf(incident) : std::string());
     case IncidentKind::Reordered:
-        return count + " out of order";
+        return count + " reordered";
     case IncidentKind::Duplicates:
-        return count + " came twice";
+        return count + " duplicated";
     case IncidentKind::Malformed:
         return count + " malformed";
     case IncidentKind::Foreign:

@@ -14,6 +14,8 @@ public:
     /// Reads at most `most` new packets; true if there were any. `now` (wall clock) is what ages are
     /// measured against.
     bool follow(log::Stamp now, std::size_t most = 200'000) { return m_ingest.follow(now, most); }
+    /// Whether time that passes is no evidence: what came meanwhile is not in the log yet (see HeldUp).
+    void setHeldUp(bool isHeldUp) { m_ingest.setHeldUp(isHeldUp); }
     /// The same while a file is read: however new its packets are, silence after them is no silence.
     bool followFile(log::Stamp now, std::size_t most = 200'000) { return m_ingest.followFile(now, most); }
     /// Nothing more is read: what is not there by now is lost.

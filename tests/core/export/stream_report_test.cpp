@@ -118,7 +118,7 @@ TEST_F(StreamReportTest, SaysOfEveryGapWhoseItWas) {
     EXPECT_THAT(html, HasSubstr("<h2>Events</h2>"));
     EXPECT_THAT(html, HasSubstr("source up"));
     EXPECT_THAT(html, HasSubstr("1 sample was lost in this computer"));
-    EXPECT_THAT(html, HasSubstr("1 sample was lost without evidence whose fault it was."));
+    EXPECT_THAT(html, HasSubstr("1 sample was lost with no sign of where."));
 }
 
 TEST_F(StreamReportTest, SaysThatNothingCame) {

@@ -121,7 +121,7 @@ TEST_F(CharacterModelTest, DoesNotCountAsLostWhatMayStillCome) {
     }
     perform(performer, 122, 200, log::secondsOf(m_stage.now - Stage::kStart) + 0.016);
     EXPECT_EQ(text(0, Column::kLostUnknown), "0");
-    EXPECT_EQ(text(0, Column::kVerdict), QStringLiteral("▲ 1 out of order, over"));
+    EXPECT_EQ(text(0, Column::kVerdict), QStringLiteral("▲ 1 reordered, over"));
 }
 
 // Defect 2: live rows under the ended sender, the wrong row picked, the predecessor's nominal rate.

@@ -114,7 +114,7 @@ TEST_F(InspectorPanelTest, TellsWhatIsMissingBeforeThePacketAndWhy) {
     panel.refresh();
     const QString text = panel.problems();
     EXPECT_TRUE(text.contains("1 sample is missing just before it. Cause: network. Type 20 of the same "
-                              "source brought sample"))
+                              "sender brought sample"))
         << text.toStdString();
 }
 

@@ -29,7 +29,7 @@ TEST_F(AttributionTest, BlamesTheNetworkWhereAnotherStreamBroughtTheSample) {
     }
     const Gap& gap = onlyGap();
     EXPECT_EQ(gap.cause, LossCause::Network);
-    EXPECT_EQ(gap.evidenceText(), "Type 24 of the same source brought sample 60, which is missing here.");
+    EXPECT_EQ(gap.evidenceText(), "Type 24 of the same sender brought sample 60, which is missing here.");
 }
 
 TEST_F(AttributionTest, BlamesTheNetworkWhereTheSampleCameTruncated) {
@@ -135,7 +135,7 @@ TEST_F(AttributionTest, BlamesTheSenderThatPausesAllItsStreams) {
     for (const Gap& gap : m_session.gaps()) {
         EXPECT_EQ(gap.cause, LossCause::Sender);
         EXPECT_EQ(gap.lost, 200U);
-        EXPECT_EQ(gap.evidenceText(), "All 2 streams of the source paused together for 804 ms, and the time "
+        EXPECT_EQ(gap.evidenceText(), "All 2 streams of the sender paused together for 804 ms, and the time "
                                       "code moved by 804 ms.");
     }
 }

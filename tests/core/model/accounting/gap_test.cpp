@@ -51,7 +51,7 @@ TEST_F(GapTest, IsNotJudgedBeforeLateArrivalsHadTheirTime) {
     m_at = end + Attribution::kPatience - 1ns;
     put(53, {});
     EXPECT_FALSE(onlyGap().isJudged);
-    EXPECT_EQ(onlyGap().evidenceText(), "Late arrivals are still waited for.");
+    EXPECT_EQ(onlyGap().evidenceText(), "Still waiting for late arrivals.");
     EXPECT_EQ(causes()[static_cast<std::size_t>(LossCause::Unknown)], 1U) << "not known yet";
     m_at = end + Attribution::kPatience;
     put(54, {});
@@ -94,7 +94,7 @@ TEST_F(GapTest, IsTheSameAcrossTheWrapAroundOfTheCounter) {
     EXPECT_EQ(gap.cause, LossCause::Network);
     EXPECT_EQ(gap.evidence, Gap::Evidence::OtherStream);
     EXPECT_EQ(gap.figure, 0U);
-    EXPECT_EQ(gap.evidenceText(), "Type 24 of the same source brought sample 0, which is missing here.");
+    EXPECT_EQ(gap.evidenceText(), "Type 24 of the same sender brought sample 0, which is missing here.");
 }
 
 TEST_F(GapTest, IsAPauseFromAQuarterOfASecondWhereTheTimeCodeMovedWithIt) {
@@ -139,7 +139,7 @@ TEST(GapTexts, SayOneAndMany) {
     gap.fromPacket = 10;
     gap.toPacket = 12;
     gap.lost = 1;
-    EXPECT_EQ(gap.evidenceText(), "Nothing was dropped here, and nothing else of the source shows where "
+    EXPECT_EQ(gap.evidenceText(), "Nothing was dropped here, and no other stream of the sender shows where "
                                   "1 sample went in 2000 ms.");
     gap.evidence = Gap::Evidence::Reliable;
     EXPECT_EQ(gap.evidenceText(), "TCP loses nothing: 1 sample was not sent.");
@@ -154,11 +154,11 @@ TEST(GapTexts, SayOneAndMany) {
     gap.evidence = Gap::Evidence::Damaged;
     EXPECT_EQ(gap.evidenceText(), "Sample 30 arrived truncated or damaged.");
     gap.evidence = Gap::Evidence::Partial;
-    EXPECT_EQ(gap.evidenceText(), "Of sample 30, next to the gap, only a part arrived.");
+    EXPECT_EQ(gap.evidenceText(), "Only a part of sample 30, next to the gap, arrived.");
     gap.evidence = Gap::Evidence::Paused;
     gap.timeCodeMoved = 1'990;
     gap.figure = 2;
-    EXPECT_EQ(gap.evidenceText(), "All 2 streams of the source paused together for 2000 ms, and the time "
+    EXPECT_EQ(gap.evidenceText(), "All 2 streams of the sender paused together for 2000 ms, and the time "
                                   "code moved by 1990 ms.");
     EXPECT_EQ(nameOf(LossCause::ThisComputer), "this computer");
     EXPECT_EQ(nameOf(LossCause::Unknown), "unknown");

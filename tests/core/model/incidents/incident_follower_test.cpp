@@ -180,7 +180,7 @@ TEST_F(IncidentBounds, TwoSendersConflictWhereOneComesBackWithinASecond) {
     EXPECT_EQ(conflict.character(), 0);
     EXPECT_EQ(conflict.sender, sender());
     EXPECT_EQ(conflict.text(),
-              "Two sources send character 0 at the same time; the other is 127.0.0.1:40002.");
+              "Two senders send character 0 at the same time; the other is 127.0.0.1:40002.");
 }
 
 TEST_F(IncidentBounds, TwoSendersMaySendDifferentCharactersOrTypes) {

@@ -156,7 +156,7 @@ TEST_F(IncidentsTest, TellThatTheSenderSendsAnotherShareOfItsSamples) {
     }
     const auto steps = of(IncidentKind::Step);
     ASSERT_EQ(steps.size(), 1U);
-    EXPECT_EQ(steps[0].text(), "The sample counter moves by 2 now, before by 1.");
+    EXPECT_EQ(steps[0].text(), "The step of the sample counter is 2 now; it was 1.");
     EXPECT_TRUE(of(IncidentKind::RateLimit).empty());
     EXPECT_TRUE(of(IncidentKind::Loss).empty());
 }

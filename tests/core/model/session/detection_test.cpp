@@ -128,7 +128,7 @@ TEST(Contradictions, TellAUnitThatIsNotTheDeclaredOne) {
     detector.addBody(pelvisAt(105.2F));
     EXPECT_THAT(texts(detector, {.positionUnit = LengthUnit::Metre}),
                 testing::ElementsAre("positions look like centimetres (pelvis at 105.20), read as metres "
-                                     "because you said so"));
+                                     "because you set it"));
 }
 
 TEST(Contradictions, BelieveAnotherUnitOnlyAfterManyPoses) {

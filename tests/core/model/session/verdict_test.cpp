@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "core/model/session/held_up.h"
 #include "core/model/session/verdict.h"
 
 #include "tests/core/model/incidents/incidents_fixture.h"
@@ -160,7 +161,7 @@ TEST_F(VerdictTest, IsNotGoodBetweenOneRateAndTheNext) {
         EXPECT_EQ(now.state, State::Warning) << sample << ": " << now.text;
     }
     ASSERT_EQ(of(IncidentKind::Step).size(), 1U);
-    EXPECT_EQ(of(IncidentKind::Step).front().detail, "The sample counter moves by 2 now, before by 1.");
+    EXPECT_EQ(of(IncidentKind::Step).front().detail, "The step of the sample counter is 2 now; it was 1.");
 }
 
 TEST_F(VerdictTest, EvenGapsAreLossOnceTheyAreNotEvenAnyMore) {
@@ -265,7 +266,7 @@ TEST_F(VerdictTest, DoesNotClaimLossWhereSamplesAreOutOfOrder) {
         }
     }
     EXPECT_EQ(verdict().state, State::Warning);
-    EXPECT_NE(verdict().text.find("out of order"), std::string::npos) << verdict().text;
+    EXPECT_NE(verdict().text.find("reordered"), std::string::npos) << verdict().text;
     EXPECT_EQ(told(), (std::array<std::uint64_t, kLossCauses>{}));
 }
 
@@ -276,6 +277,30 @@ TEST_F(VerdictTest, IsNotGoodWithinAQuarterOfASecondOfSilence) {
     EXPECT_EQ(silent.state, State::Warning);
     EXPECT_NE(silent.text.find("no data from Character 0"), std::string::npos) << silent.text;
     EXPECT_EQ(verdictAfter(1'100ms).state, State::Bad);
+}
+
+TEST_F(VerdictTest, CallsNobodySilentForTheTimeThatThisProgramWasStopped) {
+    poses(1, 300);
+    follow();
+    m_session.setHeldUp(true);
+    EXPECT_EQ(verdictAfter(1'500ms).state, State::Good) << "what came meanwhile was not read yet";
+    poses(301, 440);
+    EXPECT_EQ(verdictAfter(10ms).state, State::Good);
+    m_session.setHeldUp(false);
+    EXPECT_EQ(verdictAfter(120ms).state, State::Good);
+    EXPECT_TRUE(of(IncidentKind::Outage).empty());
+    EXPECT_EQ(verdictAfter(1'500ms).state, State::Bad);
+}
+
+TEST(HeldUp, IsWhoWasNotAskedForLongUntilWhatCameIsRead) {
+    HeldUp heldUp;
+    EXPECT_FALSE(heldUp.at(log::Stamp(100s)));
+    EXPECT_FALSE(heldUp.at(log::Stamp(100s + 200ms)));
+    EXPECT_TRUE(heldUp.at(log::Stamp(101s)));
+    EXPECT_TRUE(heldUp.at(log::Stamp(101s + 50ms)));
+    EXPECT_FALSE(heldUp.at(log::Stamp(101s + 100ms)));
+    EXPECT_TRUE(heldUp.at(log::Stamp(101s + 400ms)));
+    EXPECT_FALSE(heldUp.at(log::Stamp(101s + 700ms))) << "so that one that is always slow judges too";
 }
 
 TEST_F(VerdictTest, MentionsWhatIsOverForTenSecondsAndThenIsGood) {
