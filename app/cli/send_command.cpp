@@ -31,13 +31,14 @@ tl::expected<std::vector<SendLine>, Complaint> linesOf(const SendOptions& option
     return lines;
 }
 
-/// Reports what was sent, and writes the truth even if sending was cut short.
+/// Reports what was sent, and writes the truth.
 ExitStatus conclude(const SendOptions& options, std::vector<SendLine>& lines, Console& console) {
     std::uint64_t sent = 0;
     std::uint64_t refused = 0;
+    ExitStatus status = ExitStatus::Fine;
     for (SendLine& line : lines) {
         if (const auto finished = line.finish(); !finished) {
-            return console.unusable(finished.error().text);
+            status = console.unusable(finished.error().text);
         }
         for (const SendLine::Sender& sender : line.senders()) {
             sent += sender.sender.sent();
@@ -55,7 +56,7 @@ ExitStatus conclude(const SendOptions& options, std::vector<SendLine>& lines, Co
         }
     }
     console.out.write("sent " + std::to_string(sent) + (sent == 1 ? " datagram\n" : " datagrams\n"));
-    return ExitStatus::Fine;
+    return status;
 }
 
 /// Further characters of the same numbers, each with a performance of its own.
@@ -152,7 +153,15 @@ ExitStatus send(const SendOptions& options, Console& console) {
     }
     const ExitStatus status = options.file.empty() ? sendPerformance(options, *settings, *lines, console)
                                                    : sendFile(options, *lines, console);
-    return status == ExitStatus::Unusable ? status : worse(status, conclude(options, *lines, console));
+    if (status != ExitStatus::Unusable) {
+        return worse(status, conclude(options, *lines, console));
+    }
+    if (!options.truth.empty()) { // what was sent until then was sent
+        if (const auto written = writeTruth(options, *lines); !written) {
+            console.complain(written.error());
+        }
+    }
+    return status;
 }
 
 std::string motionList() {

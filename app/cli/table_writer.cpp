@@ -2,6 +2,7 @@
 #include "app/cli/table_writer.h"
 
 #include "app/cli/input_output.h"
+#include "app/system/interruption.h"
 #include "app/system/standard_streams.h"
 #include "core/log/system_files.h"
 
@@ -38,7 +39,10 @@ void TableWriter::show(std::vector<std::string> lines) {
 void TableWriter::add(std::string line, bool canWait) {
     std::unique_lock lock(m_mutex);
     if (canWait) {
-        m_changed.wait(lock, [this] { return m_lines.size() < kMostLines || !m_isWanted; });
+        constexpr std::chrono::milliseconds step{20};
+        const auto hasRoom = [this] { return m_lines.size() < kMostLines || !m_isWanted; };
+        while (!m_changed.wait_for(lock, step, hasRoom) && !system::Interruption::hasCome()) {
+        }
     }
     if (m_lines.size() >= kMostLines) {
         m_lines.pop_front();

@@ -20,6 +20,7 @@ std::array<int, 2> wakeUp{-1, -1};
 
 extern "C" void passOn(int signal) {
     const int error = errno;
+    handleEndings(SIG_DFL, 0); // the next one ends the program, whichever it is
     const char byte = static_cast<char>(signal);
     [[maybe_unused]] const ssize_t written = ::write(wakeUp[1], &byte, 1);
     errno = error;
@@ -45,7 +46,7 @@ EndingRequest::EndingRequest(std::function<void()> onRequest) : m_onRequest(std:
             m_onRequest();
         }
     });
-    handleEndings(passOn, static_cast<int>(SA_RESETHAND | SA_RESTART));
+    handleEndings(passOn, SA_RESTART);
 }
 
 EndingRequest::~EndingRequest() {

@@ -8,10 +8,13 @@
 #include "core/model/incidents/thresholds.h"
 #include "core/wire/type_table.h"
 
+#include <QRegularExpression>
 #include <QStringList>
 
 #include <algorithm>
 #include <array>
+#include <chrono>
+#include <cmath>
 #include <deque>
 #include <set>
 
@@ -122,10 +125,13 @@ PacketsBehind behindOf(model::SessionView& view, const std::vector<log::StreamKe
 } // namespace
 
 QString rangeFilter(model::SessionView& view, const model::TimeRange& range) {
-    const auto seconds = [&view](log::Stamp stamp) {
-        return QString::number(log::secondsOf(stamp - view.firstStamp()), 'f', 3);
-    };
-    return QStringLiteral("time >= %1 && time < %2").arg(seconds(range.from), seconds(range.to));
+    // To whole milliseconds around it, so that nothing of it is left out.
+    constexpr log::Duration unit = std::chrono::milliseconds(1);
+    const auto seconds = [](log::Duration time) { return QString::number(log::secondsOf(time), 'f', 3); };
+    const auto from = std::chrono::floor<std::chrono::milliseconds>(range.from - view.firstStamp());
+    const auto to =
+        std::chrono::floor<std::chrono::milliseconds>(range.to - view.firstStamp() + unit - log::Duration(1));
+    return QStringLiteral("time >= %1 && time < %2").arg(seconds(from), seconds(to));
 }
 
 QString statisticsFilter(model::SessionView& view, const StatisticsModel& model, const QModelIndex& index) {
@@ -265,11 +271,14 @@ QString packetCellFilter(model::SessionView& view, std::uint64_t number, int col
         return expression("number", std::to_string(number));
     case PacketModel::kTime:
         return QStringLiteral("time >= %1")
-            .arg(std::chrono::duration<double>(facts->stamp - view.firstStamp()).count(), 0, 'f', 6);
+            .arg(log::secondsOf(
+                     std::chrono::floor<std::chrono::microseconds>(facts->stamp - view.firstStamp())),
+                 0, 'f', 6);
     case PacketModel::kDelta:
         return facts->digest.deltaS < 0
                    ? QString()
-                   : QStringLiteral("delta >= %1").arg(static_cast<double>(facts->digest.deltaS), 0, 'f', 6);
+                   : QStringLiteral("delta >= %1")
+                         .arg(std::floor(1e6 * static_cast<double>(facts->digest.deltaS)) / 1e6, 0, 'f', 6);
     case PacketModel::kSender: {
         const auto sender = view.log().senders().find(facts->sender);
         return sender == nullptr ? QString() : expression("source", sender->address);
@@ -311,7 +320,8 @@ QString joinedFilter(const QString& filter, const QString& condition, FilterJoin
     if (join == FilterJoin::Or) {
         return before + QStringLiteral(" || ") + condition;
     }
-    const bool isLoose = before.contains(QLatin1String("||")) || before.contains(QLatin1String(" or "));
+    static const QRegularExpression either(QStringLiteral(R"(\|\||\bor\b)")); // one in a text does no harm
+    const bool isLoose = before.contains(either);
     const QString kept = isLoose ? QStringLiteral("(%1)").arg(before) : before;
     return kept + QStringLiteral(" && ") + (join == FilterJoin::AndNot ? negated : condition);
 }

@@ -138,7 +138,8 @@ PropertyValue units(const model::Sender& sender) {
     return concluded(
         found.unitEvidence.empty() ? tr("not known before type 02")
                                    : withEvidence(unitText(found.positionUnit), found.unitEvidence),
-        said, tr("Unit of positions in types 02, 21 and 24, judged by what a person can be · the evidence"));
+        said,
+        tr("Unit of positions in types 02, 05, 21 and 24, judged by the size of a body · the evidence"));
 }
 
 PropertyValue address(const model::Sender& sender) {

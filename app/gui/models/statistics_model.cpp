@@ -144,7 +144,7 @@ std::vector<TableColumn<StreamRow>> StatisticsModel::columns(const StatisticsMod
     columns[kNameColumn] = {
         .title = tr("Stream"),
         .help =
-            tr("Source, character and message type; sources and characters are the sums of their streams"),
+            tr("Sender, character and message type; senders and characters are the sums of their streams"),
         .text = [&model](const StreamRow& row) { return model.nameOf(row); },
         .toolTip =
             [&model](const StreamRow& row) {

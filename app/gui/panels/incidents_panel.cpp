@@ -219,6 +219,9 @@ void IncidentsPanel::showAskedFor() {
     if (!request.number) {
         return;
     }
+    if (!m_incidents.indexOf(*request.number).isValid()) {
+        setFilter({}); // it would hide what was asked for
+    }
     if (const QModelIndex row = m_incidents.indexOf(*request.number); row.isValid()) {
         m_current = request.number;
         setFollowing(false);

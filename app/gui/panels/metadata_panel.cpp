@@ -86,7 +86,7 @@ DetectionBar::DetectionBar(model::SessionView& view, Commands& commands, QWidget
                                       {tr("E"), Revision::E},
                                       {tr("J or K"), Revision::JOrK},
                                       {tr("L to N"), Revision::N}})),
-      m_unit(addChoice<LengthUnit>(tr("Unit assumed for positions of types 02 and 05"),
+      m_unit(addChoice<LengthUnit>(tr("Unit assumed for positions of types 02, 05, 21 and 24"),
                                    &SenderOverride::positionUnit,
                                    {{tr("automatic"), std::nullopt},
                                     {tr("metres"), LengthUnit::Metre},

@@ -135,10 +135,12 @@ void PacketsPanel::followFilter() {
     const QString text = QString::fromStdString(m_view.displayFilter());
     // What a sender's positions come in turns out, or is declared, while it sends.
     const auto units = m_comparesLengths ? unusualPositionUnits(m_view) : PositionUnits();
-    if (text == m_filterText && units == m_filterUnits) {
+    const log::Stamp first = m_view.firstStamp(); // from which times count: of the first packet, once there
+    if (text == m_filterText && units == m_filterUnits && first == m_filterFirst) {
         return;
     }
     m_filterText = text;
+    m_filterFirst = first;
     m_filter->setApplied(text);
     auto compiled = filter::Filter::compile(text.trimmed().toStdString());
     if (!compiled) {
@@ -155,8 +157,8 @@ void PacketsPanel::followFilter() {
         m_filtered = 0;
         m_unfiltered = 0;
         m_backlog = m_view.digests().end() - m_view.digests().begin();
-        m_run = std::make_unique<PacketFilterRun>(m_view.log(), m_view.digests(), *std::move(compiled),
-                                                  m_view.firstStamp(), m_filterUnits);
+        m_run = std::make_unique<PacketFilterRun>(m_view.log(), m_view.digests(), *std::move(compiled), first,
+                                                  m_filterUnits);
     }
 }
 

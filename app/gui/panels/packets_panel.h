@@ -101,7 +101,8 @@ private:
     std::uint64_t m_unfiltered = 0;           ///< packets that the filter was too late for
     QString m_filterText;                     ///< as it was last taken from the session
     bool m_comparesLengths = false;           ///< the filter that runs
-    PositionUnits m_filterUnits;              ///< that it runs with
+    log::Stamp m_filterFirst{};
+    PositionUnits m_filterUnits; ///< that it runs with
     FilterBar* m_filter;
     FindBar* m_find;
     PacketView* m_list;

@@ -7,6 +7,7 @@
 #include "app/gui/panels/timeline_view.h"
 #include "app/gui/theme/theme.h"
 
+#include <QDateTime>
 #include <QPainter>
 #include <QScrollBar>
 
@@ -86,9 +87,11 @@ void TimelineView::paintRuler(QPainter& painter) const {
     const log::Duration step = roundStep(length * textWidth / stripWidth());
     const int lane = fontMetrics().height();
     painter.setClipRect(namesWidth(), 0, stripWidth(), viewport()->height());
-    // Ticks stand at round times of day.
-    const auto sinceMidnight = m_view.wallOf(m_window.from).time_since_epoch() % step;
-    for (log::Stamp tick = m_window.from - sinceMidnight; tick < m_window.to; tick += step) {
+    // Ticks stand at round times of day, which is the local one.
+    const auto wall = m_view.wallOf(m_window.from).time_since_epoch();
+    const auto seconds = std::chrono::floor<std::chrono::seconds>(wall).count();
+    const std::chrono::seconds offset(QDateTime::fromSecsSinceEpoch(seconds).offsetFromUtc());
+    for (log::Stamp tick = m_window.from - (wall + offset) % step; tick < m_window.to; tick += step) {
         const double x = placeOf(tick);
         painter.setPen(theme().line);
         painter.drawLine(QPointF(x, lane * 0.3), QPointF(x, rulerHeight()));

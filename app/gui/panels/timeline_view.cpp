@@ -162,11 +162,12 @@ void TimelineView::mousePressEvent(QMouseEvent* event) {
     if (place.x() < namesWidth()) {
         if (const auto row = rowAt(place)) {
             const TimelineModel::Row& chosen = m_model.rows()[*row];
+            const model::CharacterKey character = chosen.character; // its row goes
             if (!chosen.type) {
-                m_model.toggle(chosen.character);
+                m_model.toggle(character);
                 readRows();
             }
-            m_commands.select({chosen.character.sender, chosen.character, -1});
+            m_commands.select({character.sender, character, -1});
         }
     } else if (const model::Incident* incident = incidentAt(place)) {
         m_commands.showIncident(incident->number);

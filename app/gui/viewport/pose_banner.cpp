@@ -68,8 +68,7 @@ std::vector<PoseNote> poseNotes(const model::SessionView& session, std::size_t m
             for (std::size_t i = notes.size(); i < groups.size(); ++i) {
                 left += groups[i].names.size();
             }
-            notes.push_back(
-                {Health::Unknown, tr("And of %1 more characters something is missing").arg(left)});
+            notes.push_back({Health::Unknown, tr("%1 more characters are not whole either").arg(left)});
             break;
         }
         notes.push_back({group.remark.isAssumed ? Health::Warning : Health::Unknown,

@@ -115,7 +115,7 @@ ThresholdsDialog::ThresholdsDialog(const AlertChoices& choices, QWidget* parent)
     auto* column = new QVBoxLayout(this);
     column->setSpacing(fontMetrics().height());
     column->addWidget(
-        dimText(tr("A stream that exceeds one of these raises one event per episode, which also "
+        dimText(tr("A stream that exceeds one of these raises one incident per episode, which also "
                    "shows in the health of its character. Changes apply from now on."),
                 this));
     column->addLayout(form);

@@ -25,7 +25,6 @@ namespace posewire::gui {
 
 namespace {
 
-constexpr log::Duration kPast = std::chrono::seconds(10);
 /// More would be a list: that is in the dock of events.
 constexpr std::size_t kMostLines = 6;
 
@@ -229,15 +228,15 @@ private:
 } // namespace
 
 QString lossText(model::SessionView& session, const model::CharacterKey& key) {
-    const log::Stamp now = session.cursorStamp();
-    const model::StreamCounts counts = session.countsOf(key, {now - kPast, now});
+    const model::TimeRange all{session.firstStamp(), session.cursorStamp() + log::Duration(1)};
+    const model::StreamCounts counts = session.countsOf(key, boardSpan(session).value_or(all));
+    const QString span = boardSpanText(session);
     if (counts.expected() == 0) {
-        return tr("No samples in the last 10 s.");
+        return tr("No samples · %1").arg(span);
     }
     const std::uint64_t lost = counts.lost + counts.incomplete;
-    return lost == 0
-               ? tr("All %1 samples of the last 10 s arrived.").arg(grouped(counts.expected()))
-               : tr("Lost %1 of %2 samples in the last 10 s.").arg(grouped(lost), grouped(counts.expected()));
+    return lost == 0 ? tr("All %1 samples arrived · %2").arg(grouped(counts.expected()), span)
+                     : tr("Lost %1 of %2 samples · %3").arg(grouped(lost), grouped(counts.expected()), span);
 }
 
 void showHealthPopup(model::SessionView& session, Commands& commands, const model::CharacterKey& key,

@@ -16,6 +16,7 @@
 #include <QMenu>
 #include <QMenuBar>
 
+#include <set>
 #include <string_view>
 
 namespace posewire::gui {
@@ -358,6 +359,7 @@ QMenu* menuAt(QMenuBar& bar, const QString& path) {
 }
 
 Menus::Menus(MainWindow& window, QMenuBar& bar) : m_window(window), m_entries(menuEntries()) {
+    std::set<QMenu*> connected;
     for (const MenuEntry& entry : m_entries) {
         QMenu* menu = menuAt(bar, QString::fromUtf8(entry.action->menu));
         if (entry.action->list != nullptr) {
@@ -371,7 +373,7 @@ Menus::Menus(MainWindow& window, QMenuBar& bar) : m_window(window), m_entries(me
             menu->addSeparator();
             continue;
         }
-        if (menu->isEmpty()) {
+        if (connected.insert(menu).second) {
             QObject::connect(menu, &QMenu::aboutToShow, &window, [this] { showStates(); });
         }
         menu->addAction(makeAction(entry));

@@ -180,6 +180,15 @@ TEST_F(TimelineTest, KeysZoomAndMove) {
     EXPECT_EQ(length(), all);
 }
 
+TEST_F(TimelineTest, AClickOnANameOpensItsStreamsAndSelectsIt) {
+    const model::CharacterKey second = m_stage.session.characters()[1].key;
+    const QPoint name(10, place(0s, 1).y());
+    for (int turn = 0; turn < 2; ++turn) { // opened, its rows move to another place
+        QTest::mouseClick(m_timeline.viewport(), Qt::LeftButton, {}, name);
+        EXPECT_EQ(m_stage.session.selection().character, second);
+    }
+}
+
 TEST_F(TimelineTest, AnIncidentIsShownWhereItsMarkIsClicked) {
     const model::Incident* outage = nullptr;
     for (const model::Incident& incident : m_stage.session.incidents().all()) {
