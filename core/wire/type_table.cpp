@@ -13,15 +13,14 @@ constexpr TypeInfo kRow<PoseEuler>{
     "Centimetres and degrees. The same data as type 02: (x, y, z) is 100 · (y, z, x) of it. "
     "Since N the fingers of both hands follow body and props."};
 template <>
-constexpr TypeInfo kRow<PoseQuaternion>{
-    "Pose, quaternion", Frame::ZUp, "E–N", "2.5.2",
-    "Metres on the wire, although the specification says centimetres. The text "
-    "also allows Y-up; no sender is known to use it."};
+constexpr TypeInfo kRow<PoseQuaternion>{"Pose, quaternion", Frame::ZUp, "E–N", "2.5.2",
+                                        "Metres on the wire, although the specification says centimetres. It "
+                                        "also allows Y-up; no sender is known to use it."};
 template <>
 constexpr TypeInfo kRow<PointPositions>{
     "Point positions", Frame::YUp, "E–N", "2.5.3",
     "Point IDs are 256 × segment + point, in older revisions 100 × segment + point. The "
-    "text says 38 to 46 points; the usual set has 64."};
+    "specification says 38 to 46 points; the usual set has 64."};
 template <>
 constexpr TypeInfo kRow<TagPositions>{"Tag positions", Frame::YUp, "E", "E 2.5",
                                       "Only tags that were updated are sent. Deprecated since J. Newer "
@@ -60,7 +59,7 @@ constexpr TypeInfo kRow<NullPose>{
 template <>
 constexpr TypeInfo kRow<JointAngles>{
     "Joint angles", Frame::Isb, "J–N", "2.7.1",
-    "22 joints in the text; real senders add 4 or 6 ergonomic angles (26 or 28 items), two "
+    "22 joints in the specification; real senders add 4 or 6 ergonomic angles (26 or 28 items), two "
     "of which have the same pair of IDs. Angles are about the ISB axes of the joint, "
     "although the specification names the axes of the segment."};
 template <>
@@ -71,7 +70,7 @@ constexpr TypeInfo kRow<AngularKinematics>{"Angular kinematics", Frame::ZUp, "J�
 template <>
 constexpr TypeInfo kRow<TrackerKinematics>{
     "Trackers", Frame::ZUp, "J–N", "2.7.4",
-    "68 bytes an item on the wire; 44 in the text since M. The payload size shows which."};
+    "68 bytes an item on the wire; 44 in the specification since M. The payload size shows which."};
 template <>
 constexpr TypeInfo kRow<CentreOfMass>{"Centre of mass", Frame::ZUp, "J–N", "2.7.5",
                                       "Recent senders add velocity and acceleration (36 bytes)."};

@@ -78,23 +78,23 @@ template <class Row>
 void addFigureColumns(std::vector<TableColumn<Row>>& columns) {
     using Column = TableColumn<Row>;
     columns.push_back(
-        Column::numbers(tr("nom."),
+        Column::numbers(tr("Nom."),
                         tr("Nominal rate in Hz, by the sender's own time code and sample counter"),
                         [](const Row& row) { return hertz(row.nominalHz, true); })
             .dimmed());
     columns.push_back(Column::numbers(tr("Hz"), tr("Rate in Hz, measured by arrival at this computer"),
                                       [](const Row& row) { return hertz(row.measuredHz, false); }));
-    columns.push_back(lostColumn<Row>(tr("here"), model::LossCause::ThisComputer,
+    columns.push_back(lostColumn<Row>(tr("Here"), model::LossCause::ThisComputer,
                                       tr("Samples of all its streams that this computer lost, in the time "
                                          "that stands above the table")));
-    columns.push_back(lostColumn<Row>(tr("network"), model::LossCause::Network,
+    columns.push_back(lostColumn<Row>(tr("Network"), model::LossCause::Network,
                                       tr("Samples that the network lost, in the time that stands above the "
                                          "table")));
-    columns.push_back(lostColumn<Row>(tr("sender"), model::LossCause::Sender,
+    columns.push_back(lostColumn<Row>(tr("Sender"), model::LossCause::Sender,
                                       tr("Samples that the sender left out, in the time that stands above "
                                          "the table")));
-    columns.push_back(lostColumn<Row>(tr("unknown"), model::LossCause::Unknown,
-                                      tr("Samples lost of which nothing shows by whom, in the time that "
+    columns.push_back(lostColumn<Row>(tr("Unknown"), model::LossCause::Unknown,
+                                      tr("Samples lost, cause unknown, in the time that "
                                          "stands above the table")));
     columns.push_back(Column::numbers(tr("Age"), tr("Seconds since its newest datagram"), [](const Row& row) {
                           return ageText(row.ageS);
