@@ -5,9 +5,11 @@
 
 #include <QDir>
 #include <QFileInfo>
+#include <QRegularExpression>
 #include <QStandardPaths>
 
 #include <algorithm>
+#include <set>
 
 namespace posewire::gui {
 
@@ -16,6 +18,23 @@ namespace {
 int numberOf(const QJsonObject& object, const char* key, int usual, int most) {
     const int number = object[QLatin1String(key)].toInt(usual);
     return number >= 0 && number <= most ? number : usual;
+}
+
+/// The numbers of the takes that are there, whenever they were made.
+std::set<int> takesIn(const QDir& folder, const QString& pattern) {
+    QString wanted = QRegularExpression::escape(pattern + QStringLiteral(".pcapng"));
+    for (const QLatin1String time : {QLatin1String("{date}"), QLatin1String("{time}")}) {
+        wanted.replace(QRegularExpression::escape(QString(time)), QStringLiteral(".*"));
+    }
+    wanted.replace(QRegularExpression::escape(QStringLiteral("{take}")), QStringLiteral("(\\d{3,})"));
+    const QRegularExpression name(QRegularExpression::anchoredPattern(wanted));
+    std::set<int> takes;
+    for (const QString& file : folder.entryList({QStringLiteral("*.pcapng")}, QDir::Files)) {
+        if (const QRegularExpressionMatch match = name.match(file); match.hasMatch()) {
+            takes.insert(match.captured(1).toInt());
+        }
+    }
+    return takes;
 }
 
 } // namespace
@@ -62,13 +81,11 @@ QString nextTakePath(const RecordingChoice& choice, const QDateTime& begin) {
     };
     const bool isNumbered = pattern.contains(QLatin1String("{take}"));
     int take = 1;
-    const auto isThere = [&](int number) {
-        const QString text = QStringLiteral("%1").arg(number, 3, 10, QLatin1Char('0'));
-        return !folder.entryList({named(text, QStringLiteral("*"), QStringLiteral("*"))}, QDir::Files)
-                    .isEmpty();
-    };
-    while (isNumbered && isThere(take)) {
-        ++take;
+    if (isNumbered) {
+        const std::set<int> taken = takesIn(folder, pattern);
+        while (taken.contains(take)) {
+            ++take;
+        }
     }
     const QString path = folder.filePath(named(QStringLiteral("%1").arg(take, 3, 10, QLatin1Char('0')),
                                                begin.toString(QStringLiteral("yyyy-MM-dd")),

@@ -49,7 +49,7 @@ double characterAge(const model::SessionView& view, log::Stamp newest) {
 /// Nothing comes at all where nothing has come for long.
 double measuredHz(const model::Stream& stream, double ageS, bool isRecording) {
     const double rateHz = stream.statistics.rateHz();
-    const bool isSilent = !isRecording && ageS > std::max(kStaleAge, rateHz > 0 ? 2.5 / rateHz : 0.0);
+    const bool isSilent = !isRecording && ageS > std::max(kStaleAge, patienceAt(rateHz));
     return isSilent ? 0 : rateHz;
 }
 
@@ -99,9 +99,12 @@ void addFigureColumns(std::vector<TableColumn<Row>>& columns) {
     columns.push_back(Column::numbers(tr("Age"), tr("Seconds since its newest datagram"), [](const Row& row) {
                           return ageText(row.ageS);
                       }).withColour([](const Row& row) {
-        return row.ageS >= kStaleAge    ? QVariant(theme().error)
-               : row.ageS >= kSilentAge ? QVariant(theme().warning)
-                                        : QVariant();
+        // What has no rate is sent now and then.
+        const double patience = patienceAt(row.nominalHz.value_or(0));
+        return !row.nominalHz                               ? QVariant()
+               : row.ageS >= std::max(kStaleAge, patience)  ? QVariant(theme().error)
+               : row.ageS >= std::max(kSilentAge, patience) ? QVariant(theme().warning)
+                                                            : QVariant();
     }));
 }
 

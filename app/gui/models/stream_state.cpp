@@ -13,10 +13,9 @@ namespace posewire::gui {
 
 namespace {
 
-/// What the time without data says; nothing before a stream is silent. Slow streams are given the time of two
-/// and a half samples.
+/// What the time without data says; nothing before a stream is silent.
 PropertyValue ageState(double age, double rateHz) {
-    const double patience = rateHz > 0 ? 2.5 / rateHz : 0.0;
+    const double patience = patienceAt(rateHz);
     if (age >= std::max(kStaleAge, patience)) {
         return {tr("stale %1").arg(duration(age)), Health::Error};
     }

@@ -11,6 +11,10 @@ namespace posewire::gui {
 /// Without data for this long a stream is silent, and for the second it is stale (seconds).
 inline constexpr double kSilentAge = 0.25;
 inline constexpr double kStaleAge = 1.0;
+/// A slow stream is given the time of two and a half samples (seconds); `rateHz` 0 where it is not known.
+[[nodiscard]] constexpr double patienceAt(double rateHz) {
+    return rateHz > 0 ? 2.5 / rateHz : 0.0;
+}
 
 /// Whether a stream is well: age first, then malformed datagrams, then lost samples. Types that are sent now
 /// and then (12, 13) never get stale. Of `losses` the range is that in which what was lost counts.

@@ -25,6 +25,14 @@ protected:
     RecordingChoice m_choice{.folder = m_folder.path()};
 };
 
+TEST_F(RecordingChoiceTest, TakesAreNumberedWhateverTheSignsInTheirNames) {
+    m_choice.pattern = QStringLiteral("[A] {date} (take {take})");
+    EXPECT_EQ(next(), "[A] 2026-11-23 (take 001).pcapng");
+    makeFile("[A] 2026-11-20 (take 001).pcapng");
+    makeFile("A 2026-11-20 (take 002).pcapng");
+    EXPECT_EQ(next(), "[A] 2026-11-23 (take 002).pcapng");
+}
+
 TEST_F(RecordingChoiceTest, TakesAreNumberedWhateverTheTimeInTheirNames) {
     EXPECT_EQ(next(), "Take 001 2026-11-23 10-42-17.pcapng");
     makeFile("Take 001 2026-11-22 09-00-00.pcapng");
