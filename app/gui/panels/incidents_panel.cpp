@@ -205,6 +205,11 @@ void IncidentsPanel::refresh() {
     placeChip();
 }
 
+/// Its table is hidden when it goes, and would tell of a scroll bar that moved.
+IncidentsPanel::~IncidentsPanel() {
+    m_table->verticalScrollBar()->disconnect(this);
+}
+
 /// What somebody elsewhere asked for, once.
 void IncidentsPanel::showAskedFor() {
     const model::IncidentRequest& request = m_view.incidentRequest();

@@ -60,6 +60,7 @@ class IncidentsPanel : public Panel {
 
 public:
     IncidentsPanel(model::SessionView& view, Commands& commands, QWidget* parent);
+    ~IncidentsPanel() override;
 
     [[nodiscard]] static std::span<const ActionInfo> actionTable();
 
