@@ -272,7 +272,7 @@ bool solve(std::span<const PosePart> parts, const BodyOrigins& body, CharacterPo
 } // namespace
 
 SegmentLayout segmentLayout(const wire::Header& header, std::size_t items) {
-    if (header.countedSegments() == items && header.bodySegments != 0) {
+    if (header.countedSegments() == items && header.bodySegments != 0 && items <= wire::kMaxSegments) {
         return {header.bodySegments, header.props, header.fingerSegments};
     }
     const int count = static_cast<int>(std::min<std::size_t>(items, wire::kMaxSegments));
