@@ -70,8 +70,10 @@ void OpenedFile::takeComments() {
 }
 
 void OpenedFile::takeMarks() {
-    for (log::RecordedMark& mark :
-         m_import != nullptr ? m_import->marks() : std::vector<log::RecordedMark>()) {
+    if (m_import == nullptr) {
+        return;
+    }
+    for (log::RecordedMark& mark : m_import->marks()) {
         m_session.setMarked(mark.packet, true);
         if (!mark.comment.empty()) {
             m_session.setComment(mark.packet, std::move(mark.comment));

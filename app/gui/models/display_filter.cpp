@@ -126,11 +126,9 @@ PacketsBehind behindOf(model::SessionView& view, const std::vector<log::StreamKe
 
 QString rangeFilter(model::SessionView& view, const model::TimeRange& range) {
     // To whole milliseconds around it, so that nothing of it is left out.
-    constexpr log::Duration unit = std::chrono::milliseconds(1);
     const auto seconds = [](log::Duration time) { return QString::number(log::secondsOf(time), 'f', 3); };
     const auto from = std::chrono::floor<std::chrono::milliseconds>(range.from - view.firstStamp());
-    const auto to =
-        std::chrono::floor<std::chrono::milliseconds>(range.to - view.firstStamp() + unit - log::Duration(1));
+    const auto to = std::chrono::ceil<std::chrono::milliseconds>(range.to - view.firstStamp());
     return QStringLiteral("time >= %1 && time < %2").arg(seconds(from), seconds(to));
 }
 

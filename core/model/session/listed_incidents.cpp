@@ -105,14 +105,11 @@ std::string whom(const SessionView& session, const Incident& incident) {
     if (characters.empty()) {
         return session.addressOf(incident.sender).shown();
     }
-    if (characters.size() > 2) {
-        return std::to_string(characters.size()) + " characters";
-    }
     std::vector<std::string> names;
     for (const std::uint8_t character : characters) {
         names.push_back(session.displayName({incident.sender, character}).shown());
     }
-    return listed(names);
+    return namesOrCount(names);
 }
 
 /// Of all of it.
@@ -165,6 +162,10 @@ std::vector<ListedIncident> unlistedOf(const SessionView& session) {
 }
 
 } // namespace
+
+std::string namesOrCount(const std::vector<std::string>& names) {
+    return names.size() > 2 ? counted(names.size(), "character") : listed(names);
+}
 
 std::string_view nameOf(ListedIncident::State state) {
     constexpr std::array<std::string_view, 3> kNames{"provisional", "ongoing", "over"};
@@ -262,9 +263,9 @@ std::string outageHeadlineOf(const SessionView& session, std::span<const ListedI
             names.push_back(session.addressOf(one.incident.sender).shown());
         }
     }
-    const std::string who = names.size() > 2 ? counted(names.size(), "character") : listed(names);
     const bool hasCause = isOneCause && outages.front().incident.cause;
-    return "no data from " + who + (hasCause ? causeOf(outages.front().incident) : std::string());
+    return "no data from " + namesOrCount(names) +
+           (hasCause ? causeOf(outages.front().incident) : std::string());
 }
 
 std::string briefOf(const SessionView& session, const ListedIncident& listed) {

@@ -43,6 +43,9 @@ struct ListedIncident {
 [[nodiscard]] std::string headlineOf(const SessionView& session, const ListedIncident& listed,
                                      const std::string& lost = {});
 
+/// "Jonas", "Jonas and Mira", "4 characters".
+[[nodiscard]] std::string namesOrCount(const std::vector<std::string>& names);
+
 /// Of several outages that go on at once: all who are silent, and the cause where it is one.
 [[nodiscard]] std::string outageHeadlineOf(const SessionView& session,
                                            std::span<const ListedIncident> outages);

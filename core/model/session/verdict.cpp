@@ -185,14 +185,11 @@ std::optional<PoseDoubt> doubtOf(const SessionView& session, const Character& ch
 /// Of all characters with the same doubt.
 TakeVerdict onPoses(const SessionView& session, const PoseDoubt& doubt,
                     const std::vector<CharacterKey>& characters, log::Stamp since) {
-    std::string who = counted(characters.size(), "character");
-    if (characters.size() <= 2) {
-        std::vector<std::string> names;
-        for (const CharacterKey& key : characters) {
-            names.push_back(session.displayName(key).shown());
-        }
-        who = listed(names);
+    std::vector<std::string> names;
+    for (const CharacterKey& key : characters) {
+        names.push_back(session.displayName(key).shown());
     }
+    const std::string who = namesOrCount(names);
     std::string text = "Not quite good: ";
     if (!doubt.reason.empty()) {
         text += who + ": " + doubt.reason;
