@@ -105,11 +105,11 @@ std::string whom(const SessionView& session, const Incident& incident) {
     if (characters.empty()) {
         return session.addressOf(incident.sender).shown();
     }
-    std::vector<std::string> names;
+    std::vector<CharacterKey> keys;
     for (const std::uint8_t character : characters) {
-        names.push_back(session.displayName({incident.sender, character}).shown());
+        keys.push_back({incident.sender, character});
     }
-    return namesOrCount(names);
+    return namesOrCount(session, keys);
 }
 
 /// Of all of it.
@@ -163,8 +163,15 @@ std::vector<ListedIncident> unlistedOf(const SessionView& session) {
 
 } // namespace
 
-std::string namesOrCount(const std::vector<std::string>& names) {
-    return names.size() > 2 ? counted(names.size(), "character") : listed(names);
+std::string namesOrCount(const SessionView& session, std::span<const CharacterKey> characters) {
+    if (characters.size() > 2) {
+        return counted(characters.size(), "character");
+    }
+    std::vector<std::string> names;
+    for (const CharacterKey& key : characters) {
+        names.push_back(session.displayName(key).shown());
+    }
+    return listed(names);
 }
 
 std::string_view nameOf(ListedIncident::State state) {
@@ -264,8 +271,8 @@ std::string outageHeadlineOf(const SessionView& session, std::span<const ListedI
         }
     }
     const bool hasCause = isOneCause && outages.front().incident.cause;
-    return "no data from " + namesOrCount(names) +
-           (hasCause ? causeOf(outages.front().incident) : std::string());
+    const std::string who = names.size() > 2 ? counted(names.size(), "character") : listed(names);
+    return "no data from " + who + (hasCause ? causeOf(outages.front().incident) : std::string());
 }
 
 std::string briefOf(const SessionView& session, const ListedIncident& listed) {

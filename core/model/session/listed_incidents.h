@@ -44,7 +44,7 @@ struct ListedIncident {
                                      const std::string& lost = {});
 
 /// "Jonas", "Jonas and Mira", "4 characters".
-[[nodiscard]] std::string namesOrCount(const std::vector<std::string>& names);
+[[nodiscard]] std::string namesOrCount(const SessionView& session, std::span<const CharacterKey> characters);
 
 /// Of several outages that go on at once: all who are silent, and the cause where it is one.
 [[nodiscard]] std::string outageHeadlineOf(const SessionView& session,

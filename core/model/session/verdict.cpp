@@ -185,11 +185,7 @@ std::optional<PoseDoubt> doubtOf(const SessionView& session, const Character& ch
 /// Of all characters with the same doubt.
 TakeVerdict onPoses(const SessionView& session, const PoseDoubt& doubt,
                     const std::vector<CharacterKey>& characters, log::Stamp since) {
-    std::vector<std::string> names;
-    for (const CharacterKey& key : characters) {
-        names.push_back(session.displayName(key).shown());
-    }
-    const std::string who = namesOrCount(names);
+    const std::string who = namesOrCount(session, characters);
     std::string text = "Not quite good: ";
     if (!doubt.reason.empty()) {
         text += who + ": " + doubt.reason;
