@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <numeric>
 #include <utility>
 
 namespace posewire::model {
@@ -206,24 +207,31 @@ void Attribution::learnPatience(const Gap& gap, log::Stamp stamp) {
     }
 }
 
-/// Gaps that are all as large as the one before may be a new spacing of the sender.
+/// Gaps in a row that are all multiples of one spacing may be a new step of the sender, losses among them.
 void Attribution::noteSpacing(Stream& stream, const Verdict& verdict) {
     if (!verdict.isFirstOfSample || verdict.isReordered) {
         return;
     }
     const std::uint32_t spacing = verdict.gap != 0 ? verdict.sample - verdict.sampleBefore : 0;
-    stream.evenGaps = spacing == 0 || spacing != stream.evenSpacing ? 0 : stream.evenGaps;
-    stream.evenGaps += spacing == 0 ? 0 : 1;
-    stream.evenSpacing = spacing;
+    const std::uint32_t common = std::gcd(stream.evenSpacing, spacing);
+    const bool isMore = spacing != 0 && stream.evenGaps != 0 && common > stream.accounting.step();
+    stream.evenGaps = isMore ? stream.evenGaps + 1 : spacing != 0 ? 1 : 0;
+    stream.evenSpacing = isMore ? common : spacing;
 }
 
-/// Whether a gap that is due is one of several that are alike, and the stream still goes on like that.
+/// Whether a gap that is due is one of several that are alike, or may become one, and the stream still goes
+/// on like that.
 bool Attribution::mayBeStep(const Due& due, log::Stamp stamp) const {
     const Gap* gap = due.stream != nullptr ? find(due.gap) : nullptr;
-    const bool isEven = gap != nullptr && gap->lost != 0 && due.stream->evenGaps >= kEven &&
-                        gap->toSample - gap->fromSample == due.stream->evenSpacing;
-    return isEven && stamp - due.stream->accounting.lastStamp() <
-                         std::max(kMostPatience, 3 * (gap->toStamp - gap->fromStamp));
+    const bool isEven = gap != nullptr && gap->lost != 0 && due.stream->evenGaps != 0 &&
+                        (gap->toSample - gap->fromSample) % due.stream->evenSpacing == 0;
+    if (!isEven) {
+        return false;
+    }
+    const log::Duration lasted = gap->toStamp - gap->fromStamp;
+    const log::Duration patience = due.stream->evenGaps >= kEven ? std::max(kMostPatience, 3 * lasted)
+                                                                 : std::min(kMostPatience, 3 * lasted / 2);
+    return stamp - due.stream->accounting.lastStamp() < patience;
 }
 
 void Attribution::judgeHeld(log::Stamp stamp, bool isAll) {

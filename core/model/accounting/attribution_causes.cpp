@@ -10,6 +10,8 @@ namespace {
 
 // Other streams brought what is missing about when it should have come.
 constexpr log::Duration kMeanwhile = std::chrono::milliseconds(150);
+// One sample of a slow stream that is lost on its way looks like a pause.
+constexpr std::uint32_t kFewestOfPause = 2;
 
 } // namespace
 
@@ -102,6 +104,9 @@ const Attribution::Damage* Attribution::damageWithin(const Gap& gap) const {
 
 bool Attribution::hasPaused(const Gap& gap, const Sender& sender) const {
     const log::Duration lasted = gap.toStamp - gap.fromStamp;
+    if (gap.lost < kFewestOfPause) {
+        return false;
+    }
     const bool isSilent = std::ranges::any_of(sender.silences, [&](const TimeRange& silence) {
         const log::Duration common =
             std::min(silence.to, gap.toStamp) - std::max(silence.from, gap.fromStamp);

@@ -57,8 +57,8 @@ struct Stream {
     std::uint64_t restSamples = 0;  ///< Attribution: lost in hindsight, without a gap
     std::uint64_t restIncident = 0; ///< Attribution: that these are told in
     bool awaitsRest = false;        ///< Attribution
-    std::uint32_t evenSpacing = 0;  ///< Attribution: between the newest two samples, where there is a gap
-    std::uint32_t evenGaps = 0;     ///< Attribution: so many gaps in a row are as large
+    std::uint32_t evenSpacing = 0;  ///< Attribution: what the newest differences are multiples of, all gaps
+    std::uint32_t evenGaps = 0;     ///< Attribution: so many are
     std::uint64_t judgedMessage = UINT64_MAX; ///< Attribution: its first packet, where the rest is lost
     double usualHz = 0;              ///< ThresholdWatch: its rate before the window; 0 before it is known
     bool isWatched = false;          ///< ThresholdWatch

@@ -196,6 +196,35 @@ TEST_F(AttributionTest, TakesBackWhatAChangeOfStepExplains) {
     EXPECT_EQ(m_session.streams().front().accounting.counts().lost, 0U);
 }
 
+TEST_F(AttributionTest, ClaimsNoLossWhileAStepChangesAndSamplesOfItAreLost) {
+    frames(1, 300);
+    std::uint64_t lost = 0;
+    std::uint64_t most = 0;
+    for (std::uint32_t place = 1; place <= 300; ++place, m_at += 12ms) {
+        const bool isLost = place % 9 == 5 || place % 9 == 6;
+        lost += isLost ? 1 : 0;
+        if (!isLost) {
+            put(300 + 3 * place, {});
+            follow();
+        }
+        const auto causes = m_session.streams().front().lostByCause();
+        most = std::max(most, m_session.streams().front().attributed[3]);
+        ASSERT_LE(m_session.streams().front().attributed[3], lost) << place;
+        EXPECT_EQ(causes[0] + causes[1] + causes[2], 0U);
+    }
+    EXPECT_EQ(m_session.streams().front().accounting.counts().lost, lost);
+    EXPECT_GT(most, lost / 2);
+}
+
+TEST_F(AttributionTest, BlamesNoPauseForOneSampleOfASlowStream) {
+    for (std::uint32_t sample = 1; sample <= 40; ++sample, m_at += 1s) {
+        if (sample != 20) {
+            put(sample, {});
+        }
+    }
+    EXPECT_EQ(onlyGap().cause, LossCause::Unknown);
+}
+
 TEST_F(AttributionTest, IsTheSameInWhateverPortionsTheLogIsRead) {
     std::uint32_t random = 7;
     for (std::uint32_t sample = 1; sample <= 3'000; ++sample, m_at += 4ms) {
