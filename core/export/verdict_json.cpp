@@ -69,7 +69,7 @@ JsonValue incidentJson(const model::SessionView& session, const model::ListedInc
             {"samples", incident.samples},
             {"count", incident.count},
             {"text", model::headlineOf(session, listed)},
-            {"evidence", incident.text()}};
+            {"evidence", model::evidenceOf(listed)}};
 }
 
 JsonValue incidentsJson(const model::SessionView& session) {

@@ -36,9 +36,9 @@ QString fromTo(const model::SessionView& view, const IncidentLine& line) {
                                                               : tr("now (it may go on)"));
 }
 
-/// "12 not yet here", of an incident or of one of its streams.
-QString pendingWords(std::uint64_t samples) {
-    return tr("%1 not yet here").arg(grouped(samples));
+/// "12 not yet here", of one of the streams of an incident.
+QString pendingWords(const model::Incident::Part& part) {
+    return part.samples != 0 ? tr("%1 not yet here").arg(grouped(part.samples)) : tr("no data");
 }
 
 QString wordsOf(model::SessionView& view, const IncidentLine& line) {
@@ -52,7 +52,7 @@ QString wordsOf(model::SessionView& view, const IncidentLine& line) {
             words += settledWords();
         }
         if (line.pendingPart != nullptr) {
-            words += pendingWords(line.pendingPart->samples);
+            words += pendingWords(*line.pendingPart);
         }
         const QString said = words.join(QStringLiteral(" · "));
         return type ? tr("%1: %2").arg(QString::fromStdString(wire::typeTitle(*type)), said) : said;
@@ -60,8 +60,10 @@ QString wordsOf(model::SessionView& view, const IncidentLine& line) {
     if (line.settled == nullptr) {
         return fromUtf8(headlineOf(view, {*line.pending, State::Provisional})) + QLatin1Char('.');
     }
-    return line.pending == nullptr ? settledWords()
-                                   : tr("%1 %2.").arg(settledWords(), pendingWords(line.pending->samples));
+    return line.pending == nullptr
+               ? settledWords()
+               : tr("%1 %2.").arg(settledWords(),
+                                  fromUtf8(briefOf(view, {*line.pending, State::Provisional})));
 }
 
 QString lostWords(const IncidentLine& line) {

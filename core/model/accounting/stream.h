@@ -46,6 +46,10 @@ struct Stream {
     /// All samples lost and incomplete by LossCause.
     [[nodiscard]] std::array<std::uint64_t, kLossCauses> lostByCause() const;
 
+    /// So much came of it that something is missing where no more does; a corrupt header may have invented it
+    /// before.
+    [[nodiscard]] bool isEstablished() const { return accounting.datagrams() >= 10; }
+
     Message newest;              ///< its newest datagram as it was decoded; see Ingest::newest
     std::size_t newestBytes = 0; ///< of the largest that was in there, as it was sent
 
@@ -67,6 +71,7 @@ struct Stream {
     std::uint64_t toldStepSince = 0; ///< IncidentFollower: so many datagrams when it was first so
     bool isFollowed = false;         ///< IncidentFollower
     bool isUneven = false;           ///< IncidentFollower: it had a step
+    bool isStalled = false;          ///< IncidentFollower: missing for a moment, while others go on
     bool hasEnded = false;           ///< IncidentFollower: others of its character go on
 };
 

@@ -3,6 +3,7 @@
 
 #include "core/model/incidents/incident_kinds.h"
 #include "core/model/text.h"
+#include "core/wire/type_table.h"
 
 #include <algorithm>
 #include <cmath>
@@ -114,6 +115,14 @@ std::string_view wordOf(IncidentKind kind) {
     return factsOf(kind).word;
 }
 
+std::string typesText(const std::vector<std::uint8_t>& types) {
+    std::vector<std::string> names;
+    for (const std::uint8_t type : types) {
+        names.push_back(wire::typeDigits(type));
+    }
+    return (types.size() == 1 ? "type " : "types ") + listed(names);
+}
+
 std::optional<std::uint8_t> Incident::character() const {
     return onlyOne(parts, kCharacterOf);
 }
@@ -180,7 +189,7 @@ std::string Incident::text() const {
     case IncidentKind::Foreign:
         return counted(count, "datagram is", "datagrams are") + " not MXTP.";
     case IncidentKind::Restart:
-        return "The sample counter restarted.";
+        return detail.empty() ? "The sample counter restarted." : detail;
     case IncidentKind::Overtaken:
         return "This computer did not look at " + counted(wholeOf(value), "packet") + " in time.";
     case IncidentKind::Step:

@@ -51,6 +51,9 @@ enum class IncidentGroup : std::uint8_t { Sender, Loss, Content, Limit };
 /// Of the contract for scripts: "loss", "outage", "local" …; empty for a note, which is no incident there.
 [[nodiscard]] std::string_view wordOf(IncidentKind kind);
 
+/// "type 02", "types 02, 12 and 20".
+[[nodiscard]] std::string typesText(const std::vector<std::uint8_t>& types);
+
 /// One thing that happened to one stream, or to a character or sender as a whole.
 struct Occurrence {
     IncidentKind kind = IncidentKind::SourceUp;

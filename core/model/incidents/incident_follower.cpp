@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/incidents/incident_follower.h"
 
-#include "core/model/accounting/sender_clock.h"
 #include "core/model/text.h"
 
 #include <algorithm>
-#include <cstdlib>
+#include <functional>
+#include <string_view>
 #include <tuple>
 #include <utility>
 
@@ -21,12 +21,6 @@ constexpr log::Duration kEnded = std::chrono::milliseconds(500);
 constexpr log::Duration kNone = log::Duration::zero();
 /// What happened is not seen in any window of a limit any more.
 constexpr double kWindowAndMore = 1.5;
-constexpr std::int64_t kJumpMs = 500;
-/// A time code that is back where it belongs sooner did not jump: one datagram was corrupt, or some were held
-/// up together on their way.
-constexpr log::Duration kJumped = std::chrono::milliseconds(200);
-/// A time code that has stood still for as long while samples came.
-constexpr log::Duration kFrozen = std::chrono::seconds(1);
 
 Occurrence occurrenceOf(IncidentKind kind, const log::Packet& packet) {
     return Occurrence::at(kind, packet.sender, packet.stamp, packet.number);
@@ -51,6 +45,18 @@ log::Duration patienceWith(const std::vector<Stream*>& streams, log::Duration le
         fastestHz = std::max(fastestHz, stream->statistics.rateHz());
     }
     return fastestHz > 0 ? std::max(least, log::durationOf(samples / fastestHz)) : std::max(least, kLong);
+}
+
+/// "Types 02 and 20 are not sent any more …": one that ended now, and those of the incident before it.
+std::string endedText(const Incident* known, std::uint8_t type) {
+    std::vector<std::uint8_t> types = known != nullptr ? known->types() : std::vector<std::uint8_t>();
+    if (const auto place = std::ranges::lower_bound(types, type); place == types.end() || *place != type) {
+        types.insert(place, type);
+    }
+    std::string text = typesText(types) + (types.size() == 1 ? " is" : " are") +
+                       " not sent any more while others of the character go on.";
+    text.front() = 'T';
+    return text;
 }
 
 } // namespace
@@ -117,7 +123,7 @@ void IncidentFollower::takeOvertaken(std::uint64_t packet, std::uint64_t count, 
 void IncidentFollower::retire(log::SenderId sender) {
     m_watch.retire(sender);
     m_incidents.retire(sender);
-    m_addresses.erase(sender);
+    m_sources.erase(sender);
     m_outages.erase(sender);
     std::erase_if(m_characters, [sender](const auto& entry) { return entry.first.sender == sender; });
 }
@@ -125,7 +131,9 @@ void IncidentFollower::retire(log::SenderId sender) {
 void IncidentFollower::takeDatagram(const log::Packet& packet, const wire::Header& header, Stream& stream,
                                     const std::string& address) {
     m_watch.wake(stream);
-    if (m_addresses.try_emplace(packet.sender, address).second) {
+    if (const auto [place, isNew] = m_sources.try_emplace(packet.sender); isNew) {
+        const std::string_view host = std::string_view(address).substr(0, address.rfind(':'));
+        place->second = {address, std::hash<std::string_view>{}(host)};
         m_incidents.report(occurrenceOf(IncidentKind::SourceUp, packet));
     }
     if (countsSamples(header.type())) {
@@ -139,6 +147,7 @@ void IncidentFollower::noteSampled(const log::Packet& packet, const wire::Header
     if (!std::exchange(stream.isFollowed, true)) {
         character.streams.push_back(&stream);
     }
+    stream.isStalled = false;
     if (std::exchange(stream.hasEnded, false)) {
         stream.excusedUntil = {};
         excuse(stream.key, packet.stamp);
@@ -195,52 +204,6 @@ void IncidentFollower::resume(const CharacterKey& key, Character& character, log
     m_incidents.endPart(number, key.character, std::nullopt, stamp);
 }
 
-void IncidentFollower::supersede(const CharacterKey& key, log::Stamp stamp) {
-    const auto found = m_characters.find(key);
-    if (found == m_characters.end()) {
-        return;
-    }
-    if (found->second.outage != 0) {
-        resume(key, found->second, stamp);
-    }
-    found->second.lastSampled = {};
-    for (Stream* stream : found->second.streams) { // nothing is expected of them
-        stream->excusedUntil = log::Stamp::max();
-    }
-    for (const Incident* lasting : m_incidents.currentOf(key.sender)) {
-        if (lasting->group() == IncidentGroup::Limit) {
-            for (const std::uint8_t type : lasting->types()) {
-                m_incidents.endPart(lasting->number, key.character, type, stamp);
-            }
-        }
-    }
-}
-
-/// Two senders that take turns with one character in one type.
-void IncidentFollower::noteClaim(const log::Packet& packet, const wire::Header& header) {
-    auto& [newest, before] = m_claims[{header.character, header.type()}];
-    if (newest.stamp != log::Stamp() && newest.sender != packet.sender) {
-        const bool isBack = before.stamp != log::Stamp() && before.sender == packet.sender &&
-                            packet.stamp - before.stamp < std::chrono::seconds(1);
-        if (isBack) {
-            tellConflict(packet.sender, newest.sender, packet, header);
-            tellConflict(newest.sender, packet.sender, packet, header);
-        }
-        before = newest;
-    }
-    newest = {packet.sender, packet.stamp};
-}
-
-void IncidentFollower::tellConflict(log::SenderId of, log::SenderId other, const log::Packet& packet,
-                                    const wire::Header& header) {
-    Occurrence one = occurrenceOf(IncidentKind::Conflict, packet);
-    one.sender = of;
-    one.character = header.character;
-    const auto found = m_addresses.find(other);
-    one.detail = found != m_addresses.end() ? found->second : "a retired sender";
-    m_incidents.report(one);
-}
-
 void IncidentFollower::takeVerdict(Stream& stream, const Verdict& verdict) {
     if (verdict.isDuplicate) {
         m_incidents.report(ofStream(IncidentKind::Duplicates, stream.key, verdict));
@@ -251,7 +214,7 @@ void IncidentFollower::takeVerdict(Stream& stream, const Verdict& verdict) {
         excuse(stream.key, verdict.stamp);
     }
     if (countsSamples(stream.key.type)) {
-        noteTimeCode(stream.key, verdict);
+        noteTimeCode(stream, verdict);
         noteStep(stream, verdict);
     }
     if (!verdict.isRestart) {
@@ -267,46 +230,6 @@ void IncidentFollower::takeVerdict(Stream& stream, const Verdict& verdict) {
         character.restart = verdict.stamp;
         m_incidents.report(occurrenceOf(IncidentKind::Restart, stream.key, verdict));
     }
-}
-
-/// A time code that moves differently from our clock while the counter runs on. What came out of order is
-/// no evidence.
-void IncidentFollower::noteTimeCode(const log::StreamKey& stream, const Verdict& verdict) {
-    Character& character = m_characters[{stream.sender, stream.character}];
-    const bool isFirst = character.stamp == log::Stamp();
-    const auto moved = static_cast<std::int32_t>(verdict.sample - character.sample);
-    const bool isBeginning = isFirst || verdict.isRestart || moved < -Probation::kMostBack;
-    if (!verdict.isFirstOfSample || verdict.isReordered || verdict.isStray || (moved <= 0 && !isBeginning)) {
-        return;
-    }
-    const std::int64_t passedMs = (verdict.stamp - character.stamp) / std::chrono::milliseconds(1);
-    const std::int64_t jumpMs = timeCodeStep(character.timeCode, verdict.timeCode) - passedMs;
-    const bool isSame = verdict.timeCode == character.timeCode;
-    Occurrence one = occurrenceOf(IncidentKind::TimeCode, stream, verdict);
-    if (isBeginning) {
-        character.moved = {};
-        character.jump.reset();
-    } else if (!isSame) {
-        if (moved < Probation::kMostForward && std::abs(jumpMs) > kJumpMs &&
-            character.moved != log::Stamp()) {
-            one.value = static_cast<double>(jumpMs);
-            one.detail = "The time code jumped by " + fixedText(one.value, 0) + " ms.";
-            character.jump = character.jump.value_or(one);
-            if (verdict.stamp - character.jump->from < kJumped) {
-                return; // it is measured against what was before
-            }
-            m_incidents.report(*character.jump);
-        }
-        character.jump.reset();
-        character.moved = verdict.stamp;
-    } else if (character.moved != log::Stamp() && verdict.stamp - character.moved >= kFrozen) {
-        one.count = m_incidents.currentLike(one) != nullptr ? 0 : 1;
-        one.detail = "The time code stands still while samples come.";
-        m_incidents.report(one);
-    }
-    character.sample = verdict.sample;
-    character.timeCode = verdict.timeCode;
-    character.stamp = verdict.stamp;
 }
 
 /// Of the outage that a loss is of; 0 for none.
@@ -420,6 +343,8 @@ void IncidentFollower::check(log::Stamp stamp) {
     m_incidents.advance(stamp);
     for (auto& [key, character] : m_characters) {
         const log::Duration silent = silenceOf(character, stamp);
+        checkStalled(character, stamp);
+        checkTakenOver(key, character, stamp);
         if (character.outage == 0) {
             checkSilence(key, character, stamp);
         } else if (silent > kLong && !std::exchange(character.isLong, true)) {
@@ -434,6 +359,16 @@ void IncidentFollower::check(log::Stamp stamp) {
     }
 }
 
+/// Streams that are missing while others of their character go on: they may be late, lost or ended.
+void IncidentFollower::checkStalled(Character& character, log::Stamp stamp) {
+    const bool goesOn = character.lastSampled != log::Stamp() && stamp - character.lastSampled < kSilent;
+    for (Stream* stream : character.streams) {
+        const log::Duration silent = character.lastSampled - stream->accounting.lastStamp();
+        stream->isStalled = goesOn && !stream->hasEnded && stream->isEstablished() && silent > kSilent &&
+                            silent > patienceWith(std::vector{stream}, kSilent, 3);
+    }
+}
+
 /// Streams that ended while others of their characters go on: that is no loss.
 void IncidentFollower::checkEnded(log::Stamp stamp) {
     for (auto& [key, character] : m_characters) {
@@ -442,8 +377,8 @@ void IncidentFollower::checkEnded(log::Stamp stamp) {
         }
         for (Stream* stream : character.streams) {
             const log::Duration silent = character.lastSampled - stream->accounting.lastStamp();
-            const bool isOver = silent > patienceWith(std::vector{stream}, kEnded, 5) &&
-                                stamp - character.lastSampled < kSilent;
+            const bool isOver = stream->isEstablished() && stamp - character.lastSampled < kSilent &&
+                                silent > patienceWith(std::vector{stream}, kEnded, 3);
             if (isOver && !std::exchange(stream->hasEnded, true)) {
                 Occurrence one = Occurrence::at(IncidentKind::Step, key.sender,
                                                 stream->accounting.lastStamp(), m_lastPacket);
@@ -451,8 +386,9 @@ void IncidentFollower::checkEnded(log::Stamp stamp) {
                 one.character = key.character;
                 one.type = stream->key.type;
                 one.cause = LossCause::Unknown;
-                one.detail = "A type is not sent any more while others of its character go on.";
+                one.detail = endedText(m_incidents.currentLike(one), stream->key.type);
                 m_incidents.report(one);
+                stream->isStalled = false;
                 stream->excusedUntil = log::Stamp::max();
             }
         }

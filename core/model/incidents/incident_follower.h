@@ -13,6 +13,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace posewire::model {
@@ -54,8 +55,9 @@ public:
 
     /// Nothing of a sender lasts any longer, and its streams are about to go.
     void retire(log::SenderId sender);
-    /// Another sender sends a character now: that this one is silent is no fault.
-    void supersede(const CharacterKey& key, log::Stamp stamp);
+    /// Another sender sends a character now: that this one is silent is no fault. If it is, that is a
+    /// restart.
+    void supersede(const CharacterKey& key, const CharacterKey& by, log::Stamp stamp);
 
     /// Time passes without packets: reports only who is silent.
     void advance(log::Stamp stamp);
@@ -75,6 +77,23 @@ private:
         log::Stamp to{};
         std::uint64_t incident = 0; ///< 0: none yet
     };
+    /// Of the newest sample of a character, and what is known of those before.
+    struct TimeCodes {
+        std::uint32_t sample = 0;
+        std::uint32_t code = 0;
+        log::Stamp stamp{};
+        log::Stamp moved{};             ///< when it last changed; 0 before it ever did
+        log::Duration longest{};        ///< between two changes, while samples came
+        std::uint32_t changes = 0;      ///< so many
+        bool isStill = false;           ///< that is told
+        std::optional<Occurrence> jump; ///< while it may be none
+        bool isPause = false;           ///< the jump: the sender paused
+    };
+    /// From whom a character was taken over, and when.
+    struct TakeOver {
+        CharacterKey before{};
+        log::Stamp stamp{};
+    };
     struct Character {
         std::vector<Stream*> streams; ///< those that count samples
         log::Stamp lastSampled{};     ///< 0: nothing is expected
@@ -83,46 +102,54 @@ private:
         bool isLong = false;      ///< the outage
         Silence lastSilence;
         log::Stamp restart{}; ///< when its counter last restarted
-        // Of the newest sample, for the time code:
-        std::uint32_t sample = 0;
-        std::uint32_t timeCode = 0;
-        log::Stamp stamp{};
-        log::Stamp moved{};             ///< when the time code last changed; 0 before it ever did
-        std::optional<Occurrence> jump; ///< of the time code, while it may be none
+        TimeCodes timeCodes;
+        std::optional<TakeOver> tookOver{}; ///< while it may be that both go on
     };
-    /// Who sends a character in a type, and who did before; without a stamp where there is none.
+    /// Who sends a character, and who did before; without a stamp where there is none.
     struct Claim {
         log::SenderId sender{};
+        std::size_t host = 0;
         log::Stamp stamp{};
     };
     struct Claims {
         Claim newest;
         Claim before;
     };
+    struct Source {
+        std::string address;
+        std::size_t host = 0; ///< one number for each
+    };
     void tellClockSets(log::Stamp until);
     void check(log::Stamp stamp);
     [[nodiscard]] static log::Duration silenceOf(const Character& character, log::Stamp stamp);
     void checkSilence(const CharacterKey& key, Character& character, log::Stamp stamp);
+    static void checkStalled(Character& character, log::Stamp stamp);
     void checkEnded(log::Stamp stamp);
     void fallSilent(const CharacterKey& key, Character& character, log::Stamp stamp);
     void resume(const CharacterKey& key, Character& character, log::Stamp stamp);
     void noteSampled(const log::Packet& packet, const wire::Header& header, Stream& stream);
     void noteStep(Stream& stream, const Verdict& verdict);
-    void noteTimeCode(const log::StreamKey& stream, const Verdict& verdict);
+    [[nodiscard]] static Occurrence timeCodeOccurrence(const log::StreamKey& stream, const Verdict& verdict);
+    void noteTimeCode(const Stream& stream, const Verdict& verdict);
+    void noteStill(const log::StreamKey& stream, const Verdict& verdict, TimeCodes& codes);
+    bool noteChange(const Stream& stream, const Verdict& verdict, Character& character);
+    void tellPause(std::uint64_t outage, std::uint8_t character);
+    void checkTakenOver(const CharacterKey& key, Character& character, log::Stamp stamp);
     void noteClaim(const log::Packet& packet, const wire::Header& header);
-    void tellConflict(log::SenderId of, log::SenderId other, const log::Packet& packet,
-                      const wire::Header& header);
+    [[nodiscard]] static bool isTurn(const Claims& claims, log::Stamp stamp);
+    void tellConflict(const log::Packet& packet, log::SenderId other, std::uint8_t character);
     [[nodiscard]] std::uint64_t outageOf(const Loss& loss) const;
     void excuse(const log::StreamKey& key, log::Stamp from);
 
     Incidents m_incidents;
     ThresholdWatch m_watch;
-    std::map<log::SenderId, std::string> m_addresses;
+    std::map<log::SenderId, Source> m_sources;
     std::map<log::SenderId, std::uint64_t> m_outages; ///< the newest of each sender
     std::map<CharacterKey, Character> m_characters;
-    std::map<std::pair<std::uint8_t, std::uint8_t>, Claims> m_claims;
-    std::size_t m_clockSteps = 0;              ///< of the time line that were seen
-    std::vector<log::ClockStep> m_untoldSteps; ///< no packet has come since
+    std::map<std::pair<std::uint8_t, std::uint8_t>, Claims> m_claims; ///< by character and type
+    std::map<std::uint8_t, Claims> m_claimsOfHosts;                   ///< by character
+    std::size_t m_clockSteps = 0;                                     ///< of the time line that were seen
+    std::vector<log::ClockStep> m_untoldSteps;                        ///< no packet has come since
     std::uint64_t m_lastPacket = 0;
     log::Stamp m_nextCheck{};
     log::Stamp m_nextWatch{};

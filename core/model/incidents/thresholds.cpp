@@ -2,6 +2,7 @@
 #include "core/model/incidents/thresholds.h"
 
 #include "core/model/accounting/attribution.h"
+#include "core/model/text.h"
 
 #include <algorithm>
 #include <array>
@@ -82,7 +83,10 @@ void ThresholdWatch::check(Stream& stream, log::Stamp stamp, Incidents& incident
     const double ageS = log::secondsOf(stamp - accounting.lastStamp());
     const RangeFigures read = countedFigures(accounting, TimeRange{from, to});
     const double intervalS = usualIntervalS(stream, read);
-    hold(stream, {IncidentKind::AgeLimit, ageS, slackened(m_thresholds.ageS, intervalS)}, stamp, incidents);
+    if (stream.isEstablished()) {
+        hold(stream, {IncidentKind::AgeLimit, ageS, slackened(m_thresholds.ageS, intervalS)}, stamp,
+             incidents);
+    }
     if (read.counts.samples == 0) {
         return;
     }
@@ -95,9 +99,12 @@ void ThresholdWatch::check(Stream& stream, log::Stamp stamp, Incidents& incident
                  incidents);
         }
     }
-    const bool isWholeWindow = accounting.firstStamp() <= from && ageS < m_thresholds.windowS / 2;
     // While an incident explains it, it says nothing of what is usual.
-    if (!isWholeWindow || stamp <= stream.excusedUntil || m_thresholds.windowS <= 0) {
+    if (stamp <= stream.excusedUntil || m_thresholds.windowS <= 0) {
+        return;
+    }
+    const bool isWholeWindow = accounting.firstStamp() <= from && ageS < m_thresholds.windowS / 2;
+    if (!isWholeWindow || noteRate(stream, to, stamp, incidents)) {
         return;
     }
     const double rateHz = static_cast<double>(read.counts.samples) / m_thresholds.windowS;
@@ -109,6 +116,46 @@ void ThresholdWatch::check(Stream& stream, log::Stamp stamp, Incidents& incident
     // What lasts becomes usual: half of the way in about a minute of two checks a second.
     constexpr double kShare = 1.0 / 180;
     usualHz += usualHz > 0 ? (rateHz - usualHz) * kShare : rateHz;
+}
+
+/// Whether the sender sends at another rate than before, what it lost included, or may: it does where the
+/// rate is the same in two short times one after the other.
+bool ThresholdWatch::noteRate(Stream& stream, log::Stamp to, log::Stamp now, Incidents& incidents) const {
+    constexpr double kLeastS = 0.5;
+    constexpr double kLeastSamples = 20;
+    constexpr double kSteadyPercent = 10;
+    const double usualHz = stream.usualHz;
+    const double spanS = usualHz > 0 ? std::max(kLeastS, std::ceil(10 * kLeastSamples / usualHz) / 10) : 0;
+    if (usualHz <= 0 || m_thresholds.ratePercent <= 0 || 2 * spanS > m_thresholds.windowS) {
+        return false;
+    }
+    const log::Duration span = log::durationOf(spanS);
+    const auto rateFrom = [&](log::Stamp from) {
+        return static_cast<double>(stream.accounting.countsBetween(from, from + span).expected()) / spanS;
+    };
+    const auto isOff = [](double rate, double from, double percent) {
+        return 100 * std::abs(rate - from) > percent * from;
+    };
+    const double before = rateFrom(to - 2 * span);
+    const double rateHz = rateFrom(to - span);
+    const bool isNew = rateHz > 0 && isOff(rateHz, usualHz, m_thresholds.ratePercent);
+    if (!isNew || !isOff(before, usualHz, m_thresholds.ratePercent) ||
+        isOff(before, rateHz, kSteadyPercent)) {
+        return isNew && !isOff(before, usualHz, m_thresholds.ratePercent);
+    }
+    Occurrence one = Occurrence::at(IncidentKind::Step, stream.key.sender, to - 2 * span);
+    one.to = now;
+    one.character = stream.key.character;
+    one.type = stream.key.type;
+    one.detail = "The rate is " + fixedText(rateHz, 0) + " Hz now; it was " + fixedText(usualHz, 0) + " Hz.";
+    incidents.report(one);
+    stream.usualHz = rateHz;
+    stream.excusedUntil = now + log::durationOf(m_thresholds.windowS); // the window has both rates
+    const Occurrence limit = Occurrence::at(IncidentKind::RateLimit, stream.key.sender, now);
+    if (const Incident* known = incidents.currentLike(limit)) {
+        incidents.endPart(known->number, *one.character, *one.type, now);
+    }
+    return true;
 }
 
 /// What an incident explains already is no incident of its own: only how bad it is.

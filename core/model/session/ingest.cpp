@@ -389,7 +389,7 @@ Character* Ingest::characterOf(Sender& sender, std::uint8_t character, std::uint
     if (before != nullptr) {
         before->after = key;
         added.before = before->key;
-        m_incidents->supersede(before->key, m_observed);
+        m_incidents->supersede(before->key, key, m_observed);
         added.ordinal = before->ordinal;
     }
     sender.characters.push_back(&added);

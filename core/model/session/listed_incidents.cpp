@@ -46,7 +46,20 @@ std::map<log::SenderId, LossesByCause> untold(const SessionView& session) {
     return rest;
 }
 
-/// What is not there yet: gaps that late arrivals may still fill, and samples of which a part is under way.
+/// Streams of a sender that are missing while others of their character go on.
+std::vector<Incident::Part> stalledOf(const SessionView& session, log::SenderId sender) {
+    std::vector<Incident::Part> parts;
+    for (const Stream& stream : session.streams()) {
+        if (stream.isStalled && stream.key.sender == sender) {
+            parts.push_back(
+                {stream.key.character, stream.key.type, 0, 0, stream.accounting.lastStamp(), session.now()});
+        }
+    }
+    return parts;
+}
+
+/// What is not there yet: gaps that late arrivals may still fill, samples of which a part is under way, and
+/// streams that are missing.
 ListedIncident provisionalOf(const SessionView& session, log::SenderId sender, std::uint64_t samples) {
     ListedIncident listed;
     listed.state = State::Provisional;
@@ -66,6 +79,11 @@ ListedIncident provisionalOf(const SessionView& session, log::SenderId sender, s
                 ++incident.count;
             }
         });
+    for (const Incident::Part& part : stalledOf(session, sender)) {
+        incident.firstStamp = std::min(incident.firstStamp, part.from);
+        incident.lastStamp = std::max(incident.lastStamp, part.to);
+        incident.parts.push_back(part);
+    }
     if (incident.parts.empty()) {
         const Sender* from = session.find(sender);
         incident.firstStamp = incident.lastStamp = from != nullptr ? from->lastStamp : session.now();
@@ -74,12 +92,26 @@ ListedIncident provisionalOf(const SessionView& session, log::SenderId sender, s
     return listed;
 }
 
+/// A type of it that ended has not come back.
+bool isMissingStill(const SessionView& session, const Incident& incident) {
+    return std::ranges::any_of(incident.parts, [&](const Incident::Part& part) {
+        const Stream* stream =
+            part.character && part.type
+                ? session.find(log::StreamKey{incident.sender, *part.character, *part.type})
+                : nullptr;
+        return stream != nullptr && stream->hasEnded;
+    });
+}
+
 /// What did not happen again for twice as long as it took between the times it did, or for a second: more of
 /// it would be of the same incident, but it does not go on.
 bool hasCeased(const SessionView& session, const Incident& incident) {
     constexpr log::Duration kLeast = std::chrono::seconds(1);
     const auto repeats = static_cast<std::int64_t>(std::max<std::uint64_t>(2, incident.count) - 1);
     const log::Duration between = (incident.lastStamp - incident.firstStamp) / repeats;
+    if (incident.kind == IncidentKind::Step && isMissingStill(session, incident)) {
+        return false;
+    }
     const bool isLoss = incident.kind == IncidentKind::Loss || incident.kind == IncidentKind::Local;
     const log::Stamp known = isLoss ? session.judgedUntil() : session.now();
     return !factsOf(incident.kind).lasts &&
@@ -150,12 +182,13 @@ std::string silenceOf(const SessionView& session, const ListedIncident& listed) 
 std::vector<ListedIncident> unlistedOf(const SessionView& session) {
     std::vector<ListedIncident> all;
     for (const auto& [sender, sums] : untold(session)) {
-        for (std::size_t cause = 0; cause < kLossCauses; ++cause) {
+        for (std::size_t cause = 0; cause < kUnknownCause; ++cause) {
             if (sums[cause] != 0) {
-                all.push_back(cause == kUnknownCause
-                                  ? provisionalOf(session, sender, sums[cause])
-                                  : forgottenOf(sender, static_cast<LossCause>(cause), sums[cause]));
+                all.push_back(forgottenOf(sender, static_cast<LossCause>(cause), sums[cause]));
             }
+        }
+        if (sums[kUnknownCause] != 0 || !stalledOf(session, sender).empty()) {
+            all.push_back(provisionalOf(session, sender, sums[kUnknownCause]));
         }
     }
     return all;
@@ -215,7 +248,8 @@ std::string headlineOf(const SessionView& session, const ListedIncident& listed,
     const Incident& incident = listed.incident;
     const std::string who = whom(session, incident);
     if (listed.state == State::Provisional) {
-        return counted(incident.samples, "sample") + " of " + who + " not yet here";
+        return incident.samples != 0 ? counted(incident.samples, "sample") + " of " + who + " not yet here"
+                                     : "no data of " + typesText(incident.types()) + " from " + who;
     }
     switch (incident.kind) {
     case IncidentKind::Loss:
@@ -279,7 +313,8 @@ std::string briefOf(const SessionView& session, const ListedIncident& listed) {
     const Incident& incident = listed.incident;
     const std::string count = grouped(incident.count);
     if (listed.state == State::Provisional) {
-        return grouped(incident.samples) + " not yet here";
+        return incident.samples != 0 ? grouped(incident.samples) + " not yet here"
+                                     : "no data of " + typesText(incident.types());
     }
     switch (incident.kind) {
     case IncidentKind::Loss:
@@ -303,6 +338,14 @@ std::string briefOf(const SessionView& session, const ListedIncident& listed) {
     default:
         return std::string(nameOf(incident.kind));
     }
+}
+
+std::string evidenceOf(const ListedIncident& listed) {
+    if (listed.state != State::Provisional) {
+        return listed.incident.text();
+    }
+    return listed.incident.samples != 0 ? "What is missing may still come."
+                                        : "Other types of the same character go on.";
 }
 
 std::string whenOf(const SessionView& session, const ListedIncident& listed) {

@@ -52,6 +52,8 @@ struct ListedIncident {
 
 /// The same without whose: "37 lost, network".
 [[nodiscard]] std::string briefOf(const SessionView& session, const ListedIncident& listed);
+/// What it rests on, in a sentence.
+[[nodiscard]] std::string evidenceOf(const ListedIncident& listed);
 /// ", since 03:28:07", or ", 03:28:07 to 03:28:09" of what is over.
 [[nodiscard]] std::string whenOf(const SessionView& session, const ListedIncident& listed);
 

@@ -7,7 +7,6 @@
 #include "core/model/session/loss_amount.h"
 #include "core/model/text.h"
 #include "core/wire/messages.h"
-#include "core/wire/type_table.h"
 
 #include <algorithm>
 #include <array>
@@ -190,12 +189,8 @@ TakeVerdict onPoses(const SessionView& session, const PoseDoubt& doubt,
     if (!doubt.reason.empty()) {
         text += who + ": " + doubt.reason;
     } else {
-        std::vector<std::string> types;
-        for (const std::uint8_t type : doubt.types) {
-            types.push_back(wire::typeDigits(type));
-        }
         text += "no pose to draw of " + who + (characters.size() == 1 ? ", which sends " : ", which send ") +
-                (types.size() == 1 ? "type " : "types ") + listed(types);
+                typesText(doubt.types);
     }
     TakeVerdict verdict = lasting(TakeVerdict::State::Warning, text, doubt.brief, since);
     if (characters.size() == 1) {

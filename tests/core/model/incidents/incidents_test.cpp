@@ -172,6 +172,111 @@ TEST_F(IncidentsTest, TellATimeCodeThatStandsStill) {
     EXPECT_EQ(of(IncidentKind::TimeCode)[0].count, 1U);
 }
 
+TEST_F(IncidentsTest, TellWithinAQuarterOfASecondThatATimeCodeStandsStillAndForHowLongItDid) {
+    poses(1, 100);
+    for (std::uint32_t sample = 101; sample <= 125; ++sample, m_at += 10ms) {
+        m_timeCodeOff -= 10ms;
+        pose(sample);
+    }
+    ASSERT_EQ(of(IncidentKind::TimeCode).size(), 1U);
+    EXPECT_EQ(of(IncidentKind::TimeCode)[0].firstStamp, at(100s + 990ms)) << "when it last changed";
+    for (std::uint32_t sample = 126; sample <= 400; ++sample, m_at += 10ms) {
+        m_timeCodeOff -= 10ms;
+        pose(sample);
+    }
+    m_timeCodeOff = 0s;
+    poses(401, 500);
+    ASSERT_EQ(of(IncidentKind::TimeCode).size(), 1U) << "that it is right again is no jump";
+    EXPECT_EQ(of(IncidentKind::TimeCode)[0].text(), "The time code stood still for 3.0 s.");
+    EXPECT_EQ(of(IncidentKind::TimeCode)[0].count, 1U);
+}
+
+TEST_F(IncidentsTest, TakeATimeCodeThatAlwaysMovesInStepsForNoneThatStandsStill) {
+    for (std::uint32_t sample = 1; sample <= 600; ++sample, m_at += 10ms) {
+        m_timeCodeOff = -(m_at.time_since_epoch() % 250ms);
+        pose(sample);
+    }
+    EXPECT_TRUE(of(IncidentKind::TimeCode).empty());
+}
+
+TEST_F(IncidentsTest, TellAPauseOfTheSenderWhoseCounterGoesOnWhereItStopped) {
+    for (const log::Duration clock :
+         {3'000ms, 0ms}) { // a time code that goes on, and one that paused as well
+        poses(1, 100);
+        m_at += 3s;
+        m_timeCodeOff -= 3s - clock;
+        poses(101, 200);
+        const auto outages = of(IncidentKind::Outage);
+        ASSERT_FALSE(outages.empty());
+        EXPECT_EQ(outages.back().cause, LossCause::Sender);
+        EXPECT_EQ(outages.back().text(),
+                  "No data for 3.01 s, cause: sender. The sender paused: its counter went "
+                  "on where it had stopped.");
+        EXPECT_TRUE(of(IncidentKind::TimeCode).empty()) << clock.count();
+        m_at += 10s;
+        poses(1'000'000, 1'000'100);
+        m_at += 10s;
+    }
+}
+
+TEST_F(IncidentsTest, BlameNoSenderForDatagramsThatWereHeldUpTogether) {
+    poses(1, 100);
+    const log::Stamp released = m_at + 700ms;
+    for (std::uint32_t sample = 101; sample <= 171; ++sample) {
+        const log::Stamp due = m_at + (sample - 101) * 10ms;
+        m_timeCodeOff = due - released;
+        const log::Stamp before = std::exchange(m_at, released);
+        pose(sample);
+        m_at = before;
+    }
+    m_timeCodeOff = 0s;
+    m_at = released + 10ms;
+    poses(172, 300);
+    ASSERT_EQ(of(IncidentKind::Outage).size(), 1U);
+    EXPECT_FALSE(of(IncidentKind::Outage)[0].cause);
+}
+
+TEST_F(IncidentsTest, TellARestartOnAnotherPortOnceTheOldOneIsSilent) {
+    poses(1, 50);
+    const log::Stamp from = m_at;
+    for (std::uint32_t sample = 1; sample <= 15; ++sample, m_at += 10ms) {
+        pose(sample, "127.0.0.1:40002");
+    }
+    EXPECT_TRUE(of(IncidentKind::Restart).empty()) << "both may go on";
+    for (std::uint32_t sample = 16; sample <= 50; ++sample, m_at += 10ms) {
+        pose(sample, "127.0.0.1:40002");
+    }
+    const auto restarts = of(IncidentKind::Restart);
+    ASSERT_EQ(restarts.size(), 1U);
+    EXPECT_EQ(restarts[0].sender, sender("127.0.0.1:40002"));
+    EXPECT_EQ(restarts[0].firstStamp, from);
+    EXPECT_EQ(restarts[0].text(), "Its sender sends from another port now.");
+    for (std::uint32_t sample = 1; sample <= 50; ++sample, m_at += 10ms) {
+        pose(sample, "127.0.0.1:40003");
+        pose(50 + sample, "127.0.0.1:40002"); // goes on
+    }
+    EXPECT_EQ(of(IncidentKind::Restart).size(), 1U);
+}
+
+TEST_F(IncidentsTest, TellTwoHostsWithOneCharacterWhateverTypesTheySend) {
+    const auto both = [this](const std::string& other) {
+        for (std::uint32_t sample = 1; sample <= 50; ++sample, m_at += 10ms) {
+            pose(sample);
+            wire::Datagram datagram{{}, wire::CentreOfMass{}, {}};
+            datagram.header.sampleCounter = sample;
+            wire::completeHeader(datagram, wire::HeaderEra::Counted);
+            sendBytes(*wire::encode(datagram), m_at, other);
+        }
+    };
+    both("127.0.0.1:40002");
+    EXPECT_TRUE(of(IncidentKind::Conflict).empty()) << "one host may send from several ports";
+    both("127.0.0.2:40001");
+    const auto conflicts = of(IncidentKind::Conflict);
+    ASSERT_EQ(conflicts.size(), 2U);
+    EXPECT_EQ(conflicts[0].count, conflicts[1].count);
+    EXPECT_LT(conflicts[0].count, 101U) << "each turn is told once";
+}
+
 TEST_F(IncidentsTest, TellRestartsMalformedAndForeignDatagrams) {
     poses(50'000, 50'100);
     poses(1, 50);

@@ -153,6 +153,48 @@ TEST_F(VerdictTest, NeverTakesANewRateForLossWhileItIsLearnt) {
     EXPECT_EQ(told(), lost());
 }
 
+TEST_F(VerdictTest, IsNotGoodWhileATypeIsMissingThatOthersOfItsCharacterGoOnWithout) {
+    const auto both = [&](std::uint32_t first, std::uint32_t last, bool hasCentre) {
+        for (std::uint32_t sample = first; sample <= last; ++sample, m_at += 10ms) {
+            pose(sample);
+            if (hasCentre) {
+                send(wire::CentreOfMass{}, sample, m_at);
+            }
+        }
+    };
+    both(1, 500, true);
+    EXPECT_EQ(verdict().state, State::Good);
+    both(501, 525, false);
+    TakeVerdict now = verdict();
+    EXPECT_EQ(now.state, State::Warning);
+    EXPECT_NE(now.text.find("no data of type 24 from Character 0, since "), std::string::npos) << now.text;
+    EXPECT_NE(now.text.find(", going on"), std::string::npos) << now.text;
+    EXPECT_EQ(now.brief, "no data of type 24");
+    EXPECT_TRUE(of(IncidentKind::Step).empty()) << "it may still come";
+
+    both(526, 800, false);
+    now = verdict();
+    EXPECT_NE(now.text.find("Type 24 is not sent any more while others of the character go on"),
+              std::string::npos)
+        << now.text;
+    EXPECT_FALSE(now.isOver) << "it is still missing";
+    both(801, 2'500, false);
+    EXPECT_EQ(verdict().state, State::Good) << "that is how it is sent now";
+}
+
+TEST_F(VerdictTest, ATypeThatWasMissingForAMomentWasNotEnded) {
+    for (std::uint32_t sample = 1; sample <= 600; ++sample, m_at += 10ms) {
+        pose(sample);
+        if (sample < 500 || sample > 530) {
+            send(wire::CentreOfMass{}, sample, m_at);
+        }
+    }
+    EXPECT_TRUE(of(IncidentKind::Step).empty());
+    EXPECT_EQ(of(IncidentKind::Loss).size(), 1U);
+    EXPECT_TRUE(unsettledIncidents(m_session).empty());
+    EXPECT_EQ(told(), lost());
+}
+
 TEST_F(VerdictTest, IsNotGoodBetweenOneRateAndTheNext) {
     poses(1, 500);
     for (std::uint32_t sample = 502; sample <= 640; sample += 2, m_at += 20ms) {
