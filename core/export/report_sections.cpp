@@ -250,7 +250,7 @@ ReportSteps stepsOf(const model::SessionView& session, const std::optional<model
     for (const model::Stream& stream : session.streams()) {
         first = std::min(first, stream.accounting.firstStamp());
         last = std::max(last, stream.accounting.lastStamp());
-        resolution = std::max(resolution, stream.accounting.resolution());
+        resolution = std::max(resolution, stream.accounting.resolution(part.from));
     }
     steps.from = std::max(first, part.from);
     steps.to = std::min(last, part.to);

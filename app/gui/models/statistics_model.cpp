@@ -277,14 +277,14 @@ StatisticsModel::Curve StatisticsModel::makeCurve(const QModelIndex& index) cons
     if (streams.empty()) {
         return {};
     }
+    const log::Stamp end = view().cursorStamp();
+    const model::TimeRange shown = m_range.value_or(model::TimeRange{end - kCurve, end});
     log::Stamp first = log::Stamp::max();
     log::Duration resolution(1);
     for (const model::Stream* each : streams) {
         first = std::min(first, each->accounting.firstStamp());
-        resolution = std::max(resolution, each->accounting.resolution());
+        resolution = std::max(resolution, each->accounting.resolution(shown.from));
     }
-    const log::Stamp end = view().cursorStamp();
-    const model::TimeRange shown = m_range.value_or(model::TimeRange{end - kCurve, end});
     const model::RangeParts parts = model::partsOf(shown, kCurvePoints, kLeastPart, resolution);
     std::array<model::RangePart, kCurvePoints> counted{};
     for (const model::Stream* each : streams) {

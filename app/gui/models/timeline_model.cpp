@@ -23,7 +23,7 @@ model::RangeParts fineParts(const model::TimeRange& window, std::size_t most) {
 void TimelineModel::refresh(const model::TimeRange& window, std::size_t most) {
     log::Duration resolution(1);
     for (const model::Stream& stream : m_view.streams()) {
-        resolution = std::max(resolution, stream.accounting.resolution());
+        resolution = std::max(resolution, stream.accounting.resolution(window.from));
     }
     constexpr std::int64_t kLeastBuckets = 2; // per part, or its edges would show
     m_isFine = (window.to - window.from) / static_cast<std::int64_t>(most) < kLeastBuckets * resolution &&

@@ -30,24 +30,32 @@ log::Stamp roundedDown(log::Stamp stamp, log::Duration width) {
     return stamp - (rest < log::Duration::zero() ? rest + width : rest);
 }
 
+log::Stamp roundedUp(log::Stamp stamp, log::Duration width) {
+    const log::Stamp down = roundedDown(stamp, width);
+    return down < stamp ? down + width : down;
+}
+
+log::Stamp CountHistory::roundedUp(log::Stamp stamp) const {
+    return stamp < m_fineFrom ? std::min(model::roundedUp(stamp, m_width), m_fineFrom)
+                              : model::roundedUp(stamp, kFirstWidth);
+}
+
 /// The newest bucket, made where the stamp is beyond it; an earlier stamp makes none.
 CountHistory::Bucket& CountHistory::bucketAt(log::Stamp stamp) {
     if (m_buckets.empty()) {
         Bucket& first = m_buckets.emplace_back();
-        first.start = roundedDown(stamp, m_width);
-    } else if (stamp >= m_buckets.back().start + m_width) {
+        first.start = roundedDown(stamp, kFirstWidth);
+    } else if (stamp >= m_buckets.back().start + kFirstWidth) {
         if (m_buckets.size() >= m_most) {
-            halve();
+            coarsen();
         }
-        if (stamp >= m_buckets.back().start + m_width) {
-            Bucket next = m_buckets.back();
-            next.start = roundedDown(stamp, m_width);
-            next.longestGap = 0;
-            next.leastMs = Bucket().leastMs;
-            next.mostMs = 0;
-            next.hasDifference = false;
-            m_buckets.push_back(next);
-        }
+        Bucket next = m_buckets.back();
+        next.start = roundedDown(stamp, kFirstWidth);
+        next.longestGap = 0;
+        next.leastMs = Bucket().leastMs;
+        next.mostMs = 0;
+        next.hasDifference = false;
+        m_buckets.push_back(next);
     }
     return m_buckets.back();
 }
@@ -67,11 +75,18 @@ void CountHistory::merge(Bucket& bucket, const Bucket& before) {
     }
 }
 
-void CountHistory::halve() {
-    while (m_buckets.size() > m_most / 2) {
-        m_width *= 2;
+/// The newer half stays as it is; of the older one little enough is left that much has to come until the next
+/// time.
+void CountHistory::coarsen() {
+    const std::size_t fine = std::max<std::size_t>(1, m_most / 2);
+    if (m_buckets.size() <= fine) {
+        return;
+    }
+    std::size_t old = m_buckets.size() - fine;
+    m_fineFrom = m_buckets[old].start;
+    while (true) {
         std::size_t kept = 0;
-        for (std::size_t i = 0; i < m_buckets.size(); ++i) {
+        for (std::size_t i = 0; i < old; ++i) {
             Bucket bucket = m_buckets[i];
             bucket.start = roundedDown(bucket.start, m_width);
             if (kept != 0 && m_buckets[kept - 1].start == bucket.start) {
@@ -80,14 +95,20 @@ void CountHistory::halve() {
             }
             m_buckets[kept++] = bucket;
         }
-        m_buckets.resize(kept);
+        m_buckets.erase(m_buckets.begin() + static_cast<std::ptrdiff_t>(kept),
+                        m_buckets.begin() + static_cast<std::ptrdiff_t>(old));
+        old = kept;
+        if (old <= m_most * 3 / 8) {
+            return;
+        }
+        m_width *= 2;
     }
 }
 
 void CountHistory::setMost(std::size_t buckets) {
     m_most = buckets;
     if (m_buckets.size() > m_most) {
-        halve();
+        coarsen();
     }
     if (m_buckets.capacity() > m_most) {
         std::vector<Bucket> kept;
@@ -187,24 +208,24 @@ BurstCounts CountHistory::burstsBetween(log::Stamp from, log::Stamp to) const {
 ClockSkew CountHistory::skewBetween(log::Stamp from, log::Stamp to) const {
     const std::size_t end = firstFrom(to);
     std::size_t first = end; // of the newest generation
-    std::uint64_t count = 0;
+    log::Duration seen{};
     for (std::size_t i = firstFrom(from); i < end; ++i) {
         if (m_buckets[i].hasDifference) {
             const bool isSame = first != end && m_buckets[first].generation == m_buckets[i].generation;
             first = isSame ? first : i;
-            count = isSame ? count + 1 : 1;
+            seen = (isSame ? seen : log::Duration::zero()) + widthOf(i);
         }
     }
     if (first == end) {
         return {};
     }
     const auto arrivalsIn = [this](std::size_t begin, std::size_t stop) {
-        return std::uint64_t{before(stop).arrivals - before(begin).arrivals};
+        return static_cast<double>(std::uint32_t{before(stop).arrivals - before(begin).arrivals});
     };
-    ClockFit fit(m_buckets[end - 1].start + m_width - m_buckets[first].start);
-    const std::uint64_t all = arrivalsIn(first, end);
+    ClockFit fit(m_buckets[end - 1].start + widthOf(end - 1) - m_buckets[first].start);
+    const double usualHz = arrivalsIn(first, end) / log::secondsOf(seen);
     for (std::size_t i = first; i < end; ++i) {
-        if (m_buckets[i].hasDifference && 2 * count * arrivalsIn(i, i + 1) >= all) {
+        if (m_buckets[i].hasDifference && 2 * arrivalsIn(i, i + 1) >= usualHz * log::secondsOf(widthOf(i))) {
             fit.add(m_buckets[i].leastDelayed, m_buckets[i].differenceMs);
         }
     }

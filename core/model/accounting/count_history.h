@@ -15,9 +15,12 @@ namespace posewire::model {
 
 /// The beginning of the bucket of a width that a stamp is in.
 [[nodiscard]] log::Stamp roundedDown(log::Stamp stamp, log::Duration width);
+/// The next one, or the stamp itself where a bucket begins there.
+[[nodiscard]] log::Stamp roundedUp(log::Stamp stamp, log::Duration width);
 
 /// Counts of a stream so far at the ends of buckets of time, so that those of any range are the difference of
-/// two. Bounded: buckets begin with 0.1 s and double their width whenever there are more than there may be.
+/// two. Bounded: the newest half of them are 0.1 s wide, and those before are merged into ever wider ones, so
+/// that figures of now are as exact after a day as in the first minute.
 class CountHistory {
 public:
     static constexpr log::Duration kFirstWidth = std::chrono::milliseconds(100);
@@ -58,7 +61,12 @@ public:
     [[nodiscard]] ClockSkew skewBetween(log::Stamp from, log::Stamp to) const;
     /// At the end of the range.
     [[nodiscard]] double jitterMsAt(log::Stamp to) const;
-    [[nodiscard]] log::Duration width() const { return m_width; }
+    /// The widest of buckets from a stamp on.
+    [[nodiscard]] log::Duration width(log::Stamp from = log::Stamp::min()) const {
+        return from < m_fineFrom ? m_width : kFirstWidth;
+    }
+    /// Where a range that begins or ends at a stamp does so in fact: where the next bucket begins.
+    [[nodiscard]] log::Stamp roundedUp(log::Stamp stamp) const;
 
     /// How many buckets there may be; at least two.
     void setMost(std::size_t buckets);
@@ -91,13 +99,15 @@ private:
     [[nodiscard]] Counters between(log::Stamp from, log::Stamp to) const;
     static void merge(Bucket& bucket, const Bucket& before);
     Bucket& bucketAt(log::Stamp stamp);
-    void halve();
+    void coarsen();
+    [[nodiscard]] log::Duration widthOf(std::size_t index) const { return width(m_buckets[index].start); }
     /// Index of the first bucket that begins at or after a stamp.
     [[nodiscard]] std::size_t firstFrom(log::Stamp stamp) const;
 
     std::vector<Bucket> m_buckets;
     std::size_t m_most = AccountingDepth().buckets;
-    log::Duration m_width = kFirstWidth;
+    log::Duration m_width = kFirstWidth; ///< of the buckets that begin before m_fineFrom
+    log::Stamp m_fineFrom = log::Stamp::min();
 };
 
 } // namespace posewire::model

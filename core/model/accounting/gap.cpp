@@ -31,7 +31,8 @@ std::string Gap::evidenceText() const {
     case Evidence::Reliable:
         return "TCP loses nothing: " + counted(lost, "sample was", "samples were") + " not sent.";
     case Evidence::Paused:
-        return "All " + counted(figure, "stream") + " of the sender paused together for " +
+        return (figure == 1 ? "The only stream of the sender paused for "
+                            : "All " + counted(figure, "stream") + " of the sender paused together for ") +
                std::to_string(lastedMs) + " ms, and the time code moved by " + std::to_string(timeCodeMoved) +
                " ms.";
     case Evidence::None:

@@ -15,10 +15,6 @@ log::Duration roundedUp(log::Duration value, log::Duration unit) {
     return value - rest + (rest > log::Duration::zero() ? unit : log::Duration::zero());
 }
 
-log::Stamp roundedUp(log::Stamp stamp, log::Duration unit) {
-    return log::Stamp(roundedUp(stamp.time_since_epoch(), unit));
-}
-
 std::uint64_t unitsOf(const StreamCounts& counts) {
     return counts.samples + counts.incomplete != 0 ? counts.samples + counts.incomplete : counts.datagrams;
 }
@@ -27,9 +23,8 @@ std::uint64_t unitsOf(const StreamCounts& counts) {
 TimeRange onAir(const StreamAccounting& stream, const std::optional<TimeRange>& range) {
     TimeRange air{stream.firstStamp(), stream.lastStamp()};
     if (range) {
-        const log::Duration resolution = stream.resolution();
-        air.from = std::max(air.from, roundedUp(range->from, resolution));
-        air.to = std::min(air.to, roundedUp(range->to, resolution));
+        air.from = std::max(air.from, stream.roundedUp(range->from));
+        air.to = std::min(air.to, stream.roundedUp(range->to));
     }
     return air;
 }
@@ -53,8 +48,8 @@ void readMean(const StreamAccounting& stream, const TimeRange& air, const Stream
 
 void readSpread(const StreamAccounting& stream, const TimeRange& air, RateFigures& rate) {
     rate.leastHz = rate.mostHz = rate.meanHz;
-    const log::Duration resolution = stream.resolution();
-    const TimeRange whole{roundedUp(air.from, resolution), roundedDown(air.to, resolution)};
+    const log::Duration resolution = stream.resolution(air.from);
+    const TimeRange whole{model::roundedUp(air.from, resolution), roundedDown(air.to, resolution)};
     if (whole.to - whole.from < std::chrono::seconds(1)) {
         return;
     }

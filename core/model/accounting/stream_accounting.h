@@ -107,7 +107,7 @@ public:
     void addMalformed(log::Stamp stamp);
 
     // Figures of all there is, or of a range of time, at a cost that does not depend on it. The ends are
-    // rounded to the resolution, at first 0.1 s. What belongs to samples counts when they were due.
+    // rounded to the resolution. What belongs to samples counts when they were due.
     using Range = std::optional<TimeRange>;
     [[nodiscard]] StreamCounts counts(const Range& range = {}) const;
     [[nodiscard]] StreamCounts countsBetween(log::Stamp from, log::Stamp to) const;
@@ -118,7 +118,12 @@ public:
     /// The jitter at the end of the range; skew and drift from its beginning or the newest restart in it on.
     [[nodiscard]] ClockFigures clock(const Range& range = {}) const;
     [[nodiscard]] std::uint64_t malformed(const Range& range = {}) const;
-    [[nodiscard]] log::Duration resolution() const { return m_history.width(); }
+    /// From a stamp on: 0.1 s for what is new, and ever more for what is old.
+    [[nodiscard]] log::Duration resolution(log::Stamp from = log::Stamp::min()) const {
+        return m_history.width(from);
+    }
+    /// Where a range that begins or ends at a stamp does so in fact.
+    [[nodiscard]] log::Stamp roundedUp(log::Stamp stamp) const { return m_history.roundedUp(stamp); }
 
     /// The first sample of this stream between two counters, both exclusive, that came in a span of time.
     [[nodiscard]] std::optional<std::uint32_t> arrivedBetween(std::uint32_t from, std::uint32_t to,

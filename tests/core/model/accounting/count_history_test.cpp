@@ -125,6 +125,36 @@ TEST_P(Hours, AreKeptInBucketsOfTwiceTheWidthAgainAndAgain) {
     EXPECT_GE(m_history.width() * static_cast<std::int64_t>(AccountingDepth().buckets), m_end - m_begin);
 }
 
+TEST_P(Hours, AreExactToATenthOfASecondWhereTheyAreNew) {
+    const log::Duration fine =
+        CountHistory::kFirstWidth * static_cast<std::int64_t>(AccountingDepth().buckets / 2);
+    std::mt19937 random(7);
+    for (int round = 0; round < 100; ++round) {
+        const auto any = [&] {
+            return model::roundedDown(
+                m_end - log::Duration(static_cast<std::int64_t>(random() % 1'000) * fine / 1'000),
+                CountHistory::kFirstWidth);
+        };
+        const log::Stamp a = any();
+        const log::Stamp b = any();
+        ASSERT_EQ(m_history.countsBetween(std::min(a, b), std::max(a, b)),
+                  sumOf(m_added, std::min(a, b), std::max(a, b)));
+        EXPECT_EQ(m_history.roundedUp(a), a);
+        EXPECT_EQ(m_history.width(a), CountHistory::kFirstWidth);
+    }
+}
+
+TEST_P(Hours, SayWhereARangeBegins) {
+    std::mt19937 random(8);
+    for (int round = 0; round < 200; ++round) {
+        const log::Stamp from =
+            m_begin + (m_end - m_begin) / 1'000 * static_cast<std::int64_t>(random() % 1'000);
+        EXPECT_EQ(m_history.countsBetween(from, log::Stamp::max()),
+                  sumOf(m_added, m_history.roundedUp(from), log::Stamp::max()));
+        EXPECT_LE(m_history.roundedUp(from) - from, m_history.width(from));
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(SecondsApart, Hours, testing::Values(1, 4, 12));
 
 TEST(CountHistory, IsEmptyBeforeAnythingIsAdded) {
@@ -218,7 +248,7 @@ TEST(CountHistory, MeasuresArrivalsAsAPlainListDoes) {
     EXPECT_NEAR(read.leastMs, *std::ranges::min_element(all), 1e-3);
     EXPECT_NEAR(read.mostMs, *std::ranges::max_element(all), 1e-2);
     EXPECT_NEAR(history.jitterMsAt(log::Stamp::max()), 0.25 * (5'999 % 8), 1e-6);
-    EXPECT_EQ(history.jitterMsAt(at(100s)), 0) << "before the first arrival";
+    EXPECT_EQ(history.jitterMsAt(at(99s)), 0) << "before the first arrival";
     EXPECT_EQ(history.arrivalsBetween(at(0s), at(99s)).count, 0U);
 }
 
