@@ -7,6 +7,7 @@
 #include "core/export/session_reading.h"
 #include "core/log/file_names.h"
 #include "core/log/log_reader.h"
+#include "core/model/incidents/thresholds.h"
 #include "core/wire/type_table.h"
 
 #include <QString>
@@ -88,6 +89,20 @@ std::vector<std::string> exceeded(const model::SessionView& session, const Limit
     return lines;
 }
 
+/// What the verdict holds streams to: the usual limits, or those that were asked for.
+model::Thresholds thresholdsOf(const Limits& limits) {
+    constexpr double kNone = 1e-9; // "at most 0"; a threshold of 0 is none
+    model::Thresholds thresholds;
+    for (const model::ThresholdRow& row : model::thresholdTable()) {
+        for (std::size_t i = 0; i < kLimits.size(); ++i) {
+            if (row.figure == kLimits[i].figure && limits[i]) {
+                thresholds.*row.limit = std::max(*limits[i], kNone);
+            }
+        }
+    }
+    return thresholds;
+}
+
 /// The same file under one name. Links are found out by log::checkOutput().
 bool areSame(const std::string& a, const std::string& b) {
     return !a.empty() && !b.empty() && log::pathOf(a).lexically_normal() == log::pathOf(b).lexically_normal();
@@ -112,6 +127,7 @@ MonitorRun::MonitorRun(const MonitorOptions& options, Console& console)
       m_console(console),
       m_lines(log::durationOf(options.intervalSeconds)),
       m_nextShow(std::chrono::steady_clock::now()) {
+    m_session.setThresholds(thresholdsOf(options.limits));
     if (!options.asJson && !options.isQuiet) {
         m_table.emplace(system::kStandardOutput, m_isTerminal);
     }

@@ -85,17 +85,18 @@ std::optional<std::string> VerdictLines::lineAt(const model::SessionView& sessio
     if (m_next && now < *m_next && sayTheSame(verdict, m_verdict)) {
         return std::nullopt;
     }
-    return line(session, now, verdict);
+    return line(session, now, verdict, changedIncidents(session));
 }
 
 std::optional<std::string> VerdictLines::lastLine(const model::SessionView& session, log::Stamp now) {
-    return m_newest == now
-               ? std::nullopt
-               : std::optional(line(session, now, model::verdictOf(session, model::recentSpan(session))));
+    const model::TakeVerdict verdict = model::verdictOf(session, model::recentSpan(session));
+    const JsonValue::List changed = changedIncidents(session);
+    const bool isTold = m_newest == now && changed.empty() && sayTheSame(verdict, m_verdict);
+    return isTold ? std::nullopt : std::optional(line(session, now, verdict, changed));
 }
 
 std::string VerdictLines::line(const model::SessionView& session, log::Stamp now,
-                               const model::TakeVerdict& verdict) {
+                               const model::TakeVerdict& verdict, const JsonValue::List& changed) {
     if (!m_next || now >= *m_next) {
         m_next = std::max(m_next.value_or(now) + m_interval, now);
     }
@@ -110,11 +111,11 @@ std::string VerdictLines::line(const model::SessionView& session, log::Stamp now
     return JsonValue{{"timeNs", timeJson(session, now)},
                      {"verdict", verdictJson(session, verdict)},
                      {"characters", std::move(characters)},
-                     {"incidents", changedIncidents(session)}}
+                     {"incidents", changed}}
         .text();
 }
 
-JsonValue VerdictLines::changedIncidents(const model::SessionView& session) {
+JsonValue::List VerdictLines::changedIncidents(const model::SessionView& session) {
     JsonValue::List list;
     std::map<std::uint64_t, std::uint64_t> told;
     for (const model::ListedIncident& listed : model::listedIncidents(session)) {

@@ -25,13 +25,13 @@ public:
 
     /// The line that is due at a time of the log, without a newline; nothing where none is.
     [[nodiscard]] std::optional<std::string> lineAt(const model::SessionView& session, log::Stamp now);
-    /// The last one, also where none is due; nothing where it has been written.
+    /// The last one, also where none is due, once all is settled; nothing where the one before says all.
     [[nodiscard]] std::optional<std::string> lastLine(const model::SessionView& session, log::Stamp now);
 
 private:
     [[nodiscard]] std::string line(const model::SessionView& session, log::Stamp now,
-                                   const model::TakeVerdict& verdict);
-    [[nodiscard]] JsonValue changedIncidents(const model::SessionView& session);
+                                   const model::TakeVerdict& verdict, const JsonValue::List& changed);
+    [[nodiscard]] JsonValue::List changedIncidents(const model::SessionView& session);
 
     log::Duration m_interval;
     std::optional<log::Stamp> m_next;

@@ -17,8 +17,11 @@ namespace posewire::model {
 /// believed once datagrams agree with each other.
 class Unconfirmed {
 public:
-    /// This many that agree are no accident.
-    static constexpr std::size_t kNeeded = 3;
+    /// Samples of one type that are equally far apart are no accident, nor are messages without samples.
+    static constexpr std::size_t kSamples = 5;
+    static constexpr std::ptrdiff_t kMessages = 3;
+    /// So many datagrams are none in any case.
+    static constexpr std::size_t kMany = 64;
     static constexpr log::Duration kTogether = std::chrono::seconds(5);
     static constexpr std::size_t kMost = 256;
 
@@ -31,8 +34,10 @@ private:
     struct Seen {
         log::Stamp stamp{};
         std::uint32_t sample = 0;
-        bool isSampled = false;
+        std::uint8_t type = 0;
     };
+    [[nodiscard]] static bool isCounted(const std::vector<Seen>& seen);
+
     std::map<CharacterKey, std::vector<Seen>> m_seen;
 };
 

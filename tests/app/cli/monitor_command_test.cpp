@@ -106,6 +106,47 @@ TEST(MonitorCommand, PrintsALineAtOnceWhenWhatWentOnIsOver) {
     EXPECT_LE(overAt, 5.1) << run.out;
 }
 
+TEST(MonitorCommand, SaysInItsLastLineWhatIsSettledAtTheEnd) {
+    RecordingFile file;
+    for (std::uint32_t sample = 0; sample < 500; ++sample) {
+        if (sample != 495) { // late packets might still bring it, were there any
+            file.addPose(sample);
+        }
+    }
+    const ProgramRun run = runProgram({"monitor", file.finish(), "--json-lines", "--interval", "0.01"});
+    std::istringstream text(run.out);
+    Json last;
+    for (std::string line; std::getline(text, line);) {
+        last = Json::parse(line, nullptr, false);
+    }
+    ASSERT_EQ(last["incidents"].size(), 1U) << run.out.substr(run.out.size() - 2'000);
+    EXPECT_NE(last["incidents"][0]["state"], "provisional");
+    EXPECT_EQ(last["incidents"][0]["samples"], 1);
+    EXPECT_THAT(last["verdict"]["text"].get<std::string>(), HasSubstr("1 sample lost"));
+}
+
+TEST(MonitorCommand, JudgesByTheLimitsThatItIsGiven) {
+    RecordingFile file;
+    for (std::uint32_t sample = 0; sample < 1500; ++sample) {
+        if (sample % 200 != 50) { // few enough to be a warning
+            file.addPose(sample);
+        }
+    }
+    const std::string path = file.finish();
+    const auto stateWith = [&](const char* most) {
+        const ProgramRun run = runProgram({"monitor", path, "--json-lines", "--max-loss", most});
+        std::istringstream text(run.out);
+        std::string worst = "good";
+        for (std::string one; std::getline(text, one);) {
+            const std::string state = Json::parse(one, nullptr, false)["verdict"]["state"];
+            worst = state == "bad" || (state == "warning" && worst == "good") ? state : worst;
+        }
+        return worst;
+    };
+    EXPECT_EQ(stateWith("0"), "bad");
+    EXPECT_EQ(stateWith("50"), "warning");
+}
+
 TEST(MonitorCommand, SaysWhatIsKeptByItsPartsAndTheBudget) {
     const Json memory = reportOf(faultyRecording(), {"--verbose"})["memory"];
     EXPECT_THAT(keysOf(memory), ElementsAre("sum", "budget", "log", "index", "accounting", "messages",

@@ -503,6 +503,31 @@ TEST_F(VerdictTest, DoesNotBelieveACharacterOfOneCorruptHeader) {
     EXPECT_FALSE(m_session.find(CharacterKey{sender(), 66})->isConfirmed);
 }
 
+TEST_F(VerdictTest, DoesNotBelieveACharacterOfCorruptHeadersHoweverMany) {
+    std::uint32_t random = 7;
+    poses(1, 200);
+    for (std::uint32_t sample = 201; sample <= 6'000; ++sample, m_at += 10ms) {
+        random = random * 1'664'525 + 1'013'904'223;
+        (random >> 24) % 20 == 0 ? poseOfOther(sample) : pose(sample);
+    }
+    follow();
+    EXPECT_EQ(m_session.charactersNow().size(), 1U);
+    EXPECT_EQ(m_session.unproven().characters, 1U);
+    EXPECT_GT(m_session.unproven().datagrams, 200U);
+}
+
+TEST_F(VerdictTest, BelievesACharacterWithinATenthOfASecondThatLosesSome) {
+    poses(1, 200);
+    for (std::uint32_t sample = 201; sample <= 212; ++sample, m_at += 10ms) {
+        pose(sample);
+        if (sample != 203) {
+            poseOfOther(sample);
+        }
+    }
+    follow();
+    EXPECT_EQ(m_session.charactersNow().size(), 2U);
+}
+
 TEST_F(VerdictTest, TakesAllOfACharacterOnceItIsBelieved) {
     poses(1, 200);
     for (std::uint32_t sample = 201; sample <= 260; ++sample, m_at += 10ms) {
