@@ -21,10 +21,14 @@ constexpr const char* kInEarlierFile = "In an earlier file: ";
 } // namespace
 
 Recorder::Recorder(const PacketLog& log, ByteSink& sink, std::uint64_t from)
+    : Recorder(log, sink, LogFollower::fromOldest(log, from)) {}
+
+Recorder::Recorder(const PacketLog& log, ByteSink& sink, LogFollower follower)
     : m_sink(sink),
       m_timeline(log.timeline()),
-      m_follower(LogFollower::fromOldest(log, from)),
+      m_follower(std::move(follower)),
       m_first(m_follower.position()),
+      m_missedBefore(m_follower.overtaken()),
       m_senders(log.senders()),
       m_writer(sink) {}
 
@@ -59,7 +63,11 @@ Recorder::Result Recorder::sync() {
 Recorder::Result Recorder::writeNew() {
     m_follower.refresh();
     while (auto packet = m_follower.next()) {
-        const std::uint64_t drops = packet->kernelDropsBefore + m_follower.takeOvertaken();
+        const std::uint64_t missed = m_follower.takeOvertaken();
+        if (missed > 0) {
+            m_holes.push_back({std::max(packet->number - missed, m_first), packet->number});
+        }
+        const std::uint64_t drops = packet->kernelDropsBefore + missed;
         packet->kernelDropsBefore =
             static_cast<std::uint32_t>(std::min<std::uint64_t>(drops, std::uint64_t{UINT32_MAX}));
         const SenderInfo* sender = m_senders.find(packet->sender);
@@ -70,6 +78,14 @@ Recorder::Result Recorder::writeNew() {
         }
     }
     return {};
+}
+
+std::uint64_t Recorder::placeOf(std::uint64_t packet) const {
+    std::uint64_t place = packet - m_first;
+    for (const Hole& hole : m_holes) {
+        place -= std::clamp(packet, hole.begin, hole.end) - hole.begin;
+    }
+    return place;
 }
 
 std::string partPath(const std::string& path, unsigned part) {
@@ -194,17 +210,14 @@ bool Recording::isFileFull() const {
             std::chrono::steady_clock::now() - m_fileBegin >= m_limits.fileTime);
 }
 
-/// In another file.
+/// In another file; where there can be none, this one ends as well as it can.
 Recording::Result Recording::goOn() {
-    auto next = createFile(partPath(m_path, m_ended.files + 2));
-    if (!next) {
-        return tl::unexpected(next.error());
-    }
-    if (auto ended = finish(); !ended) {
-        return ended;
+    auto next = createPart();
+    if (auto ended = finish(); !ended || !next) {
+        return next ? ended : tl::unexpected(next.error());
     }
     m_before = m_kept;
-    const std::uint64_t from = m_recorder->position();
+    const LogFollower follower = m_recorder->follower();
     m_ended = figuresNow();
     {
         const std::lock_guard lock(m_mutex);
@@ -214,9 +227,21 @@ Recording::Result Recording::goOn() {
             m_sink->hurry();
         }
     }
-    m_recorder.emplace(m_log, *m_sink, from);
+    m_recorder.emplace(m_log, *m_sink, follower);
     m_fileBegin = std::chrono::steady_clock::now();
     return m_recorder->begin(m_info);
+}
+
+/// Under the next name that nothing has.
+tl::expected<std::unique_ptr<ByteSink>, FileError> Recording::createPart() {
+    while (true) {
+        const std::string path = partPath(m_path, ++m_part);
+        auto sink = createFile(path);
+        std::error_code failed;
+        if (sink || !std::filesystem::exists(std::filesystem::symlink_status(pathOf(path), failed))) {
+            return sink;
+        }
+    }
 }
 
 Recording::Result Recording::checkRoom() const {
@@ -232,17 +257,20 @@ Recording::Result Recording::checkRoom() const {
                                     " MB are free on its disk; free some, or record to another one"});
 }
 
-/// Those that are set by now, for the file that is being written.
-std::vector<std::string> Recording::noteMarks() {
+/// Those that are set by now, for the file that is being written, once it has their packets.
+tl::expected<std::vector<std::string>, FileError> Recording::noteMarks() {
     {
         const std::lock_guard lock(m_mutex);
         m_kept = m_marks;
+    }
+    if (const auto followed = m_recorder->follow(); !followed) {
+        return tl::unexpected(followed.error());
     }
     const std::uint64_t first = m_recorder->figures().fileBegin;
     std::vector<std::string> notes;
     for (RecordedMark mark : m_kept) {
         if (mark.packet >= first) {
-            mark.packet -= first;
+            mark.packet = m_recorder->placeOf(mark.packet);
             notes.push_back(markText(mark));
         } else if (std::ranges::find(m_before, mark) == m_before.end()) {
             notes.push_back(kInEarlierFile + markText(mark));
@@ -259,17 +287,21 @@ Recording::Result Recording::keepMarks() {
             return {};
         }
     }
-    return m_recorder->note(noteMarks());
+    const auto notes = noteMarks();
+    return notes ? m_recorder->note(*notes) : tl::unexpected(notes.error());
 }
 
 /// Of the file; the last one has the other notes too.
 Recording::Result Recording::finish() {
-    std::vector<std::string> notes = noteMarks();
+    auto notes = noteMarks();
+    if (!notes) {
+        return tl::unexpected(notes.error());
+    }
     {
         const std::lock_guard lock(m_mutex);
-        notes.insert(notes.end(), m_notes.begin(), m_notes.end());
+        notes->insert(notes->end(), m_notes.begin(), m_notes.end());
     }
-    return m_recorder->finish(notes);
+    return m_recorder->finish(*notes);
 }
 
 RecordingFigures Recording::figuresNow() const {

@@ -37,7 +37,7 @@ struct RecordingFigures {
     /// Packets that the log had dropped before they could be written: the disk was too slow. The recording
     /// shows them as dropped by this computer.
     std::uint64_t missed = 0;
-    std::uint64_t fileBegin = 0; ///< the packet of the log that the newest file begins with
+    std::uint64_t fileBegin = 0; ///< the packet of the log that the newest file begins with, or would have
 };
 
 /// Follows a log and writes it down. One thread; `log` and `sink` must outlive it. After a failure nothing
@@ -48,6 +48,8 @@ public:
 
     /// Begins with packet `from`, or the oldest one that the log still has.
     Recorder(const PacketLog& log, ByteSink& sink, std::uint64_t from = 0);
+    /// Goes on where another recorder has ended, with its follower: what the log drops meanwhile is missed.
+    Recorder(const PacketLog& log, ByteSink& sink, LogFollower follower);
 
     Result begin(const RecordingInfo& info);
 
@@ -64,18 +66,27 @@ public:
     Result finish(std::span<const std::string> notes = {});
 
     [[nodiscard]] RecordingFigures figures() const {
-        return {m_writer.packets(), m_writer.bytes(), 1, m_follower.overtaken(), m_first};
+        return {m_writer.packets(), m_writer.bytes(), 1, m_follower.overtaken() - m_missedBefore, m_first};
     }
-    /// One past the packet written last.
-    [[nodiscard]] std::uint64_t position() const { return m_follower.position(); }
+    /// How many packets of the file come before one of the log: its number there.
+    [[nodiscard]] std::uint64_t placeOf(std::uint64_t packet) const;
+    [[nodiscard]] const LogFollower& follower() const { return m_follower; }
 
 private:
+    /// Packets that the log had dropped.
+    struct Hole {
+        std::uint64_t begin;
+        std::uint64_t end;
+    };
+
     Result writeNew();
 
     ByteSink& m_sink;
     const Timeline& m_timeline;
     LogFollower m_follower;
     const std::uint64_t m_first; ///< packet
+    const std::uint64_t m_missedBefore;
+    std::vector<Hole> m_holes;
     SenderFinder m_senders;
     PcapngWriter m_writer;
     std::uint64_t m_synced = 0; ///< the packet after the last one on the disk
@@ -124,9 +135,10 @@ private:
     bool note(const Result& result);
     [[nodiscard]] bool isFileFull() const;
     Result goOn();
+    [[nodiscard]] tl::expected<std::unique_ptr<ByteSink>, FileError> createPart();
     Result keepMarks();
     [[nodiscard]] Result checkRoom() const;
-    [[nodiscard]] std::vector<std::string> noteMarks();
+    [[nodiscard]] tl::expected<std::vector<std::string>, FileError> noteMarks();
     Result finish();
 
     const PacketLog& m_log;
@@ -136,6 +148,7 @@ private:
     std::unique_ptr<ByteSink> m_sink; ///< exchanged under the mutex
     // The thread's own:
     std::optional<Recorder> m_recorder;
+    unsigned m_part = 1;
     RecordingFigures m_ended{.files = 0}; ///< of the files that have ended
     std::chrono::steady_clock::time_point m_fileBegin = std::chrono::steady_clock::now();
     std::vector<RecordedMark> m_kept;   ///< marks as they are noted

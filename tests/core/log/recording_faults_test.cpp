@@ -78,6 +78,25 @@ TEST_F(RecordingFaults, CountWhatWasMissedAndWhatTheKernelDropped) {
     EXPECT_EQ(seen.back().kernelDropsBefore, 3U);
 }
 
+TEST_F(RecordingFaults, CountWhatIsMissedBetweenTwoFiles) {
+    MemorySink first;
+    Recorder before(m_log, first);
+    append(3);
+    ASSERT_TRUE(before.begin({}) && before.finish());
+    append(5000);
+    MemorySink second;
+    Recorder after(m_log, second, before.follower());
+    ASSERT_TRUE(after.begin({}) && after.finish());
+    EXPECT_EQ(before.figures().missed, 0U);
+    const std::uint64_t missed = after.figures().missed;
+    ASSERT_GT(missed, 0U);
+    const auto seen = recordedIn(second.bytes);
+    ASSERT_EQ(seen.size() + missed, 5000U);
+    EXPECT_EQ(seen[0].kernelDropsBefore, missed);
+    EXPECT_EQ(after.placeOf(5002), seen.size() - 1);
+    EXPECT_EQ(after.placeOf(4), 0U) << "which is missed";
+}
+
 TEST_F(RecordingFaults, DoNotLetTheCountOfDropsWrapAround) {
     MemorySink sink;
     Recorder recorder(m_log, sink);

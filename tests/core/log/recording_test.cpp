@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <random>
+#include <sstream>
 #include <thread>
 
 #ifndef _WIN32
@@ -33,12 +34,32 @@ std::vector<Recorded> recordedInFile(const std::string& path) {
 }
 
 /// What counts at the end.
-std::vector<std::string> notesIn(const std::string& path) {
+std::vector<std::string> notesIn(ByteSource& source) {
     std::vector<std::string> notes;
-    const auto file = openFile(path);
-    static_cast<void>(readFile(**file, {[](const FileRecord&) {}},
+    static_cast<void>(readFile(source, {[](const FileRecord&) {}},
                                [&notes](auto told) { notes.assign(told.begin(), told.end()); }));
     return notes;
+}
+
+std::vector<std::string> notesIn(const std::string& path) {
+    return notesIn(**openFile(path));
+}
+
+/// Each sample is a packet; its stamp is its number.
+void append(PacketLog& log, std::uint32_t begin, std::uint32_t end) {
+    const SenderId sender = log.senders().intern({"10.0.0.2:40001", Transport::Udp, 9763});
+    for (std::uint32_t sample = begin; sample < end; ++sample) {
+        log.writer().append(poseDatagram(sample), {Stamp(Duration(sample)), sender, 0, {}});
+    }
+    log.writer().publish();
+}
+
+template <class Condition>
+bool waitFor(const Condition& condition) {
+    for (int turn = 0; turn < 1000 && !condition(); ++turn) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return condition();
 }
 
 TEST(Recording, HoldsEveryPacketThatWasWrittenMeanwhile) {
@@ -67,8 +88,14 @@ TEST(Recording, HoldsEveryPacketThatWasWrittenMeanwhile) {
 TEST(Recording, EndsItsFileWhenItIsDestroyed) {
     PacketLog log;
     const std::string path = newFile();
-    { ASSERT_TRUE(Recording::start(log, path, {})); }
-    EXPECT_GT(std::filesystem::file_size(path), 0U);
+    {
+        const auto recording = Recording::start(log, path, {});
+        ASSERT_TRUE(recording);
+        append(log, 0, 3);
+        (*recording)->setMarks({{2, "", "here"}});
+    }
+    EXPECT_EQ(recordedInFile(path).size(), 3U);
+    EXPECT_THAT(notesIn(path), testing::ElementsAre("Mark on packet 2: here"));
 }
 
 TEST(Recording, GoesOnInAnotherFileWithoutLosingAPacket) {
@@ -103,33 +130,114 @@ TEST(Recording, GoesOnInAnotherFileWithoutLosingAPacket) {
     EXPECT_EQ((*recording)->figures().bytes, bytes);
 }
 
+TEST(Recording, GoesOnUnderTheNextNameThatIsFree) {
+    PacketLog log;
+    const std::string path = newFile();
+    const std::string taken = partPath(path, 2);
+    std::ofstream(pathOf(taken)) << "of somebody else";
+    const auto recording = Recording::start(log, path, {}, {}, 0, {.fileBytes = 10'000});
+    ASSERT_TRUE(recording) << recording.error().text;
+    append(log, 0, 100);
+    ASSERT_TRUE(waitFor([&] { return (*recording)->figures().files == 2 || (*recording)->failure(); }));
+    append(log, 100, 103);
+    const auto stopped = (*recording)->stop();
+    ASSERT_TRUE(stopped) << stopped.error().text;
+    EXPECT_EQ(std::filesystem::file_size(taken), 16U);
+    EXPECT_EQ(recordedInFile(path).size(), 100U);
+    EXPECT_EQ(recordedInFile(partPath(path, 3)).size(), 3U);
+    EXPECT_EQ((*recording)->figures().files, 2U);
+}
+
+TEST(Recording, EndsItsFileWhereItCannotGoOnInAnother) {
+    PacketLog log;
+    const std::string folder = newFile();
+    const std::string moved = newFile();
+    std::filesystem::create_directory(folder);
+    const auto recording = Recording::start(log, folder + "/take", {}, {}, 0, {.fileBytes = 10'000});
+    ASSERT_TRUE(recording) << recording.error().text;
+    std::filesystem::rename(folder, moved);
+    (*recording)->setMarks({{7, "", ""}});
+    append(log, 0, 100);
+    ASSERT_TRUE(waitFor([&] { return (*recording)->failure().has_value(); }));
+    EXPECT_THAT((*recording)->failure()->text, testing::HasSubstr("take part 2: cannot be written"));
+    EXPECT_EQ(recordedInFile(moved + "/take").size(), 100U);
+    EXPECT_THAT(notesIn(moved + "/take"), testing::ElementsAre("Mark on packet 7"));
+}
+
+/// Whose disk stands still while its gate is closed.
+class GatedSink final : public ByteSink {
+public:
+    struct Gate {
+        std::mutex mutex;
+        std::condition_variable changed;
+        bool isOpen = true;
+        bool isWaitedAt = false;
+        ByteVector bytes;
+
+        void open(bool opened) {
+            const std::lock_guard lock(mutex);
+            isOpen = opened;
+            changed.notify_all();
+        }
+    };
+    explicit GatedSink(Gate& gate) : m_gate(gate) {}
+
+    tl::expected<void, FileError> write(std::span<const std::byte> more) override {
+        std::unique_lock lock(m_gate.mutex);
+        m_gate.isWaitedAt = !m_gate.isOpen;
+        m_gate.changed.notify_all();
+        m_gate.changed.wait(lock, [this] { return m_gate.isOpen; });
+        m_gate.bytes.insert(m_gate.bytes.end(), more.begin(), more.end());
+        return {};
+    }
+    tl::expected<void, FileError> flush() override { return {}; }
+
+private:
+    Gate& m_gate;
+};
+
+TEST(Recording, CountsPacketsOfMarksAsTheFileHasThem) {
+    PacketLog log(kSmallLog);
+    GatedSink::Gate gate;
+    const auto recording = Recording::start(log, std::make_unique<GatedSink>(gate), {});
+    ASSERT_TRUE(recording) << recording.error().text;
+    gate.open(false);
+    append(log, 0, 1);
+    {
+        std::unique_lock lock(gate.mutex);
+        gate.changed.wait(lock, [&] { return gate.isWaitedAt; });
+    }
+    append(log, 1, 5000); // more than the log holds
+    (*recording)->setMarks({{0, "", ""}, {1, "", "missed"}, {4998, "", ""}});
+    gate.open(true);
+    ASSERT_TRUE((*recording)->stop());
+    const std::uint64_t missed = (*recording)->figures().missed;
+    ASSERT_GT(missed, 0U);
+    const std::string text(reinterpret_cast<const char*>(gate.bytes.data()), gate.bytes.size());
+    std::istringstream stream(text);
+    EXPECT_THAT(notesIn(*readingFrom(stream, "memory")),
+                testing::ElementsAre("Mark on packet 0", "Mark on packet 1: missed",
+                                     "Mark on packet " + std::to_string(4998 - missed)));
+    const auto seen = recordedIn(gate.bytes);
+    ASSERT_EQ(seen.size(), 5000 - missed);
+    EXPECT_EQ(seen[4998 - missed].stamp, Stamp(Duration(4998)));
+}
+
 TEST(Recording, HasMarksInTheFileOfTheirPacketBeforeItEnds) {
     PacketLog log;
     const std::string path = newFile();
     const auto recording = Recording::start(log, path, {}, {}, 0, {.fileBytes = 10'000});
     ASSERT_TRUE(recording) << recording.error().text;
-    std::uint32_t sample = 0;
-    const auto receive = [&](std::uint64_t until) {
-        for (; sample < until; ++sample) {
-            log.writer().append(poseDatagram(sample), {Stamp(Duration(sample)), {}, 0, {}});
-        }
-        log.writer().publish();
-    };
-    const auto waitFor = [](const auto& condition) {
-        for (int turn = 0; turn < 500 && !condition(); ++turn) {
-            std::this_thread::sleep_for(std::chrono::milliseconds(10));
-        }
-        return condition();
-    };
-    receive(5);
+    append(log, 0, 5);
     (*recording)->setMarks({{1, "", "taken back"}, {2, "", ""}});
     ASSERT_TRUE(waitFor([&] { return notesIn(path).size() == 2; })) << "as the process might be killed";
     EXPECT_EQ((*recording)->figures().files, 1U);
     (*recording)->setMarks({{2, "", ""}, {3, "", "jumps"}});
-    receive(100);
+    append(log, 5, 100);
     ASSERT_TRUE(waitFor([&] { return (*recording)->figures().files == 2; }));
     const std::uint64_t second = (*recording)->figures().fileBegin;
-    receive(second + 1);
+    ASSERT_EQ(second, 100U);
+    append(log, 100, 101);
     (*recording)->setMarks({{2, "", ""}, {3, "", "jumps"}, {4, "", "late"}, {second, "", "here"}});
     ASSERT_TRUE((*recording)->stop({"3 samples lost"}));
     EXPECT_THAT(notesIn(path), testing::ElementsAre("Mark on packet 2", "Mark on packet 3: jumps"));
