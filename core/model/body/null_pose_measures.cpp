@@ -64,19 +64,28 @@ bool isFoot(int bodySegment) {
            bodySegment == kLeftToe;
 }
 
+/// Of a segment by its ID, which behind those of the body is its place; −1 for none.
+int placeOf(const Body& body, int segmentId) {
+    if (segmentId < 1 || segmentId > static_cast<int>(body.pose.segments.size())) {
+        return -1;
+    }
+    return segmentId <= kBodySegmentCount ? body.places[static_cast<std::size_t>(segmentId - 1)]
+                                          : segmentId - 1;
+}
+
 /// Without points of the feet, `soleDrop` below the lowest segment.
-double floorOf(const NullPose& pose, double soleDrop) {
+double floorOf(const Body& body, double soleDrop) {
     double lowest = std::numeric_limits<double>::infinity();
-    for (const NullPose::Segment& segment : pose.segments) {
+    for (const NullPose::Segment& segment : body.pose.segments) {
         if (segment.position.allFinite()) {
             lowest = std::min(lowest, segment.position.z());
         }
     }
-    for (const NullPose::Point& point : pose.points) {
-        const auto place = static_cast<std::size_t>(point.segment - 1);
-        if (point.segment >= 1 && place < pose.segments.size()) {
+    for (const NullPose::Point& point : body.pose.points) {
+        if (const int place = placeOf(body, point.segment); place >= 0) {
             soleDrop = isFoot(point.segment - 1) ? 0.0 : soleDrop;
-            const double z = pose.segments[place].position.z() + point.position.z();
+            const NullPose::Segment& segment = body.pose.segments[static_cast<std::size_t>(place)];
+            const double z = segment.position.z() + point.position.z();
             lowest = std::isfinite(z) ? std::min(lowest, z) : lowest;
         }
     }
@@ -187,16 +196,16 @@ BodyOrigins bodyOf(const NullPose& pose) {
     if (pose.segments.size() < origins.places.size()) {
         return origins;
     }
-    const BodyPlaces places = bodyPlaces(pose);
+    const Body body{pose};
     for (std::size_t i = 0; i < origins.places.size(); ++i) {
-        origins.places[i] = originOf(pose, places, static_cast<int>(i)).value_or(origins.places[i]);
+        origins.places[i] = body.origin(static_cast<int>(i)).value_or(origins.places[i]);
     }
     for (const NullPose::Point& point : pose.points) {
         if (point.segment >= 1 && point.segment <= kBodySegmentCount && point.position.allFinite()) {
             origins.points.push_back({point.segment - 1, point.id, point.position});
         }
     }
-    origins.floor = floorOf(pose, kReferenceSoleDrop * scaleOf({pose}).value_or(1.0));
+    origins.floor = floorOf(body, kReferenceSoleDrop * scaleOf(body).value_or(1.0));
     origins.source = BodySource::NullPose;
     return origins;
 }
@@ -204,7 +213,7 @@ BodyOrigins bodyOf(const NullPose& pose) {
 NullPoseMeasures measure(const NullPose& pose) {
     const Body body{pose};
     NullPoseMeasures measures;
-    measures.floor = floorOf(pose, kReferenceSoleDrop * scaleOf(body).value_or(1.0));
+    measures.floor = floorOf(body, kReferenceSoleDrop * scaleOf(body).value_or(1.0));
     measureHeight(body, measures);
     measureSpan(body, measures);
     for (const LengthRow& row : kLengths) {

@@ -70,6 +70,15 @@ TEST(NullPoseMeasures, NamesDecideWhereAllAreThereElseTheOrder) {
     EXPECT_FALSE(measure(pose).armSpan);
 }
 
+TEST(NullPoseMeasures, PointsGoWithTheirSegmentWhereverThatIsInTheMessage) {
+    NullPose pose = nullPoseOf(makeReferenceBody());
+    const NullPoseMeasures measures = measure(pose);
+    std::ranges::reverse(pose.segments);
+    EXPECT_NEAR(measure(pose).floor, measures.floor, 1e-9);
+    EXPECT_NEAR(*measure(pose).height, *measures.height, 1e-9);
+    EXPECT_NEAR(bodyOf(pose).floor, measures.floor, 1e-9);
+}
+
 TEST(NullPoseMeasures, DistancesToAnEarlierMessageAreAsSent) {
     const NullPose before = nullPoseOf(makeReferenceBody());
     NullPose pose = before;
