@@ -6,10 +6,16 @@
 namespace posewire::model {
 
 bool Session::forget(log::SenderId sender) {
-    std::set<CharacterKey> heirs; // of those that are hidden
-    for (const CharacterKey& key : m_choices.hidden) {
-        heirs.insert(key.sender == sender ? currentNow(key) : key);
-    }
+    const auto passedOn = [&](const std::set<CharacterKey>& keys) {
+        std::set<CharacterKey> heirs;
+        for (const CharacterKey& key : keys) {
+            heirs.insert(key.sender == sender ? currentNow(key) : key);
+        }
+        std::erase_if(heirs, [sender](const CharacterKey& key) { return key.sender == sender; });
+        return heirs;
+    };
+    std::set<CharacterKey> hidden = passedOn(m_choices.hidden);
+    std::set<CharacterKey> lifted = passedOn(m_choices.lifted);
     Selection selection = m_choices.selection;
     if (selection.character && selection.character->sender == sender) {
         selection.character = currentNow(*selection.character);
@@ -18,8 +24,8 @@ bool Session::forget(log::SenderId sender) {
     if (!m_ingest.forget(sender)) {
         return false;
     }
-    std::erase_if(heirs, [sender](const CharacterKey& key) { return key.sender == sender; });
-    m_choices.hidden = std::move(heirs);
+    m_choices.hidden = std::move(hidden);
+    m_choices.lifted = std::move(lifted);
     m_choices.selection = selection.sender == sender ? Selection{} : selection;
     return true;
 }

@@ -133,6 +133,7 @@ TEST_F(RestartTest, ForgetsTheEndedAndLosesNothing) {
     const SenderTotals before = m_session.allSenders();
     m_session.setSelection({sender(), key(), -1});
     m_session.setHidden(key(), true);
+    m_session.setLifted(key(), true);
     EXPECT_FALSE(m_session.forget(now.sender)) << "it sends";
     EXPECT_TRUE(m_session.forget(sender("127.0.0.1:40002"))) << "from the middle of the line";
     EXPECT_EQ(shown(), std::vector{now}) << "the first is not back";
@@ -143,6 +144,7 @@ TEST_F(RestartTest, ForgetsTheEndedAndLosesNothing) {
     EXPECT_EQ(m_session.displayName(now), "Ana");
     EXPECT_EQ(m_session.selection().character, now);
     EXPECT_TRUE(m_session.isHidden(now));
+    EXPECT_TRUE(m_session.isLifted(now));
     EXPECT_EQ(m_session.allSenders().datagrams, before.datagrams);
     EXPECT_EQ(m_session.retired().samples, 200U);
 }
