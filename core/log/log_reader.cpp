@@ -34,6 +34,16 @@ std::optional<Packet> LogReader::packetElsewhere(std::uint64_t number) {
     return enterChunk(number) ? view(number) : m_pastReader.packet(number);
 }
 
+std::optional<Packet> LogReader::packetFrom(std::uint64_t number) {
+    const std::uint64_t inMemory = m_entries.empty() ? m_end : m_entries.front().first;
+    std::optional<Packet> found;
+    for (number = std::max(number, m_begin); number < m_end && !(found = packet(number));) {
+        ++number;
+        number = std::min(m_past->nextFrom(number), std::max(number, inMemory));
+    }
+    return found;
+}
+
 bool LogReader::enterChunk(std::uint64_t number) {
     const auto next = std::ranges::upper_bound(m_entries, number, {}, &ChunkHistory::Entry::first);
     if (next == m_entries.begin()) {

@@ -43,6 +43,9 @@ public:
         return packetElsewhere(number);
     }
 
+    /// The packet of that number, or else the next one that is there.
+    [[nodiscard]] std::optional<Packet> packetFrom(std::uint64_t number);
+
 private:
     std::optional<Packet> packetElsewhere(std::uint64_t number);
     [[nodiscard]] bool enterChunk(std::uint64_t number);

@@ -38,6 +38,13 @@ std::shared_ptr<const Past::Part> Past::find(std::uint64_t number) const {
     return isInside ? *std::prev(next) : nullptr;
 }
 
+std::uint64_t Past::nextFrom(std::uint64_t number) const {
+    const std::lock_guard lock(m_mutex);
+    const auto next =
+        std::ranges::upper_bound(m_parts, number, {}, [](const auto& part) { return part->end(); });
+    return next == m_parts.end() ? UINT64_MAX : std::max(number, (*next)->first);
+}
+
 std::optional<Packet> PastReader::packet(std::uint64_t number) {
     if (m_part == nullptr || number < m_part->first || number >= m_part->end()) {
         m_part = m_past->find(number);

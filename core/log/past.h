@@ -57,6 +57,8 @@ public:
     [[nodiscard]] std::uint64_t begin() const { return m_begin.load(std::memory_order_acquire); }
     /// The part that has a packet; null where there is none.
     [[nodiscard]] std::shared_ptr<const Part> find(std::uint64_t number) const;
+    /// The first number from one on that it has a packet of; UINT64_MAX where there is none.
+    [[nodiscard]] std::uint64_t nextFrom(std::uint64_t number) const;
 
     [[nodiscard]] const std::shared_ptr<Scratch>& scratch() const { return m_scratch; }
 

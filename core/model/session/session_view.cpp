@@ -28,6 +28,22 @@ bool isTooLarge(const log::Packet& packet) {
     return header && countsSamples(header->type()) && packet.bytes.size() > SessionView::kMostMessageBytes;
 }
 
+/// One past the last packet before a stamp. Where packets are missing, the next one that is there counts.
+std::uint64_t endBefore(Ingest& ingest, log::Stamp stamp) {
+    std::uint64_t first = ingest.begin();
+    std::uint64_t last = ingest.end();
+    while (first < last) {
+        const std::uint64_t middle = first + (last - first) / 2;
+        const auto packet = ingest.reader().packetFrom(middle);
+        if (packet && packet->number < last && packet->stamp < stamp) {
+            first = packet->number + 1;
+        } else {
+            last = middle;
+        }
+    }
+    return first;
+}
+
 } // namespace
 
 SessionView::SessionView(Ingest& ingest, const Choices& choices)
@@ -107,22 +123,12 @@ SessionView::Decoded& SessionView::decoded() const {
 }
 
 std::uint64_t SessionView::packetFrom(log::Stamp stamp) const {
-    std::uint64_t first = begin();
-    std::uint64_t last = end();
-    while (first < last) {
-        const std::uint64_t middle = first + (last - first) / 2;
-        const auto packet = this->packet(middle);
-        if (packet && packet->stamp >= stamp) {
-            last = middle;
-        } else {
-            first = middle + 1;
-        }
-    }
-    return first;
+    const auto packet = m_ingest.reader().packetFrom(endBefore(m_ingest, stamp));
+    return packet ? std::min(packet->number, end()) : end();
 }
 
 std::uint64_t SessionView::packetAt(log::Stamp stamp) const {
-    const std::uint64_t after = packetFrom(stamp + log::Duration(1));
+    const std::uint64_t after = endBefore(m_ingest, stamp + log::Duration(1));
     return after == begin() ? after : after - 1;
 }
 

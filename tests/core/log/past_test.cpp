@@ -171,6 +171,28 @@ TEST_F(PastTest, WhatMemoryDroppedBeforeItWasWrittenIsPassedOverAndCounted) {
     EXPECT_TRUE(isAsItWas(16'000));
 }
 
+TEST_F(PastTest, FindsTheNextPacketBehindWhatIsMissing) {
+    append(5'000);
+    m_writer.finish();
+    append(10'000, false);
+    append(10'000);
+    m_writer.finish();
+    const std::uint64_t behind = beginOfMemory() < 15'000 ? beginOfMemory() : 15'000;
+    const auto next = [this](std::uint64_t from) {
+        const auto packet = m_reader.packetFrom(from);
+        return packet ? packet->number : UINT64_MAX;
+    };
+    EXPECT_EQ(next(0), 0U);
+    EXPECT_EQ(next(4'999), 4'999U);
+    EXPECT_EQ(next(5'000), behind);
+    EXPECT_EQ(next(behind - 1), behind);
+    EXPECT_EQ(next(m_next - 1), m_next - 1);
+    EXPECT_EQ(next(m_next), UINT64_MAX);
+    m_log.past().dropBefore(UINT64_MAX);
+    m_reader.refresh();
+    EXPECT_EQ(next(0), beginOfMemory());
+}
+
 TEST_F(PastTest, AFileThatWasCutShortLosesItsPacketsAndNothingElse) {
     append(20'000);
     m_file->all.resize(m_file->all.size() / 4);

@@ -81,6 +81,40 @@ TEST_F(ViewTest, FindsPacketsByTimeAsAWalkDoes) {
     }
 }
 
+TEST(ViewOfALogWithHoles, FindsPacketsByTimeAroundThem) {
+    log::PacketLog log({.memoryCap = std::size_t{1280} << 10, .chunkSize = std::size_t{256} << 10});
+    log::PastWriter past(log.past(), log.senders(), nullptr);
+    Session session(log);
+    const std::vector<std::byte> bytes(700);
+    const auto stampOf = [](std::uint64_t number) { return log::Stamp(1s + number * 1ms); };
+    constexpr std::uint64_t kCount = 6'000;
+    const log::SenderId sender = log.senders().intern({"127.0.0.1:40001", log::Transport::Udp, 9763});
+    for (std::uint64_t number = 0; number < kCount; ++number) {
+        const log::Arrival arrival{stampOf(number), sender, 0, {}};
+        log.writer().append(bytes, arrival);
+        log.writer().publish();
+        if (number < 300) { // the disk was too slow for the others
+            past.keep(number, arrival, bytes);
+        }
+        if (number % 100 == 99) {
+            session.follow(arrival.stamp);
+        }
+    }
+    past.finish();
+    session.follow(stampOf(kCount));
+    const std::uint64_t behind = log.figures().begin;
+    ASSERT_GT(behind, 1'000U);
+    ASSERT_LT(behind, kCount - 100);
+    ASSERT_EQ(session.begin(), 0U);
+    for (const std::uint64_t number : {std::uint64_t{0}, std::uint64_t{299}, behind, kCount - 1}) {
+        EXPECT_EQ(session.packetFrom(stampOf(number)), number);
+        EXPECT_EQ(session.packetAt(stampOf(number)), number);
+    }
+    EXPECT_EQ(session.packetFrom(stampOf(1'000)), behind);
+    EXPECT_EQ(session.packetAt(stampOf(1'000)), 299U);
+    EXPECT_EQ(session.packetFrom(stampOf(kCount)), kCount);
+}
+
 TEST_F(ViewTest, ShowsTheStateOfEveryPacketWhateverTheOrderOfLooking) {
     poses(1, 100, at(1s));
     follow();
