@@ -9,7 +9,7 @@ namespace posewire::model {
 namespace {
 
 /// A time code that moves by more than this between two samples jumped.
-constexpr std::int32_t kMostTimeCodeMs = 60'000;
+constexpr std::int64_t kMostTimeCodeMs = 60'000;
 /// One that is farther than this from where its sample belongs too, or it is corrupt.
 constexpr double kMostOffMs = 500;
 
@@ -52,7 +52,8 @@ void SenderClock::add(const Sample& sample) {
     }
     const auto moved = static_cast<std::int32_t>(sample.sample - m_previous.sample);
     const auto timeCodeMoved = timeCodeStep(m_previous.timeCode, sample.timeCode);
-    if (std::abs(timeCodeMoved) > kMostTimeCodeMs || (isOff(moved, timeCodeMoved) && m_isInDoubt)) {
+    if (std::abs(std::int64_t{timeCodeMoved}) > kMostTimeCodeMs ||
+        (isOff(moved, timeCodeMoved) && m_isInDoubt)) {
         restart();
         add(sample);
         return;

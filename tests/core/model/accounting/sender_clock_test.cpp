@@ -104,6 +104,13 @@ TEST(SenderClock, BeginsAnotherGenerationWhereTheTimeCodeJumpsByMoreThanAMinute)
     }
 }
 
+TEST(SenderClock, BeginsAnotherGenerationWhereTheTimeCodeJumpsByHalfOfAllThereAre) {
+    SenderClock clock;
+    clock.add({sentAt(10s), 1, 0});
+    clock.add({sentAt(10s), 2, 0x80000000U}); // its difference has no opposite of 32 bits
+    EXPECT_EQ(clock.generation(), 1U);
+}
+
 TEST(SenderClock, KeepsItsJitterThroughAJumpOfTheTimeCode) {
     auto samples = jitteryStream(5'000'000, 400);
     SenderClock clock = clockOf(samples);
