@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -63,16 +67,19 @@ inline std::string counted(std::uint64_t count, std::string_view noun) {
     return counted(count, noun, std::string(noun) + 's');
 }
 
+/// "−0.25", whatever the locale; "–" for what is no number.
 inline std::string fixedText(double value, int decimals) {
-    const double unit = std::pow(10.0, decimals);
-    const auto rounded = static_cast<long long>(std::llround(std::abs(value) * unit));
-    std::string digits = std::to_string(rounded);
-    if (decimals > 0) {
-        const auto least = static_cast<std::size_t>(decimals) + 1;
-        digits.insert(0, digits.size() < least ? least - digits.size() : 0, '0');
-        digits.insert(digits.size() - static_cast<std::size_t>(decimals), ".");
+    constexpr std::size_t kMost = std::numeric_limits<double>::max_exponent10 + 32;
+    if (!std::isfinite(value)) {
+        return "–";
     }
-    return value < 0 && rounded != 0 ? "−" + digits : digits;
+    std::array<char, kMost> text{};
+    const auto end = std::to_chars(text.data(), text.data() + text.size(), std::abs(value),
+                                   std::chars_format::fixed, std::clamp(decimals, 0, 20))
+                         .ptr;
+    const std::string digits(text.data(), end);
+    const bool isZero = digits.find_first_not_of("0.") == std::string::npos;
+    return value < 0 && !isZero ? "−" + digits : digits;
 }
 
 /// "1.684 m".

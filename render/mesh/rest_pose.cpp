@@ -5,7 +5,10 @@
 #include "render/mesh/finite.h"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
+#include <string>
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -119,9 +122,17 @@ std::optional<glm::quat> turnOf(const Places& places, int quarterTurns) {
     return glm::angleAxis(angle, glm::vec3(0.0F, 0.0F, 1.0F)) * snapped(*turn);
 }
 
+/// "0.18", whatever the locale.
+std::string hundredths(float number) {
+    std::array<char, 64> text{};
+    const auto end =
+        std::to_chars(text.data(), text.data() + text.size(), number, std::chars_format::fixed, 2).ptr;
+    return {text.data(), end};
+}
+
 void remark(const Places& places, float ownHeight, RestReading& reading) {
     if (reading.height < kLeastHeight || reading.height > kMostHeight) {
-        reading.remarks.push_back("The body is " + std::to_string(reading.height) + " m high.");
+        reading.remarks.push_back("The body is " + hundredths(reading.height) + " m high.");
     } else if (ownHeight < kLeastHeight || ownHeight > kMostHeight) {
         reading.remarks.emplace_back(
             "In metres the body would have no person's height: another unit was taken.");

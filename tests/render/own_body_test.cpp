@@ -168,6 +168,8 @@ TEST(OwnBody, ReadsTheRestPose) {
     EXPECT_TRUE(bodyOf({}).reading.remarks.empty());
     EXPECT_FLOAT_EQ(bodyOf({.fileUnit = 100.0F}, {.unit = 0.001F}).reading.unit, 0.001F)
         << "as it was chosen";
+    EXPECT_EQ(bodyOf({.fileUnit = 100.0F}, {.unit = 0.001F}).reading.remarks,
+              std::vector<std::string>{"The body is 0.18 m high."});
 }
 
 TEST(OwnBody, SaysThatTheFeetPointBackwards) {

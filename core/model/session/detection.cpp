@@ -2,13 +2,13 @@
 #include "core/model/session/detection.h"
 
 #include "core/model/body/segments.h"
+#include "core/model/text.h"
 #include "core/wire/messages.h"
 #include "core/wire/type_table.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 namespace posewire::model {
 namespace {
@@ -104,10 +104,7 @@ void UnitFinder::add(double height, double reach) {
     if (isChange) {
         m_before = std::string(unitName(m_unit)) + " (" + m_evidence + ')';
     }
-    char text[64];
-    std::snprintf(text, sizeof text, hasHeight ? "pelvis at %.2f" : "reach of %.2f",
-                  hasHeight ? height : reach);
-    m_evidence = text;
+    m_evidence = hasHeight ? "pelvis at " + fixedText(height, 2) : "reach of " + fixedText(reach, 2);
     m_unit = unit;
     m_otherRun = 0;
 }
