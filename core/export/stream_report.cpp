@@ -130,6 +130,14 @@ void addCauses(std::vector<Finding>& findings, const model::StreamFigures& sum) 
     }
 }
 
+void addMessages(std::vector<Finding>& findings, const std::vector<model::StreamFigures>& streams) {
+    std::uint64_t incomplete = 0;
+    for (const model::StreamFigures& stream : streams) {
+        incomplete += stream.isSampled() ? 0 : stream.count(Incomplete);
+    }
+    addCounted(findings, incomplete, "message came only in part.", "messages came only in part.");
+}
+
 void addOrder(std::vector<Finding>& findings, const model::StreamFigures& sum) {
     addCounted(findings, sum.count(Duplicates), "datagram came more than once.",
                "datagrams came more than once.");
@@ -195,6 +203,7 @@ std::vector<Finding> findingsOn(const model::SessionView& session,
         findings.push_back(verdictFinding(session, options.range));
         findings.push_back(lossFinding(sum));
         addCauses(findings, sum);
+        addMessages(findings, streams);
         addOrder(findings, sum);
     }
     addSession(findings, session);

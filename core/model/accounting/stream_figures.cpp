@@ -260,6 +260,9 @@ void StreamFigures::add(const StreamFigures& other) {
     const double own = expected();
     const double all = own + other.expected();
     for (const FigureRow& row : kRows) {
+        if (!other.m_isSampled && row.scope == FigureScope::Samples) {
+            continue; // a message of which only a part came is no sample
+        }
         const double before = (*this)[row.figure];
         const double more = other[row.figure];
         switch (row.sum) {

@@ -112,6 +112,27 @@ TEST(StreamFigures, OfMessagesAreDatagramsAndWhatIsIncomplete) {
     EXPECT_FALSE(figures.has(Figure::Jitter));
 }
 
+TEST(StreamFigures, OfMessagesAddNothingToSamples) {
+    const StreamFigures samples = figuresOf(streamOf(2, 1000, 50));
+    Stream messages({log::SenderId{}, 0, 12});
+    wire::Header part;
+    part.datagramCounter = 0; // the first of several, and the only one that comes
+    for (int i = 0; i < 3; ++i) {
+        addTo(messages.accounting, kBegin + i * 1s, 760, part);
+    }
+    ASSERT_EQ(figuresOf(messages).count(Figure::Incomplete), 3U);
+    StreamFigures sum;
+    sum.add(samples);
+    sum.add(figuresOf(messages));
+    EXPECT_EQ(sum.count(Figure::Datagrams), samples.count(Figure::Datagrams) + 3);
+    EXPECT_EQ(sum.count(Figure::Incomplete), 3U);
+    for (const FigureRow& row : figureTable()) {
+        if (row.scope == FigureScope::Samples && row.sum != FigureSum::None) {
+            EXPECT_EQ(sum.orZero(row.figure), samples.orZero(row.figure)) << row.title;
+        }
+    }
+}
+
 TEST(StreamFigures, AreUnknownWhereNothingIsMeasured) {
     const StreamFigures figures = figuresOf(streamOf(2, 1, 2));
     EXPECT_TRUE(std::isnan(figures[Figure::SpacingMost]));
