@@ -106,7 +106,7 @@ std::vector<const model::Gap*> gapsIn(const model::SessionView& session, const R
     return gaps;
 }
 
-/// Samples lost over time, in a colour for each cause.
+/// Samples of which nothing or not all came, over time, in a colour for each cause.
 SvgPlot causePlot(const model::SessionView& session, const ReportSteps& steps) {
     // Three colours and a grey: unknown is no culprit.
     constexpr std::array<std::size_t, model::kLossCauses> kColours{1, 0, 3, 6};
@@ -115,11 +115,19 @@ SvgPlot causePlot(const model::SessionView& session, const ReportSteps& steps) {
         plot.series.push_back({std::string(model::nameOf(static_cast<model::LossCause>(cause))),
                                kColours[cause], std::vector<double>(steps.count)});
     }
+    const auto add = [&](log::Stamp stamp, model::LossCause cause, double samples) {
+        const std::int64_t step = (stamp - steps.first) / steps.width;
+        auto& values = plot.series[static_cast<std::size_t>(cause)].values;
+        values[std::min(static_cast<std::size_t>(step), values.size() - 1)] += samples;
+    };
     for (const model::Gap* gap : gapsIn(session, steps)) {
-        const std::int64_t step = (gap->toStamp - steps.first) / steps.width;
-        auto& values = plot.series[static_cast<std::size_t>(gap->cause)].values;
-        values[std::min(static_cast<std::size_t>(step), values.size() - 1)] += gap->lost;
+        add(gap->toStamp, gap->cause, gap->lost);
     }
+    session.forEachPartialLoss([&](const log::StreamKey& key, log::Stamp stamp, model::LossCause cause) {
+        if (model::countsSamples(key.type) && stamp >= steps.from && stamp <= steps.to) {
+            add(stamp, cause, 1);
+        }
+    });
     return plot;
 }
 

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "core/export/reports.h"
+#include "core/model/accounting/stream_figures.h"
 #include "core/model/session/session.h"
+#include "core/wire/type_table.h"
 #include "tests/core/performer/faulty_performance.h"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <map>
 #include <memory>
+#include <optional>
 
 // What the reports of one session say is the same in each of them, adds up, and is what was sent.
 namespace posewire::exporting {
@@ -57,6 +61,44 @@ performer::PerformerSettings twoCharacters() {
     return settings;
 }
 
+/// What stands between two marks from a place on, which moves behind it.
+std::optional<std::string> between(const std::string& text, std::size_t& at, const std::string& before,
+                                   const std::string& after) {
+    const std::size_t begin = text.find(before, at);
+    const std::size_t end = begin == std::string::npos ? begin : text.find(after, begin + before.size());
+    if (end == std::string::npos) {
+        return std::nullopt;
+    }
+    at = end + after.size();
+    return text.substr(begin + before.size(), end - begin - before.size());
+}
+
+/// Of all elements of a name, without what is in them.
+std::vector<std::string> textsOf(const std::string& html, const std::string& element) {
+    std::vector<std::string> texts;
+    std::size_t at = 0;
+    while (const auto cell = between(html, at, "<" + element, "</" + element + ">")) {
+        std::string text;
+        bool isInside = false;
+        for (const char letter : '<' + *cell) {
+            text += isInside || letter == '<' ? "" : letter == '>' ? "" : std::string(1, letter);
+            isInside = letter == '<' || (isInside && letter != '>');
+        }
+        texts.push_back(text);
+    }
+    return texts;
+}
+
+/// A number as people read it.
+double numberOf(std::string text) {
+    for (const auto& [shown, plain] : {std::pair{"\u202f", ""}, {"−", "-"}, {"+", ""}}) {
+        for (std::size_t at = text.find(shown); at != std::string::npos; at = text.find(shown)) {
+            text.replace(at, std::string(shown).size(), plain);
+        }
+    }
+    return std::stod(text);
+}
+
 struct Faulty {
     std::string name;
     performer::FaultSettings settings;
@@ -64,7 +106,7 @@ struct Faulty {
 };
 
 std::vector<Faulty> kinds() {
-    std::vector<Faulty> all(6);
+    std::vector<Faulty> all(7);
     all[0].name = "None";
     all[1].name = "Loss";
     all[1].settings.drop = 0.03;
@@ -79,6 +121,9 @@ std::vector<Faulty> kinds() {
     all[5].settings.drop = all[5].settings.duplicate = all[5].settings.reorder = 0.02;
     all[5].settings.truncate = 0.01;
     all[5].settings.jitterMs = 3;
+    all[6].name = "Split";
+    all[6].settings.splits = true;
+    all[6].settings.drop = 0.03;
     return all;
 }
 
@@ -194,15 +239,92 @@ TEST_P(Reports, GiveTheSameVerdictInHtml) {
     EXPECT_EQ(isGood, GetParam().name == "None") << text;
 }
 
+/// What two tables say of a stream, by the titles of their columns.
+std::map<std::string, std::string> tellingsOf(const std::string& html, const Json& stream) {
+    const auto type = static_cast<std::uint8_t>(std::stoi(stream["type"].get<std::string>()));
+    std::map<std::string, std::string> tellings;
+    std::size_t at = html.find("character " + stream["character"].dump() + "</span></h3>");
+    for (const char* first : {"What arrived", "When it arrived"}) {
+        const auto table = between(html, at, "<table>", "</table>");
+        if (!table || table->find(first) == std::string::npos) {
+            break; // none of its streams has such figures
+        }
+        const std::vector<std::string> titles = textsOf(*table, "th");
+        std::size_t row = 0;
+        while (const auto cells = between(*table, row, "<tr>", "</tr>")) {
+            const std::vector<std::string> texts = textsOf(*cells, "td");
+            for (std::size_t i = 0; i < texts.size() && texts[0] == wire::typeTitle(type); ++i) {
+                tellings[titles.at(i)] = texts[i];
+            }
+        }
+    }
+    return tellings;
+}
+
 TEST_P(Reports, GiveTheSameFiguresInHtml) {
     for (const Json& stream : streams()) {
-        const std::string datagrams =
-            "<td class=\"n\">" + std::to_string(stream["datagrams"].get<std::uint64_t>());
-        EXPECT_THAT(monitored.html, testing::HasSubstr(datagrams)) << stream;
+        const auto tellings = tellingsOf(monitored.html, stream);
+        EXPECT_GE(tellings.size(), isSampled(stream) ? 20U : 10U);
+        std::size_t compared = 0;
+        for (const model::FigureRow& row : model::figureTable()) {
+            const auto told = tellings.find(row.title);
+            if (row.key.empty() || told == tellings.end()) {
+                continue;
+            }
+            const std::size_t dot = row.key.find('.');
+            const Json& parent =
+                dot == std::string_view::npos ? stream : stream[std::string(row.key.substr(0, dot))];
+            const double value = parent[std::string(row.key.substr(dot + 1))];
+            if (told->second.empty()) {
+                const bool isUnknown = row.style.form == model::FigureForm::Signed;
+                EXPECT_TRUE(value == 0 || isUnknown || !isSampled(stream)) << row.title << stream;
+                continue;
+            }
+            const bool isWhole =
+                row.style.form == model::FigureForm::Count || row.style.form == model::FigureForm::Counter;
+            const double unit = isWhole ? 0 : std::pow(10.0, -row.style.digits.report);
+            const double factor = row.style.form == model::FigureForm::Share ? 100 : 1;
+            EXPECT_NEAR(numberOf(told->second), factor * value, 0.51 * unit) << row.title << stream;
+            ++compared;
+        }
+        EXPECT_GE(compared, isSampled(stream) ? 18U : 2U) << stream;
     }
     EXPECT_THAT(monitored.html, testing::HasSubstr("10.0.0.7:40001"));
     EXPECT_EQ(monitored.html.find("NaN"), std::string::npos);
     EXPECT_EQ(monitored.html.find("inf"), std::string::npos);
+}
+
+TEST_P(Reports, DrawWhatStreamsLostByCause) {
+    std::size_t at = monitored.html.find("<b>Samples lost, by cause</b>");
+    ASSERT_NE(at, std::string::npos);
+    const std::string plot = between(monitored.html, at, "<svg", "</svg>").value();
+    // The scale, from two of its labels.
+    std::vector<std::pair<double, double>> labels; // value, and place from the top
+    std::size_t label = 0;
+    while (const auto element = between(plot, label, "<text ", "</text>")) {
+        std::size_t place = 0;
+        const double y = std::stod(between(*element, place, "y=\"", "\"").value());
+        if (element->find("\"end\"") != std::string::npos && element->find(" s") == std::string::npos) {
+            labels.emplace_back(std::stod(element->substr(element->find('>') + 1)), y);
+        }
+    }
+    ASSERT_GE(labels.size(), 2U);
+    const double perPlace =
+        (labels.back().first - labels.front().first) / (labels.front().second - labels.back().second);
+    for (const auto& [cause, colour] :
+         {std::pair{"thisComputer", "c1"}, {"network", "c0"}, {"sender", "c3"}, {"unknown", "c6"}}) {
+        double lost = 0;
+        for (const Json& stream : streams()) {
+            lost += isSampled(stream) ? stream["causes"][cause].get<double>() : 0;
+        }
+        double drawn = 0;
+        std::size_t bar = 0;
+        while (const auto element = between(plot, bar, "<rect class=\"bar " + std::string(colour), "/>")) {
+            std::size_t place = 0;
+            drawn += perPlace * std::stod(between(*element, place, "height=\"", "\"").value());
+        }
+        EXPECT_NEAR(drawn, lost, 1 + lost / 20) << cause;
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(, Reports, testing::ValuesIn(kinds()),
