@@ -6,11 +6,13 @@
 
 namespace posewire::render::gl {
 
-/// What is written anew for each picture: one for each that the driver may still be drawing, and the next, so
-/// that writing waits for none.
-template <typename T>
+/// What is written anew for each view of a picture, of which a picture may have `views`: those of the
+/// pictures that the driver may still be drawing, and of the next, so that writing waits for none.
+template <typename T, std::size_t views>
 class Ring {
 public:
+    static constexpr std::size_t kPictures = 3;
+
     /// Makes each by `make`.
     template <typename Make>
     explicit Ring(Make&& make) {
@@ -27,7 +29,7 @@ public:
     const T& current() const { return m_all[m_current]; }
 
 private:
-    std::array<T, 3> m_all;
+    std::array<T, kPictures * views> m_all;
     std::size_t m_current = 0;
 };
 

@@ -61,7 +61,7 @@ private:
     void addRuns(const GpuMesh* DrawnCharacter::*mesh, bool paints, int atOnce,
                  std::vector<InstanceRun>& runs);
 
-    gl::Ring<gl::Buffer> m_buffers;
+    gl::Ring<gl::Buffer, kMostViews> m_buffers;
     std::vector<Data> m_data; ///< first of all characters in their order, then by runs
     std::vector<const DrawnCharacter*> m_ordered;
     std::vector<InstanceRun> m_solids;

@@ -29,7 +29,7 @@ private:
         static Store create();
     };
 
-    gl::Ring<Store> m_motions;
+    gl::Ring<Store, kMostViews> m_motions;
     Store m_fits;
     std::vector<DualQuaternion> m_motionsOut;
     std::vector<glm::vec4> m_fitsOut;

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "render/gl/framebuffer.h"
 #include "render/gl/program.h"
+#include "render/gl/ring.h"
 #include "render/offscreen.h"
 #include "tests/support/baseline.h"
 
 #include <array>
 #include <optional>
+#include <set>
 #include <thread>
 
 #include <gmock/gmock.h>
@@ -41,6 +43,17 @@ protected:
 private:
     std::optional<OffscreenContext> m_context;
 };
+
+TEST(Ring, GivesEachViewOfThePicturesThatMayBeDrawnOneOfItsOwn) {
+    int made = 0;
+    Ring<int, 4> ring([&made] { return made++; });
+    std::set<int> written;
+    for (std::size_t i = 0; i < 4 * decltype(ring)::kPictures; ++i) {
+        EXPECT_TRUE(written.insert(ring.next()).second) << i;
+        EXPECT_TRUE(written.contains(ring.current()));
+    }
+    EXPECT_TRUE(written.contains(ring.next())) << "that of the oldest picture";
+}
 
 TEST_F(GlTest, NamesProgramAndStageWithTheCompilersOwnText) {
     const std::string good = "void main() { gl_Position = vec4(0.0); }";
