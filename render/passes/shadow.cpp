@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <span>
 
 #include <epoxy/gl.h>
 
@@ -24,21 +25,23 @@ struct Contacts {
     std::size_t count = 0;
 };
 
+/// Of its lowest point.
+float heightOf(const Capsule& capsule) {
+    return std::min(capsule.from.z, capsule.to.z) - capsule.radius;
+}
+
 Contacts contacts(const DrawnCharacter& character) {
     std::array<Capsule, kSegmentCount> near;
     std::size_t count = 0;
     const SegmentCapsules capsules = stretched(character.mesh->capsules, character.instance->fit);
     for (const Capsule& own : capsules) {
         const Capsule capsule = posed(own, character.instance->palette[own.joint]);
-        const float height = std::min(capsule.from.z, capsule.to.z) - capsule.radius;
+        const float height = heightOf(capsule);
         if (capsule.radius > 0.0F && height < kContactHeight && height > -1.0F) {
             near[count++] = capsule;
         }
     }
-    const auto byHeight = [](const Capsule& a, const Capsule& b) {
-        return std::min(a.from.z, a.to.z) < std::min(b.from.z, b.to.z);
-    };
-    std::sort(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(count), byHeight);
+    std::ranges::sort(std::span(near).first(count), {}, heightOf);
     Contacts packed;
     packed.count = std::min(count, kMaxCapsules);
     for (std::size_t i = 0; i < packed.count; ++i) {
