@@ -137,7 +137,7 @@ void Renderer::Impl::drawPasses(unsigned target, bool isMultisampled) {
         edges->draw(frame);
         pass("edges");
     }
-    marks->draw(frame);
+    marks->draw();
     pass("marks");
 }
 

@@ -87,7 +87,7 @@ void MarksPass::drawBatch(gl::Program& program, const gl::VertexArray& array, in
     }
 }
 
-void MarksPass::draw(const Frame&) {
+void MarksPass::draw() {
     glEnable(GL_DEPTH_TEST);
     glDepthMask(GL_FALSE);
     glDisable(GL_CULL_FACE);

@@ -17,7 +17,7 @@ public:
     static tl::expected<MarksPass, std::string> create();
 
     void upload(const Scene& scene);
-    void draw(const Frame& frame);
+    void draw();
 
 private:
     struct Line {

@@ -20,8 +20,6 @@ public:
 
     /// Takes the sizes of its pictures from the quality; where the driver refuses them, they stay.
     tl::expected<void, std::string> resize(const RenderQuality& quality);
-    /// Texels a side of the light's picture.
-    int mapSize() const { return m_depth.width(); }
 
     /// The depth first, then the shadow. Both leave another framebuffer bound.
     void drawDepth(const Instances& instances);
