@@ -189,9 +189,17 @@ std::string typeTitle(std::uint8_t type) {
     return typeDigits(type) + ' ' + std::string(row != nullptr ? row->name : "unknown type");
 }
 
+/// Asked several times of every packet.
 bool isSampled(std::uint8_t type) {
-    const TypeInfo* row = findType(type);
-    return row == nullptr || row->isSampled;
+    static constexpr auto kSampled = [] {
+        std::array<bool, 256> all{};
+        all.fill(true);
+        for (const TypeInfo& row : kTypes) {
+            all[row.type] = row.isSampled;
+        }
+        return all;
+    }();
+    return kSampled[type];
 }
 
 std::string_view unitSymbol(Unit unit) {

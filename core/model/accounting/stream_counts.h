@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/log/time.h"
+#include "core/wire/type_table.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -28,8 +29,8 @@ inline constexpr std::size_t kLossCauses = 4;
 
 /// Whether sample accounting applies to a message type: types 10 to 13 carry sample 0 and are sent again and
 /// again on purpose.
-[[nodiscard]] constexpr bool countsSamples(std::uint8_t type) {
-    return type < 10 || type > 13;
+[[nodiscard]] inline bool countsSamples(std::uint8_t type) {
+    return wire::isSampled(type);
 }
 
 /// What came and what did not, of a stream or of several. A sum has the step and the samples 0.
