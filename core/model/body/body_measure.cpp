@@ -31,7 +31,7 @@ void BodyMeasure::add(const wire::Datagram& datagram, LengthUnit unit) {
     if (const auto* unity = std::get_if<wire::PoseUnity>(&datagram.body)) {
         addUnity(*unity, unit);
     } else if (const auto* linear = std::get_if<wire::LinearKinematics>(&datagram.body)) {
-        addPositions(*linear, unit);
+        addPositions(datagram.header, *linear, unit);
     } else if (const auto* points = std::get_if<wire::PointPositions>(&datagram.body)) {
         addMarkers(*points, unit);
     } else if (hasWholePoses(datagram.header.type())) {
@@ -82,15 +82,22 @@ void BodyMeasure::addUnity(const wire::PoseUnity& message, LengthUnit unit) {
     ++m_poses;
 }
 
-void BodyMeasure::addPositions(const wire::LinearKinematics& message, LengthUnit unit) {
-    if (message.segments.size() < kBodySegments) {
+/// By their IDs, as poses are read; of those with the same the first.
+void BodyMeasure::addPositions(const wire::Header& header, const wire::LinearKinematics& message,
+                               LengthUnit unit) {
+    const ItemPlaces items = itemPlaces(header, message.segments.size(), {});
+    std::array<std::optional<Vector3d>, kBodySegmentCount> places;
+    for (std::size_t i = 0; i < std::min(message.segments.size(), kBodySegments); ++i) {
+        const auto position = static_cast<std::size_t>(items.positionOf(i, message.segments[i].id));
+        if (static_cast<int>(i) < items.layout.body && position < places.size() && !places[position]) {
+            places[position] = toVector(message.segments[i].position) * metresPer(unit);
+        }
+    }
+    if (std::ranges::any_of(places, [](const auto& place) { return !place.has_value(); })) {
         return;
     }
-    const auto place = [&](std::size_t i) {
-        return Vector3d(toVector(message.segments[i].position) * metresPer(unit));
-    };
     for (std::size_t i = 1; i < kBodySegments; ++i) {
-        addLength(i, (place(i) - place(parentOf(i))).norm());
+        addLength(i, (*places[i] - *places[parentOf(i)]).norm());
     }
     ++m_poses;
 }

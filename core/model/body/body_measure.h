@@ -36,7 +36,7 @@ private:
     void addLength(std::size_t segment, double length);
     void addWhole(const wire::Datagram& datagram, LengthUnit unit);
     void addUnity(const wire::PoseUnity& message, LengthUnit unit);
-    void addPositions(const wire::LinearKinematics& message, LengthUnit unit);
+    void addPositions(const wire::Header& header, const wire::LinearKinematics& message, LengthUnit unit);
     void addMarkers(const wire::PointPositions& message, LengthUnit unit);
 
     std::array<Bone, kBodySegmentCount> m_bones{};
