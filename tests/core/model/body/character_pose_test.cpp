@@ -51,6 +51,23 @@ TEST(LayoutOfPose, IsThatOfOlderSendersWhereTheHeaderSaysNothingOrTheWrong) {
     }
 }
 
+TEST(LayoutOfPose, HasNoMoreSegmentsThanThereMayBe) {
+    for (const wire::Header& header : {headerOf(100, 0, 0), headerOf(23, 60, 17), headerOf(255, 255, 255)}) {
+        for (const std::size_t items : {std::size_t{68}, std::size_t{100}, std::size_t{765}}) {
+            EXPECT_EQ(segmentLayout(header, items), (SegmentLayout{23, 4, 40})) << items;
+        }
+    }
+    wire::Datagram datagram{headerOf(100, 0, 0), wire::LinearKinematics{}, {}};
+    datagram.header.datagramCounter = 0x80;
+    for (std::uint32_t id = 1; id <= 100; ++id) {
+        std::get<wire::LinearKinematics>(datagram.body).segments.push_back({id, {0, 0, 1}, {}, {}});
+    }
+    const PosePart part{&datagram};
+    CharacterPose pose;
+    ASSERT_TRUE(poseFromParts({&part, 1}, {referenceOrigins()}, pose));
+    EXPECT_EQ(pose.segments.size(), static_cast<std::size_t>(kMaxSegmentCount));
+}
+
 TEST(LayoutOfPose, CountsAllItemsOfAnyLegalDatagramOnce) {
     for (std::size_t items = 0; items <= static_cast<std::size_t>(kMaxSegmentCount); ++items) {
         const SegmentLayout layout = segmentLayout(headerOf(0, 0, 0), items);
