@@ -20,14 +20,6 @@ int numberAt(const model::SegmentPlace& place) {
     return kBefore[static_cast<std::size_t>(place.kind)] + place.index + 1;
 }
 
-/// Nothing where no segment has such a point.
-std::optional<model::PointReference> pointBy(model::PointIdCoding coding, std::uint32_t id) {
-    const auto point = model::decodePointId(coding, id);
-    const bool isOne = point && point->segmentId >= 1 && point->segmentId <= model::kMaxSegmentCount &&
-                       point->localId >= 1 && point->localId <= model::kMaxLocalPointId;
-    return isOne ? point : std::nullopt;
-}
-
 /// In any case, and with spaces or without.
 bool isSpelled(std::string_view known, std::string_view name) {
     for (const char letter : name) {
@@ -46,9 +38,9 @@ bool isSpelled(std::string_view known, std::string_view name) {
 
 double pointSegment(std::uint32_t id, std::uint32_t firstId) {
     using enum model::PointIdCoding;
-    const auto by256 = pointBy(By256, id);
-    const auto by100 = pointBy(By100, id);
-    const bool isOld = by256 && by100 ? !pointBy(By256, firstId) : by100.has_value();
+    const auto by256 = model::knownPoint(By256, id);
+    const auto by100 = model::knownPoint(By100, id);
+    const bool isOld = by256 && by100 ? !model::knownPoint(By256, firstId) : by100.has_value();
     return isOld ? by100->segmentId : id >> 8;
 }
 
