@@ -24,8 +24,8 @@ std::optional<model::NullPose> nullPoseOf(const model::SessionView& session, con
 MotionCharacter::Part streamPart(const model::SessionView& session, const model::CharacterKey& key) {
     MotionCharacter::Part part{key};
     if (const model::Sender* sender = session.find(key.sender)) {
-        for (std::size_t i = 0; i < kPoseTypes.size(); ++i) {
-            part.poseUnits[i] = sender->positionUnit(kPoseTypes[i]);
+        for (std::size_t i = 0; i < model::kWholePoseTypes.size(); ++i) {
+            part.poseUnits[i] = sender->positionUnit(model::kWholePoseTypes[i]);
         }
         part.markerUnit = sender->positionUnit(kMarkerType);
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/log/packet_log.h"
+#include "core/model/body/character_pose.h"
 #include "core/model/body/null_pose.h"
 #include "core/model/body/reference_body.h"
 #include "core/model/body/units.h"
@@ -15,8 +16,6 @@
 
 namespace posewire::exporting {
 
-/// Types that poses are read from, the one that is preferred first: as SessionView::pose() does.
-inline constexpr std::array<std::uint8_t, 3> kPoseTypes{2, 1, 5};
 inline constexpr std::uint8_t kMarkerType = 3;
 
 /// A character to be exported, through restarts of its sender.
@@ -24,7 +23,7 @@ struct MotionCharacter {
     /// What one sender sent of it.
     struct Part {
         model::CharacterKey key;
-        std::array<model::LengthUnit, kPoseTypes.size()> poseUnits{}; ///< in the order of kPoseTypes
+        std::array<model::LengthUnit, model::kWholePoseTypes.size()> poseUnits{}; ///< in their order
         model::LengthUnit markerUnit = model::LengthUnit::Centimetre;
     };
 

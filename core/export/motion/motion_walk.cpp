@@ -11,8 +11,6 @@
 namespace posewire::exporting {
 namespace {
 
-/// As in SessionView: a type is read where none that is preferred came within this time.
-constexpr log::Duration kTypeTie = std::chrono::milliseconds(250);
 /// Packets that are read in one step.
 constexpr std::uint64_t kPacketsAtOnce = 2048;
 
@@ -20,9 +18,10 @@ std::optional<std::size_t> rankOf(MotionContent content, std::uint8_t type) {
     if (content == MotionContent::Markers) {
         return type == kMarkerType ? std::optional<std::size_t>(0) : std::nullopt;
     }
-    const auto found = std::ranges::find(kPoseTypes, type);
-    return found == kPoseTypes.end() ? std::nullopt
-                                     : std::optional(static_cast<std::size_t>(found - kPoseTypes.begin()));
+    const auto found = std::ranges::find(model::kWholePoseTypes, type);
+    return found == model::kWholePoseTypes.end()
+               ? std::nullopt
+               : std::optional(static_cast<std::size_t>(found - model::kWholePoseTypes.begin()));
 }
 
 bool markersOf(const wire::Datagram& datagram, model::LengthUnit unit, MotionSample& sample) {
@@ -61,7 +60,7 @@ public:
         }
         m_newest[*rank] = packet.stamp;
         for (std::size_t better = 0; better < *rank; ++better) {
-            if (m_newest[better] && packet.stamp - *m_newest[better] <= kTypeTie) {
+            if (m_newest[better] && packet.stamp - *m_newest[better] <= model::kSentTogether) {
                 return;
             }
         }
@@ -96,7 +95,7 @@ private:
     PartJoiner m_joiner;
     wire::Datagram m_datagram;
     std::size_t m_part = 0;
-    std::array<std::optional<log::Stamp>, kPoseTypes.size()> m_newest{}; ///< of each type
+    std::array<std::optional<log::Stamp>, model::kWholePoseTypes.size()> m_newest{}; ///< of each type
 };
 
 } // namespace

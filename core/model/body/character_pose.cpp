@@ -317,8 +317,7 @@ bool isOfObjects(const wire::Header& header, std::span<const std::uint32_t> ids)
 }
 
 bool hasWholePoses(std::uint8_t type) {
-    return type == wire::PoseQuaternion::kType || type == wire::PoseEuler::kType ||
-           type == wire::PoseUnity::kType;
+    return std::ranges::find(kWholePoseTypes, type) != kWholePoseTypes.end();
 }
 
 bool hasPoses(std::uint8_t type) {

@@ -8,6 +8,7 @@
 #include "core/model/body/spaces.h"
 #include "core/wire/codec.h"
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -76,9 +77,15 @@ struct PosePart {
     LengthUnit unit = LengthUnit::Metre;
 };
 
+/// Types that hold positions and orientations of all segments, the one that is preferred first.
+inline constexpr std::array<std::uint8_t, 3> kWholePoseTypes{wire::PoseQuaternion::kType,
+                                                             wire::PoseEuler::kType, wire::PoseUnity::kType};
+/// What is not older than the newest by more than this is sent together with it.
+inline constexpr log::Duration kSentTogether = std::chrono::milliseconds(250);
+
 /// Whether poses can be taken from messages of a type: 01, 02, 05; 21, 22, 03.
 [[nodiscard]] bool hasPoses(std::uint8_t type);
-/// Whether messages of a type hold positions and orientations of all segments: 01, 02, 05.
+/// Whether a type is one of kWholePoseTypes.
 [[nodiscard]] bool hasWholePoses(std::uint8_t type);
 
 /// A whole pose from what was sent for one sample: one message of type 01, 02 or 05, or any of 21

@@ -9,10 +9,6 @@
 namespace posewire::model {
 namespace {
 
-/// What is not older than the newest by more than this is sent together with it.
-constexpr log::Duration kTogether = std::chrono::milliseconds(250);
-constexpr std::array<std::uint8_t, 3> kWholeTypes{wire::PoseQuaternion::kType, wire::PoseEuler::kType,
-                                                  wire::PoseUnity::kType};
 /// Those that are put together, the most telling first.
 constexpr std::array<std::uint8_t, 3> kPartTypes{wire::LinearKinematics::kType,
                                                  wire::AngularKinematics::kType, wire::PointPositions::kType};
@@ -47,9 +43,9 @@ void standInRow(std::uint8_t character, CharacterPose& pose) {
 /// The newest of the types that hold whole poses.
 const Message* SessionView::wholePose(const CharacterKey& key) const {
     const Message* best = nullptr;
-    for (const std::uint8_t type : kWholeTypes) {
+    for (const std::uint8_t type : kWholePoseTypes) {
         const Message* candidate = message(key, type);
-        if (candidate != nullptr && (best == nullptr || candidate->stamp > best->stamp + kTogether)) {
+        if (candidate != nullptr && (best == nullptr || candidate->stamp > best->stamp + kSentTogether)) {
             best = candidate;
         }
     }
@@ -88,7 +84,7 @@ SessionView::PoseMessages SessionView::posePartsOf(const CharacterKey& key) cons
     }
     const Message* slowest = nullptr;
     for (const Message*& one : newest) {
-        one = one != nullptr && one->stamp + kTogether >= latest ? one : nullptr;
+        one = one != nullptr && one->stamp + kSentTogether >= latest ? one : nullptr;
         slowest = one != nullptr && (slowest == nullptr || one->stamp < slowest->stamp) ? one : slowest;
     }
     if (std::ranges::count(newest, nullptr) >= 2) {
@@ -120,7 +116,7 @@ const CharacterPose* SessionView::pose(const CharacterKey& key) const {
     PoseMessages messages{wholePose(key)};
     const PoseMessages parts = posePartsOf(key);
     const auto isNewer = [&](const Message* one) {
-        return one != nullptr && (messages[0] == nullptr || one->stamp > messages[0]->stamp + kTogether);
+        return one != nullptr && (messages[0] == nullptr || one->stamp > messages[0]->stamp + kSentTogether);
     };
     if (std::ranges::any_of(parts, isNewer)) {
         messages = parts;
@@ -196,14 +192,14 @@ std::optional<PoseRemark> SessionView::poseRemarkNow(const CharacterKey& key) co
             latest = messages[i] != nullptr ? std::max(latest, messages[i]->stamp) : latest;
         }
         for (const Message*& one : messages) {
-            one = one != nullptr && one->stamp + kTogether >= latest ? one : nullptr;
+            one = one != nullptr && one->stamp + kSentTogether >= latest ? one : nullptr;
         }
         return std::pair(messages, latest);
     };
-    const auto [whole, wholeStamp] = newest(kWholeTypes);
+    const auto [whole, wholeStamp] = newest(kWholePoseTypes);
     const auto [parts, partsStamp] = newest(kPartTypes);
     const auto first = std::ranges::find_if(whole, [](const Message* one) { return one != nullptr; });
-    const bool isWhole = first != whole.end() && wholeStamp + kTogether >= partsStamp;
+    const bool isWhole = first != whole.end() && wholeStamp + kSentTogether >= partsStamp;
     CharacterPose pose;
     const BodyOrigins& body = bodyOrigins(key);
     const PoseMessages messages = isWhole ? PoseMessages{*first} : parts;
