@@ -9,22 +9,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-struct SolePoint {
-    int segment;
-    int localId;
-};
-
-constexpr std::array<SolePoint, 8> kSolePoints{{
-    {segment::kRightFoot, 3},
-    {segment::kRightFoot, 4},
-    {segment::kRightFoot, 5},
-    {segment::kRightToe, 2},
-    {segment::kLeftFoot, 3},
-    {segment::kLeftFoot, 4},
-    {segment::kLeftFoot, 5},
-    {segment::kLeftToe, 2},
-}};
-
 /// Positive where `c` is to the left of the way from `a` to `b`.
 double turn(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
     return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());

@@ -68,11 +68,6 @@ Quaterniond isbFrame(int segment) {
     }
 }
 
-Quaterniond turnOf(const Quaterniond& orientation) {
-    const Vector3d forward = orientation * Vector3d::UnitX();
-    return Quaterniond(Eigen::AngleAxisd(std::atan2(forward.y(), forward.x()), Vector3d::UnitZ()));
-}
-
 } // namespace
 
 const std::array<JointDefinition, kJointCount>& jointDefinitions() {
@@ -81,7 +76,7 @@ const std::array<JointDefinition, kJointCount>& jointDefinitions() {
 
 Vector3d jointAngle(const JointDefinition& joint, const Quaterniond& parent, const Quaterniond& child) {
     const Quaterniond parentFrame =
-        joint.isVertical ? turnOf(child) : Quaterniond(parent * isbFrame(joint.parentSegment()));
+        joint.isVertical ? headingOf(child) : Quaterniond(parent * isbFrame(joint.parentSegment()));
     const Quaterniond childFrame = child * isbFrame(joint.childSegment());
     const Eigen::Matrix3d r = (parentFrame.conjugate() * childFrame).normalized().toRotationMatrix();
     const double abduction = std::asin(std::clamp(-r(1, 2), -1.0, 1.0));

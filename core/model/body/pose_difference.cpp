@@ -39,10 +39,8 @@ std::array<int, kMaxSegmentCount> positionsOf(const CharacterPose& pose) {
 }
 
 /// Turned about the vertical alone, on the floor.
-SegmentPose headingOf(const SegmentPose& pelvis) {
-    const Eigen::Vector3d ahead = pelvis.orientation * Eigen::Vector3d::UnitX();
-    const Eigen::AngleAxisd turn(std::atan2(ahead.y(), ahead.x()), Eigen::Vector3d::UnitZ());
-    return {{pelvis.position.x(), pelvis.position.y(), 0}, Eigen::Quaterniond(turn)};
+SegmentPose onFloor(const SegmentPose& pelvis) {
+    return {{pelvis.position.x(), pelvis.position.y(), 0}, headingOf(pelvis.orientation)};
 }
 
 SegmentPose inverseOf(const SegmentPose& motion) {
@@ -62,8 +60,8 @@ std::optional<SegmentPose> overlayOf(const CharacterPose& first, const Character
     SegmentPose to = sentPose(first, segment::kPelvis);
     SegmentPose from = sentPose(second, segment::kPelvis);
     if (frame == DifferenceFrame::Heading) {
-        to = headingOf(to);
-        from = headingOf(from);
+        to = onFloor(to);
+        from = onFloor(from);
     }
     return composed(to, inverseOf(from));
 }

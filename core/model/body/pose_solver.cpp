@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/body/pose_solver.h"
 
+#include "core/model/body/ground_contact.h"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -262,18 +263,8 @@ private:
 
     /// Moves the body so that the lowest point of its soles is on the floor.
     void standOnFloor() {
-        constexpr std::array<std::pair<int, int>, 8> kSoles{{
-            {segment::kRightFoot, 3},
-            {segment::kRightFoot, 4},
-            {segment::kRightFoot, 5},
-            {segment::kRightToe, 2},
-            {segment::kLeftFoot, 3},
-            {segment::kLeftFoot, 4},
-            {segment::kLeftFoot, 5},
-            {segment::kLeftToe, 2},
-        }};
         double lowest = std::numeric_limits<double>::max();
-        for (const auto& [segment, point] : kSoles) {
+        for (const auto& [segment, point] : kSolePoints) {
             const SegmentPose& pose = m_solved.segments[static_cast<std::size_t>(segment)];
             const Vector3d local = m_body.pointOf(segment, point).value_or(Vector3d::Zero());
             lowest = std::min(lowest, (pose.position + pose.orientation * local).z());

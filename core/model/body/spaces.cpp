@@ -83,6 +83,11 @@ wire::SegmentQuaternion unityFromPose(const SegmentPose& pose) {
     return {0, toFloats(unityFromZUp(pose.position)), toFloats(unityFromZUp(pose.orientation))};
 }
 
+Eigen::Quaterniond headingOf(const Eigen::Quaterniond& orientation) {
+    const Eigen::Vector3d ahead = orientation * Eigen::Vector3d::UnitX();
+    return Eigen::Quaterniond(Eigen::AngleAxisd(std::atan2(ahead.y(), ahead.x()), Eigen::Vector3d::UnitZ()));
+}
+
 SegmentPose composed(const SegmentPose& parent, const SegmentPose& local) {
     return {parent.position + parent.orientation * local.position, parent.orientation * local.orientation};
 }

@@ -51,6 +51,9 @@ SegmentPose poseFromQuaternion(const wire::SegmentQuaternion& item, LengthUnit u
 SegmentPose poseFromUnity(const wire::SegmentQuaternion& item, LengthUnit unit = LengthUnit::Metre);
 wire::SegmentQuaternion unityFromPose(const SegmentPose& pose);
 
+/// Which way something faces that looks along its x-axis: the turn about the vertical alone.
+Eigen::Quaterniond headingOf(const Eigen::Quaterniond& orientation);
+
 /// `parent` o `local`, and back: a pose relative to the parent's frame.
 SegmentPose composed(const SegmentPose& parent, const SegmentPose& local);
 SegmentPose relativeTo(const SegmentPose& parent, const SegmentPose& world);
