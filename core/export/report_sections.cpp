@@ -173,14 +173,6 @@ std::vector<std::string> cellsOf(const model::SessionView& session, const model:
             escaped(gap.evidenceText())};
 }
 
-std::string cssColour(const model::Colour& colour) {
-    std::array<std::byte, 3> bytes{};
-    std::ranges::transform(std::array{colour.red, colour.green, colour.blue}, bytes.begin(), [](float part) {
-        return static_cast<std::byte>(std::clamp(std::lround(part * 255), 0L, 255L));
-    });
-    return '#' + wire::hexadecimal(bytes);
-}
-
 using enum model::Figure;
 
 constexpr std::array kRate{RateWhole, Datagrams, Samples, Lost, Incomplete, LossShare};
@@ -318,7 +310,8 @@ std::string metadataList(const model::SessionView& session, const model::Charact
         const model::ForeignText& value = tag.values.back().text;
         const auto colour = tag.name == "color" ? model::parseColour(value.shown()) : std::nullopt;
         html += "<dt>" + tag.name.html() + "</dt><dd>" +
-                (colour ? "<i class=\"swatch\" style=\"background:" + cssColour(*colour) + "\"></i>" : "") +
+                (colour ? "<i class=\"swatch\" style=\"background:" + model::colourText(*colour) + "\"></i>"
+                        : "") +
                 value.html() + "</dd>\n";
     }
     return html.empty() ? html : "<dl class=\"facts\">\n" + html + "</dl>\n";

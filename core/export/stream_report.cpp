@@ -6,6 +6,7 @@
 #include "core/export/session_reading.h"
 #include "core/model/session/losses.h"
 #include "core/model/session/verdict.h"
+#include "core/model/text.h"
 
 #include <algorithm>
 #include <chrono>
@@ -214,12 +215,6 @@ std::vector<Finding> findingsOn(const model::SessionView& session,
     return findings;
 }
 
-/// With zeros in front.
-std::string padded(std::int64_t number, std::size_t width) {
-    const std::string digits = std::to_string(number);
-    return std::string(width - std::min(width, digits.size()), '0') + digits;
-}
-
 /// "2026-11-21 16:01:32.123 UTC".
 std::string utcText(log::WallTime time) {
     using namespace std::chrono;
@@ -227,10 +222,12 @@ std::string utcText(log::WallTime time) {
     const auto day = floor<days>(shown);
     const year_month_day date{day};
     const hh_mm_ss clock{shown - day};
-    return padded(static_cast<int>(date.year()), 4) + '-' + padded(static_cast<unsigned>(date.month()), 2) +
-           '-' + padded(static_cast<unsigned>(date.day()), 2) + ' ' + padded(clock.hours().count(), 2) + ':' +
-           padded(clock.minutes().count(), 2) + ':' + padded(clock.seconds().count(), 2) + '.' +
-           padded(clock.subseconds().count(), 3) + " UTC";
+    return model::padded(static_cast<int>(date.year()), 4) + '-' +
+           model::padded(static_cast<unsigned>(date.month()), 2) + '-' +
+           model::padded(static_cast<unsigned>(date.day()), 2) + ' ' +
+           model::padded(clock.hours().count(), 2) + ':' + model::padded(clock.minutes().count(), 2) + ':' +
+           model::padded(clock.seconds().count(), 2) + '.' + model::padded(clock.subseconds().count(), 3) +
+           " UTC";
 }
 
 /// A raw file has no stamps: time codes have taken their place.

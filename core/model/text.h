@@ -57,6 +57,12 @@ inline std::string grouped(std::uint64_t number) {
     return digits;
 }
 
+/// "007": with zeros in front.
+inline std::string padded(std::int64_t number, std::size_t width) {
+    const std::string digits = std::to_string(number);
+    return std::string(width - std::min(width, digits.size()), '0') + digits;
+}
+
 /// "1 sample was", "3 samples were".
 inline std::string counted(std::uint64_t count, std::string_view one, std::string_view many) {
     return grouped(count) + ' ' + std::string(count == 1 ? one : many);

@@ -3,6 +3,7 @@
 
 #include "core/model/body/joint_angles.h"
 #include "core/model/body/points.h"
+#include "core/model/text.h"
 
 #include <algorithm>
 #include <array>
@@ -28,17 +29,6 @@ std::string xmlText(const model::ForeignText& text) {
     return safe;
 }
 
-std::string colourText(const model::Colour& colour) {
-    constexpr std::string_view digits = "0123456789abcdef";
-    std::string text = "#";
-    for (const float part : {colour.red, colour.green, colour.blue}) {
-        const auto level = static_cast<std::size_t>(std::clamp(part, 0.0F, 1.0F) * 255 + 0.5F);
-        text += digits[level / 16];
-        text += digits[level % 16];
-    }
-    return text;
-}
-
 /// "Thu Nov 27 12:13:17.238 2025", UTC.
 std::string dateText(log::WallTime time) {
     using namespace std::chrono;
@@ -48,15 +38,12 @@ std::string dateText(log::WallTime time) {
     const auto day = floor<days>(time);
     const year_month_day date(day);
     const hh_mm_ss clock(floor<milliseconds>(time - day));
-    const auto padded = [](std::int64_t number, std::size_t width) {
-        const std::string text = std::to_string(number);
-        return std::string(width - std::min(width, text.size()), '0') + text;
-    };
     return std::string(weekdays[weekday(day).c_encoding()]) + ' ' +
            months[static_cast<unsigned>(date.month()) - 1] + ' ' +
-           padded(static_cast<unsigned>(date.day()), 2) + ' ' + padded(clock.hours().count(), 2) + ':' +
-           padded(clock.minutes().count(), 2) + ':' + padded(clock.seconds().count(), 2) + '.' +
-           padded(clock.subseconds().count(), 3) + ' ' + std::to_string(static_cast<int>(date.year()));
+           model::padded(static_cast<unsigned>(date.day()), 2) + ' ' +
+           model::padded(clock.hours().count(), 2) + ':' + model::padded(clock.minutes().count(), 2) + ':' +
+           model::padded(clock.seconds().count(), 2) + '.' + model::padded(clock.subseconds().count(), 3) +
+           ' ' + std::to_string(static_cast<int>(date.year()));
 }
 
 std::int64_t millisecondsOf(log::WallTime time) {
@@ -158,7 +145,7 @@ private:
         std::string rate;
         appendNumber(m_survey.rateHz, rate);
         text += "<subject label=\"" + xmlText(m_character.name) + "\" torsoColor=\"" +
-                colourText(m_character.colour) + "\" frameRate=\"" + rate + "\" segmentCount=\"" +
+                model::colourText(m_character.colour) + "\" frameRate=\"" + rate + "\" segmentCount=\"" +
                 std::to_string(kBody) + '"' + dateAttributes() + " configuration=\"FullBody\">\n<comment/>\n";
     }
 

@@ -4,6 +4,7 @@
 #include "core/export/json_value.h"
 #include "core/export/motion/skeleton.h"
 #include "core/export/sheets.h"
+#include "core/wire/type_table.h"
 
 #include <algorithm>
 
@@ -12,10 +13,6 @@ namespace {
 
 using model::SegmentLayout;
 using model::SegmentPose;
-
-std::string typeText(std::uint8_t type) {
-    return {static_cast<char>('0' + type / 10 % 10), static_cast<char>('0' + type % 10)};
-}
 
 /// Where the receiver's clock stood, in nanoseconds; empty where nothing tells.
 std::string receiptText(const MotionTask& task, const MotionFrame& frame) {
@@ -79,7 +76,7 @@ public:
             m_line.append(2 + kCells * static_cast<std::size_t>(m_layout.count()), ',');
         } else {
             m_line += receiptText(m_task, frame) + ',' + std::to_string(frame.pose->timeCode) + ',' +
-                      typeText(frame.pose->type);
+                      wire::typeDigits(frame.pose->type);
             for (int position = 0; position < m_layout.count(); ++position) {
                 addSegment(*frame.pose, position);
             }
@@ -138,7 +135,7 @@ public:
             const std::string receipt = receiptText(m_task, frame);
             m_line += (receipt.empty() ? "" : ",\"receivedNs\":" + receipt) +
                       ",\"timeCode\":" + std::to_string(frame.pose->timeCode) + ",\"type\":\"" +
-                      typeText(frame.pose->type) + "\",\"segments\":[";
+                      wire::typeDigits(frame.pose->type) + "\",\"segments\":[";
             addSegments(*frame.pose);
             m_line += "]}\n";
         }

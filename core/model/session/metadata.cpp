@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
+#include <cstddef>
 
 namespace posewire::model {
 
@@ -34,7 +36,6 @@ void Metadata::add(const wire::MetaData& message, std::uint64_t packet, log::Sta
         auto found = std::ranges::find_if(m_tags, [&](const auto& each) { return each.name.isOf(tag.name); });
         if (found == m_tags.end()) {
             if (m_tags.size() == kMaxTags) {
-                ++m_refusedTags;
                 continue;
             }
             m_tags.push_back({tag.name, wire::isKnownTag(tag.name), stamp, {}});
@@ -135,6 +136,14 @@ std::optional<Colour> parseColour(std::string_view text) {
     }
     const auto component = [&](unsigned shift) { return static_cast<float>(rgb >> shift & 0xff) / 255.0F; };
     return Colour{component(16), component(8), component(0)};
+}
+
+std::string colourText(const Colour& colour) {
+    std::array<std::byte, 3> bytes{};
+    std::ranges::transform(std::array{colour.red, colour.green, colour.blue}, bytes.begin(), [](float part) {
+        return static_cast<std::byte>(std::lround(std::clamp(part, 0.0F, 1.0F) * 255));
+    });
+    return '#' + wire::hexadecimal(bytes);
 }
 
 Colour defaultColour(std::size_t index) {

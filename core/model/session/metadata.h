@@ -55,8 +55,6 @@ public:
 
     /// Tags that were given up.
     [[nodiscard]] std::uint64_t droppedTags() const { return m_droppedTags; }
-    /// How often a tag was not taken since there were kMaxTags.
-    [[nodiscard]] std::uint64_t refusedTags() const { return m_refusedTags; }
 
     [[nodiscard]] std::size_t memoryBytes() const;
     /// Values that have changed since go first, then the bytes of long values, then tags nobody knows, the
@@ -74,7 +72,6 @@ private:
 
     std::vector<MetadataTag> m_tags;
     std::uint64_t m_droppedTags = 0;
-    std::uint64_t m_refusedTags = 0;
 };
 
 /// Colour as in the tag "color": RRGGBB, hexadecimal, with or without '#'. Components 0 to 1.
@@ -85,6 +82,8 @@ struct Colour {
     friend bool operator==(const Colour&, const Colour&) = default;
 };
 [[nodiscard]] std::optional<Colour> parseColour(std::string_view text);
+/// The inverse: "#e96417".
+[[nodiscard]] std::string colourText(const Colour& colour);
 
 /// A colour for characters that have not sent one; distinct for the first eight.
 [[nodiscard]] Colour defaultColour(std::size_t index);

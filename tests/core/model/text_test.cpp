@@ -21,6 +21,11 @@ TEST(Text, HasFixedDecimals) {
     EXPECT_EQ(millimetresText(0.012), "+12.0 mm");
 }
 
+TEST(Text, HasZerosInFront) {
+    EXPECT_EQ(padded(7, 3), "007");
+    EXPECT_EQ(padded(1'234, 3), "1234");
+}
+
 TEST(Text, HasNumbersOfAnySize) {
     EXPECT_EQ(fixedText(1e18, 2), "1000000000000000000.00");
     EXPECT_EQ(fixedText(-3e20, 1), "−300000000000000000000.0");

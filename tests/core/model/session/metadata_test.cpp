@@ -47,8 +47,15 @@ TEST(Metadata, StaysBoundedWhateverIsSent) {
     EXPECT_EQ(metadata.tags().size(), Metadata::kMaxTags);
     EXPECT_EQ(metadata.find("name")->values.size(), Metadata::kMaxValues);
     EXPECT_EQ(metadata.find("name")->dropped, 2000 - Metadata::kMaxValues);
-    EXPECT_EQ(metadata.refusedTags(), 2000 - Metadata::kMaxTags + 1);
+    EXPECT_EQ(metadata.find("tag1999"), nullptr);
     EXPECT_EQ(metadata.value("name", 1'999), "1999");
+}
+
+TEST(ParseColour, IsTheInverseOfItsText) {
+    for (const char* text : {"#000000", "#e96417", "#ffffff"}) {
+        EXPECT_EQ(colourText(parseColour(text).value()), text);
+    }
+    EXPECT_EQ(colourText({-1, 0.5F, 2}), "#0080ff");
 }
 
 TEST(ParseColour, ReadsSixHexadecimalDigitsOnly) {
