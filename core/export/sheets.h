@@ -22,10 +22,11 @@ struct EventSheet {
 
 /// One table (RFC 4180, UTF-8, lines end with CR LF) with the columns
 ///
-///     number,severity,group,event,source,character,type,from,to,firstPacket,lastPacket,count,samples,cause,
-///     current,text
+///     number,severity,group,event,source,characters,types,from,to,firstPacket,lastPacket,count,samples,
+///     cause,current,text
 ///
-/// from and to are seconds since 1970 UTC with nine decimals. Cells of what an event is not about are empty.
+/// characters and types are lists with a blank between two, such as "1 2"; from and to are seconds since 1970
+/// UTC with nine decimals. Cells of what an event is not about are empty.
 [[nodiscard]] std::string eventsCsv(const EventSheet& sheet);
 
 /// An array with one object for each event, one on a line, with the keys of the columns but "fromNs" and
