@@ -449,4 +449,24 @@ const Message* Ingest::newest(const log::StreamKey& key) const {
     return stream != nullptr && stream->newest.packet != UINT64_MAX ? &stream->newest : nullptr;
 }
 
+AccountingDepth Ingest::depthNow() const {
+    const AccountingDepth now = AccountingDepth::of(m_streams.size());
+    // Deeper again only where it will last.
+    const bool isDeeper = now.samples > m_depth.samples;
+    const AccountingDepth soon = AccountingDepth::of(m_streams.size() + m_streams.size() / 3);
+    return isDeeper && soon.samples <= m_depth.samples ? m_depth : now;
+}
+
+void Ingest::fitDepth() {
+    const AccountingDepth depth = depthNow();
+    if (depth == m_depth) {
+        return;
+    }
+    m_depth = depth;
+    m_streams.forEach([this](Stream& stream) {
+        stream.accounting.setDepth(m_depth);
+        Attribution::expectJudgement(stream);
+    });
+}
+
 } // namespace posewire::model

@@ -51,26 +51,6 @@ std::size_t MemoryFigures::budget() const {
                                  [](const Part& part) { return part.most; });
 }
 
-AccountingDepth Ingest::depthNow() const {
-    const AccountingDepth now = AccountingDepth::of(m_streams.size());
-    // Deeper again only where it will last.
-    const bool isDeeper = now.samples > m_depth.samples;
-    const AccountingDepth soon = AccountingDepth::of(m_streams.size() + m_streams.size() / 3);
-    return isDeeper && soon.samples <= m_depth.samples ? m_depth : now;
-}
-
-void Ingest::fitDepth() {
-    const AccountingDepth depth = depthNow();
-    if (depth == m_depth) {
-        return;
-    }
-    m_depth = depth;
-    m_streams.forEach([this](Stream& stream) {
-        stream.accounting.setDepth(m_depth);
-        Attribution::expectJudgement(stream);
-    });
-}
-
 std::size_t Ingest::metadataBytes() const {
     return std::transform_reduce(m_characters.begin(), m_characters.end(), std::size_t{0}, std::plus(),
                                  [](const Character& each) { return each.metadata.memoryBytes(); });
