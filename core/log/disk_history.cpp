@@ -31,6 +31,20 @@ bool isHistory(const fs::directory_entry& entry) {
     return name.starts_with(kPrefix) && name.ends_with(kSuffix) && entry.is_regular_file(failed);
 }
 
+/// As far as the folder can be read.
+std::vector<fs::directory_entry> filesIn(const std::string& folder) {
+    std::vector<fs::directory_entry> files;
+    std::error_code failed;
+    fs::directory_iterator entry(pathOf(folder), failed);
+    while (!failed && entry != fs::directory_iterator()) {
+        if (isHistory(*entry)) {
+            files.push_back(*entry);
+        }
+        entry.increment(failed);
+    }
+    return files;
+}
+
 } // namespace
 
 tl::expected<std::unique_ptr<DiskHistory>, FileError>
@@ -190,10 +204,10 @@ void DiskHistory::note(const Result& result) {
 
 std::vector<LostHistory> lostHistories(const std::string& folder) {
     std::vector<LostHistory> lost;
-    std::error_code failed;
-    for (const fs::directory_entry& entry : fs::directory_iterator(pathOf(folder), failed)) {
+    std::error_code failed; // a file that goes meanwhile counts as empty
+    for (const fs::directory_entry& entry : filesIn(folder)) {
         // An empty one may be about to be locked.
-        if (isHistory(entry) && entry.file_size(failed) > 0 && FileLock::take(nameOf(entry.path()))) {
+        if (entry.file_size(failed) > 0 && FileLock::take(nameOf(entry.path()))) {
             const auto end = std::chrono::file_clock::to_sys(entry.last_write_time(failed));
             lost.push_back(
                 {nameOf(entry.path()), entry.file_size(failed), std::chrono::time_point_cast<Duration>(end)});
@@ -223,10 +237,9 @@ void discardHistories(const std::string& folder, std::uint64_t most) {
             fs::remove(pathOf(file->path), failed);
         }
     }
-    for (const fs::directory_entry& entry : fs::directory_iterator(pathOf(folder), failed)) {
+    for (const fs::directory_entry& entry : filesIn(folder)) {
         const bool isOld = fs::file_time_type::clock::now() - entry.last_write_time(failed) > kUnused;
-        if (isHistory(entry) && entry.file_size(failed) == 0 && isOld &&
-            FileLock::take(nameOf(entry.path()))) {
+        if (entry.file_size(failed) == 0 && isOld && FileLock::take(nameOf(entry.path()))) {
             fs::remove(entry.path(), failed);
         }
     }
