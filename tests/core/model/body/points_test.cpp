@@ -130,14 +130,13 @@ TEST(ReferenceBody, StretchesLimbsAndTheirPointsAlike) {
     EXPECT_NEAR(body.offset(kRightForeArm).norm(), 0.285 * 0.90, 1e-12);
     EXPECT_NEAR(body.offset(kLeftLowerLeg).norm(), 0.4285 * 1.10, 1e-12);
     const auto points = anatomicalPoints();
-    for (std::size_t place = 0; place < points.size(); ++place) {
-        if (points[place].name == "jRightElbow" && points[place].segment == kRightUpperArm) {
-            EXPECT_TRUE(body.points[place].isApprox(body.offset(kRightForeArm)));
-        }
-        if (points[place].name == "jLeftKnee" && points[place].segment == kLeftUpperLeg) {
-            EXPECT_TRUE(body.points[place].isApprox(body.offset(kLeftLowerLeg)));
-        }
-    }
+    const auto pointOf = [&](int segment, std::string_view name) {
+        const auto point = std::ranges::find_if(
+            points, [&](const auto& each) { return each.segment == segment && each.name == name; });
+        return body.points.at(static_cast<std::size_t>(point - points.begin()));
+    };
+    EXPECT_TRUE(pointOf(kRightUpperArm, "jRightElbow").isApprox(body.offset(kRightForeArm)));
+    EXPECT_TRUE(pointOf(kLeftUpperLeg, "jLeftKnee").isApprox(body.offset(kLeftLowerLeg)));
 }
 
 } // namespace
