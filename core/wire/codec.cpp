@@ -4,27 +4,42 @@
 #include "core/wire/payload.h"
 #include "core/wire/write.h"
 
+#include <optional>
+
 namespace posewire::wire {
 namespace {
 
-/// Every length prefix fits, since the whole datagram does; what is left to check is that no list outgrows
-/// its maximum and no zero-terminated string has a zero inside.
+/// What a list has and may have that outgrows its maximum; zeros of a zero-terminated string with a zero
+/// inside. Every length prefix fits, since the whole datagram does.
+struct Misfit {
+    ErrorCode code = ErrorCode::TooLong;
+    std::size_t need = 0;
+    std::size_t have = 0;
+};
+
 template <class T, Form F>
-bool fitsItsCounts(const T& value) {
-    bool fits = true;
+std::optional<Misfit> misfitIn(const T& value) {
+    std::optional<Misfit> misfit;
     forEachField<T, F>([&]<class FieldType>(const FieldType&) {
+        if (misfit) {
+            return;
+        }
         const auto& member = value.*FieldType::kMember;
         if constexpr (requires { FieldType::kItemForm; }) {
-            fits = fits && member.size() <= (FieldType::kIsCounted ? FieldType::kMax : kMaxItems);
-            for (const auto& item : member) {
-                fits = fits && fitsItsCounts<typename FieldType::Item, FieldType::kItemForm>(item);
+            constexpr std::size_t most = FieldType::kIsCounted ? FieldType::kMax : kMaxItems;
+            if (member.size() > most) {
+                misfit = Misfit{ErrorCode::CountTooLarge, member.size(), most};
+            }
+            for (auto item = member.begin(); !misfit && item != member.end(); ++item) {
+                misfit = misfitIn<typename FieldType::Item, FieldType::kItemForm>(*item);
             }
         } else if constexpr (requires { FieldType::kKind; }) {
-            const bool endsAtZero = FieldType::kKind == TextKind::ZeroTerminated;
-            fits = fits && (!endsAtZero || member.find('\0') == std::string::npos);
+            if (FieldType::kKind == TextKind::ZeroTerminated && member.find('\0') != std::string::npos) {
+                misfit = Misfit{};
+            }
         }
     });
-    return fits;
+    return misfit;
 }
 
 /// Calls f(list, list's kind) for each list of a body; const or not as the body is. Lists are the same in all
@@ -75,12 +90,15 @@ Result<Datagram> decode(Bytes bytes) {
 
 Result<void> encodeInto(const Datagram& datagram, std::vector<std::byte>& into) {
     const std::size_t size = kHeaderSize + payloadSize(datagram.body);
-    bool fits = size <= kMaxDatagramSize;
-    visitMessage(datagram.body,
-                 [&]<Form F, class T>(const T& message) { fits = fits && fitsItsCounts<T, F>(message); });
-    if (!fits) {
-        return tl::unexpected(WireError{ErrorCode::TooLong, datagram.header.type(), 0, kMaxDatagramSize,
-                                        static_cast<std::uint32_t>(size)});
+    std::optional<Misfit> misfit;
+    visitMessage(datagram.body, [&]<Form F, class T>(const T& message) { misfit = misfitIn<T, F>(message); });
+    if (!misfit && size > kMaxDatagramSize) {
+        misfit = Misfit{ErrorCode::TooLong, size, kMaxDatagramSize};
+    }
+    if (misfit) {
+        return tl::unexpected(WireError{misfit->code, datagram.header.type(), 0,
+                                        static_cast<std::uint32_t>(misfit->need),
+                                        static_cast<std::uint32_t>(misfit->have)});
     }
     into.resize(size);
     const auto payload = putLayout<Header, Form::Standard>(ByteWriter{into.data()}, datagram.header);

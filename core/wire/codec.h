@@ -22,7 +22,7 @@ struct Datagram {
 [[nodiscard]] Result<void> decodeInto(Bytes bytes, Datagram& into);
 
 /// Writes a datagram; `into` is replaced and its memory reused. The header is written as it is. Fails with
-/// TooLong where a list or string does not fit its count or the datagram.
+/// CountTooLarge where a list does not fit its count, with TooLong where a text or the whole does not fit.
 [[nodiscard]] Result<void> encodeInto(const Datagram& datagram, std::vector<std::byte>& into);
 [[nodiscard]] Result<std::vector<std::byte>> encode(const Datagram& datagram);
 

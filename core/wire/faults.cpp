@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <utility>
 
 namespace posewire::wire {
 namespace {
@@ -21,22 +22,26 @@ struct ErrorRow {
     ErrorCode code;
     std::string_view name;
     std::string_view text;
-    std::string_view measure; ///< what need and have count
+    std::string_view figures; ///< "#" for what is needed and for what is there
 };
 
+constexpr std::string_view kBytes = "needs # bytes, has #";
+
 constexpr std::array<ErrorRow, kErrorCodeCount> kErrors{{
-    {ErrorCode::HeaderTruncated, "headerTruncated", "the header is cut off", "bytes"},
+    {ErrorCode::HeaderTruncated, "headerTruncated", "the header is cut off", kBytes},
     {ErrorCode::BadMagic, "badMagic", "does not begin with \"MXTP\"", ""},
     {ErrorCode::BadType, "badType", "\"MXTP\" is not followed by two digits", ""},
-    {ErrorCode::PayloadTruncated, "payloadTruncated", "shorter than its header announces", "bytes"},
-    {ErrorCode::ItemsTruncated, "itemsTruncated", "the announced items do not fit in the payload", "bytes"},
-    {ErrorCode::FieldTruncated, "fieldTruncated", "a field runs past the end", "bytes"},
-    {ErrorCode::BadLength, "badLength", "a string runs past the end or its length is negative", "bytes"},
+    {ErrorCode::PayloadTruncated, "payloadTruncated", "shorter than its header announces", kBytes},
+    {ErrorCode::ItemsTruncated, "itemsTruncated", "the announced items do not fit in the payload", kBytes},
+    {ErrorCode::FieldTruncated, "fieldTruncated", "a field runs past the end", kBytes},
+    {ErrorCode::BadLength, "badLength", "the length of a string is negative or leads past the end",
+     "says # bytes, has #"},
     {ErrorCode::CountTooLarge, "countTooLarge",
-     "a count is larger than the format allows or the rest of the datagram can hold", "items"},
+     "a count is larger than the format allows or the rest of the datagram can hold",
+     "says # items, has room for #"},
     {ErrorCode::BadSequence, "badSequence", "a string is not valid UTF-8", ""},
     {ErrorCode::UnterminatedText, "unterminatedText", "a string has no terminating zero", ""},
-    {ErrorCode::TooLong, "tooLong", "longer than a datagram or one of its fields can be", "bytes"},
+    {ErrorCode::TooLong, "tooLong", "longer than a datagram can be", "needs # bytes, has room for #"},
 }};
 static_assert(followTheEnum(kErrors));
 
@@ -74,11 +79,20 @@ std::string_view errorName(ErrorCode code) {
 
 std::string errorText(const WireError& error) {
     const ErrorRow& row = kErrors[static_cast<std::size_t>(error.code)];
+    if (error.code == ErrorCode::TooLong && error.need == 0) {
+        return "a string that ends at a zero has a zero inside";
+    }
     std::string text(row.text);
-    text += " (byte " + std::to_string(error.offset);
-    if (!row.measure.empty()) {
-        text += ": needs " + std::to_string(error.need) + ' ' + std::string(row.measure) + ", has " +
-                std::to_string(error.have);
+    text += " (byte " + std::to_string(error.offset) + (row.figures.empty() ? "" : ": ");
+    // A length has a sign.
+    const std::string need = error.code == ErrorCode::BadLength
+                                 ? std::to_string(static_cast<std::int32_t>(error.need))
+                                 : std::to_string(error.need);
+    bool isFirst = true;
+    for (const char letter : row.figures) {
+        text += letter != '#'                   ? std::string(1, letter)
+                : std::exchange(isFirst, false) ? need
+                                                : std::to_string(error.have);
     }
     return text + ')';
 }

@@ -16,11 +16,11 @@ local error_texts = {
   payloadTruncated = "shorter than its header announces (byte %d: needs %d bytes, has %d)",
   itemsTruncated = "the announced items do not fit in the payload (byte %d: needs %d bytes, has %d)",
   fieldTruncated = "a field runs past the end (byte %d: needs %d bytes, has %d)",
-  badLength = "a string runs past the end or its length is negative (byte %d: needs %d bytes, has %d)",
-  countTooLarge = "a count is larger than the format allows or the rest of the datagram can hold (byte %d: needs %d items, has %d)",
+  badLength = "the length of a string is negative or leads past the end (byte %d: says %d bytes, has %d)",
+  countTooLarge = "a count is larger than the format allows or the rest of the datagram can hold (byte %d: says %d items, has room for %d)",
   badSequence = "a string is not valid UTF-8 (byte %d)",
   unterminatedText = "a string has no terminating zero (byte %d)",
-  tooLong = "longer than a datagram or one of its fields can be (byte %d: needs %d bytes, has %d)",
+  tooLong = "longer than a datagram can be (byte %d: needs %d bytes, has room for %d)",
 }
 -- In the order offset, count.
 local notice_texts = {
@@ -781,8 +781,8 @@ function Reader:read_prefixed_text(field, tree, values)
   if self:left() < 4 then
     return self:fail("fieldTruncated", 4, self:left())
   end
-  local length = self.tvb(self.offset, 4):uint()
-  if length > 0x7fffffff or length > self:left() - 4 then
+  local length = self.tvb(self.offset, 4):int()
+  if length < 0 or length > self:left() - 4 then
     return self:fail("badLength", length, self:left() - 4)
   end
   self.offset = self.offset + 4

@@ -377,8 +377,8 @@ function Reader:read_prefixed_text(field, tree, values)
   if self:left() < 4 then
     return self:fail("fieldTruncated", 4, self:left())
   end
-  local length = self.tvb(self.offset, 4):uint()
-  if length > 0x7fffffff or length > self:left() - 4 then
+  local length = self.tvb(self.offset, 4):int()
+  if length < 0 or length > self:left() - 4 then
     return self:fail("badLength", length, self:left() - 4)
   end
   self.offset = self.offset + 4

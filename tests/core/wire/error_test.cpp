@@ -41,6 +41,13 @@ TEST(WireErrorTable, SaysWhatWasNeededAndWhatWasThere) {
     EXPECT_EQ(errorText({ErrorCode::PayloadTruncated, 2, 500, 760, 500}),
               "shorter than its header announces (byte 500: needs 760 bytes, has 500)");
     EXPECT_EQ(errorText({ErrorCode::BadSequence, 12, 30, 0, 0}), "a string is not valid UTF-8 (byte 30)");
+    EXPECT_EQ(errorText({ErrorCode::BadLength, 12, 24, 0xffffffff, 8}),
+              "the length of a string is negative or leads past the end (byte 24: says -1 bytes, has 8)");
+    EXPECT_EQ(errorText({ErrorCode::CountTooLarge, 13, 24, 300, 10}),
+              "a count is larger than the format allows or the rest of the datagram can hold (byte 24: says "
+              "300 items, has room for 10)");
+    EXPECT_EQ(errorText({ErrorCode::TooLong, 12, 0, 65'508, 65'507}),
+              "longer than a datagram can be (byte 0: needs 65508 bytes, has room for 65507)");
 }
 
 TEST(NoticeTable, HasANameAndATextOfItsOwnForEveryCode) {

@@ -126,13 +126,15 @@ TEST(HostileInput, NoticesATimeOfDayThatNoClockShows) {
 TEST(HostileInput, RefusesToWriteWhatDoesNotFit) {
     Datagram datagram;
     datagram.body = PoseQuaternion{std::vector<SegmentQuaternion>(256)};
-    EXPECT_EQ(encode(datagram).error().code, ErrorCode::TooLong);
+    EXPECT_EQ(encode(datagram).error(), (WireError{ErrorCode::CountTooLarge, 0, 0, 256, 255}));
     datagram.body = NullPose{std::vector<NullPoseSegment>(kMaxNullPoseSegments + 1), {}};
-    EXPECT_EQ(encode(datagram).error().code, ErrorCode::TooLong);
+    EXPECT_EQ(encode(datagram).error(),
+              (WireError{ErrorCode::CountTooLarge, 0, 0, kMaxNullPoseSegments + 1, kMaxNullPoseSegments}));
     datagram.body = PropInformation{{{24, std::string("a\0b", 3)}}};
-    EXPECT_EQ(encode(datagram).error().code, ErrorCode::TooLong);
+    EXPECT_EQ(errorText(encode(datagram).error()), "a string that ends at a zero has a zero inside");
     datagram.body = RawBody{std::vector<std::byte>(kMaxDatagramSize)};
-    EXPECT_EQ(encode(datagram).error().code, ErrorCode::TooLong);
+    EXPECT_EQ(encode(datagram).error(),
+              (WireError{ErrorCode::TooLong, 0, 0, kMaxDatagramSize + kHeaderSize, kMaxDatagramSize}));
 }
 
 TEST(HostileInput, SurvivesRandomBytesBehindAnyHeader) {

@@ -86,7 +86,7 @@ TEST_P(RoundTripLimits, EndAt255Items) {
     const auto bytes = encode(most);
     EXPECT_EQ(bytes.has_value(), !hasItems);
     if (!bytes) {
-        EXPECT_EQ(bytes.error().code, ErrorCode::TooLong);
+        EXPECT_EQ(bytes.error().code, ErrorCode::CountTooLarge);
         EXPECT_EQ(bytes.error().type, type());
     }
 }
@@ -164,7 +164,7 @@ TEST(RoundTripOfTexts, EndsWhereTheDatagramIsFull) {
     Datagram datagram;
     datagram.body = MetaData{true, textOf(kMaxDatagramSize - kHeaderSize - 3)};
     EXPECT_EQ(encode(datagram).error(),
-              (WireError{ErrorCode::TooLong, 0, 0, kMaxDatagramSize, kMaxDatagramSize + 1}));
+              (WireError{ErrorCode::TooLong, 0, 0, kMaxDatagramSize + 1, kMaxDatagramSize}));
     datagram.body = MetaData{false, textOf(kMaxDatagramSize - kHeaderSize)};
     EXPECT_TRUE(encode(datagram));
     datagram.body = MetaData{false, textOf(kMaxDatagramSize - kHeaderSize + 1)};
