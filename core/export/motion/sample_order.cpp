@@ -12,17 +12,14 @@ namespace {
 
 using model::distance;
 
-/// So many that follow one another are believed; more where they may all be late.
-constexpr std::size_t kAgreeing = 2;
-constexpr std::size_t kAgreeingLate = 8;
-constexpr std::int32_t kMostLate = 4'096; ///< samples
-/// Further ahead a counter is doubted at first, and this far where it may be from before a restart.
-constexpr std::int32_t kAhead = 100;
-constexpr std::int32_t kAheadInDoubt = 8;
+using model::Probation;
+
+constexpr auto kAhead = static_cast<std::int32_t>(Probation::kSteps);
+constexpr auto kAheadInDoubt = static_cast<std::int32_t>(Probation::kStepsInDoubt);
 
 bool isNear(std::uint32_t sample, std::uint32_t other) {
     const std::int32_t ahead = distance(sample, other);
-    return ahead >= -model::Probation::kMostBack && ahead <= kAhead;
+    return ahead >= -Probation::kMostBack && ahead <= kAhead;
 }
 
 bool isBefore(const MotionSample& one, std::uint32_t sample) {
@@ -64,7 +61,7 @@ bool SampleOrder::isExpected(std::uint32_t sample) const {
         return true;
     }
     const std::int32_t ahead = distance(sample, m_runs.back().highest);
-    return ahead >= -model::Probation::kMostBack && ahead <= (mayStraggle(sample) ? kAheadInDoubt : kAhead);
+    return ahead >= -Probation::kMostBack && ahead <= (mayStraggle(sample) ? kAheadInDoubt : kAhead);
 }
 
 void SampleOrder::add(MotionSample sample) {
@@ -103,7 +100,7 @@ void SampleOrder::doubt(MotionSample sample) {
     const auto same = std::find_if(m_doubted.begin(), m_doubted.end(),
                                    [&](const Doubted& one) { return one.sample.pose.sample == number; });
     if (same == m_doubted.end()) {
-        if (m_doubted.size() == model::Probation::kMost) {
+        if (m_doubted.size() == Probation::kMost) {
             m_doubted.erase(m_doubted.begin());
         }
         m_doubted.push_back({std::move(sample)});
@@ -111,8 +108,8 @@ void SampleOrder::doubt(MotionSample sample) {
         same->sample = std::move(sample);
     }
     const std::int32_t behind = distance(m_runs.back().highest, number);
-    const bool mayBeLate = (behind > 0 && behind <= kMostLate) || mayStraggle(number);
-    if (agreeing(number) >= (mayBeLate ? kAgreeingLate : kAgreeing)) {
+    const bool mayBeLate = (behind > 0 && behind <= Probation::kMostLate) || mayStraggle(number);
+    if (agreeing(number) >= (mayBeLate ? Probation::kAgreeingClosely : Probation::kAgreeing)) {
         believe(number);
     }
 }
@@ -139,7 +136,7 @@ void SampleOrder::believe(std::uint32_t sample) {
         return distance(a.pose.sample, b.pose.sample) < 0;
     });
     const std::int32_t jump = distance(near.front().pose.sample, m_runs.back().highest);
-    if (jump <= 0 || jump > model::Probation::kMostForward) {
+    if (jump <= 0 || jump > Probation::kMostForward) {
         m_runs.emplace_back();
     }
     for (MotionSample& one : near) {
@@ -169,7 +166,7 @@ void SampleOrder::release(log::Stamp now) {
 }
 
 void SampleOrder::flush() {
-    if (!m_doubted.empty() && agreeing(m_doubted.back().sample.pose.sample) >= kAgreeing) {
+    if (!m_doubted.empty() && agreeing(m_doubted.back().sample.pose.sample) >= Probation::kAgreeing) {
         believe(m_doubted.back().sample.pose.sample);
     }
     while (!m_runs.empty()) {

@@ -10,21 +10,14 @@ namespace {
 
 // After this many advances of the expected place, what came from elsewhere was no restart.
 constexpr std::size_t kAdvances = 3;
-// RFC 3550 appendix A.1 takes two successive numbers for a restart. They are enough where nothing can have
-// come late from the new place.
-constexpr std::size_t kAgreeing = 2;
-// Where they may have come late, a burst of late arrivals looks the same: more must agree, closely. Networks
-// that reorder hold back a few datagrams in a row, so eight are a choice on the safe side.
-constexpr std::size_t kAgreeingClosely = 8;
 // This many in a row settle it however far apart they are: half a second at 60 Hz without any sign of the
 // expected place.
 constexpr std::size_t kAgreeingAnyhow = 32;
 
 /// Whether datagrams with these counters may have been on their way for long.
 bool mayBeLate(const SampleLedger& ledger, std::uint32_t low, std::uint32_t high, log::Stamp stamp) {
-    constexpr std::int32_t kBefore = 4'096;
     constexpr std::int32_t kNear = 100;
-    return ledger.present().overlaps(low, high, kBefore, 0) ||
+    return ledger.present().overlaps(low, high, Probation::kMostLate, 0) ||
            (ledger.hasBefore(stamp) && ledger.before().overlaps(low, high, kNear, kNear));
 }
 
@@ -38,14 +31,13 @@ bool isMissing(const SampleSequence& sequence, const SampleLedger::Datagram& dat
 
 /// How far ahead a counter is taken for loss at once; further ahead, only if the next datagrams agree.
 std::int32_t forwardLimit(const SampleLedger& ledger, const SampleLedger::Datagram& datagram) {
-    constexpr std::uint32_t kSteps = 100;
-    constexpr std::uint32_t kStepsInDoubt = 8;
     const std::uint32_t step = ledger.present().step();
     const bool isStraggling = ledger.hasBefore(datagram.stamp) && isMissing(ledger.before(), datagram);
     if (step == 0 && !isStraggling) {
         return Probation::kMostForward;
     }
-    const std::uint32_t limit = std::max(step, 1U) * (isStraggling ? kStepsInDoubt : kSteps);
+    const std::uint32_t limit =
+        std::max(step, 1U) * (isStraggling ? Probation::kStepsInDoubt : Probation::kSteps);
     return static_cast<std::int32_t>(std::min(limit, static_cast<std::uint32_t>(Probation::kMostForward)));
 }
 
@@ -151,7 +143,7 @@ void Probation::scan(const SampleLedger& ledger, Scan& scan) const {
 
 /// Whether a group is the new place of the counter.
 bool Probation::isSettled(const Group& group, const SampleLedger& ledger, log::Stamp stamp, bool isEnd) {
-    if (group.count < kAgreeing) {
+    if (group.count < Probation::kAgreeing) {
         return false;
     }
     if (!mayBeLate(ledger, group.low, group.high, stamp) || group.count >= kAgreeingAnyhow) {
@@ -159,7 +151,8 @@ bool Probation::isSettled(const Group& group, const SampleLedger& ledger, log::S
     }
     const std::uint32_t step = std::max(ledger.present().step(), ledger.present().step() == 0 ? 4U : 1U);
     const bool isClose = group.high - group.low <= std::uint64_t{2} * step * group.count;
-    return isClose && (group.count >= kAgreeingClosely || (isEnd && 2 * group.filling <= group.count));
+    return isClose &&
+           (group.count >= Probation::kAgreeingClosely || (isEnd && 2 * group.filling <= group.count));
 }
 
 void Probation::decide(const SampleLedger& ledger, bool isEnd, Decision& decision) const {

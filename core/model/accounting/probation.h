@@ -5,6 +5,7 @@
 #include "core/model/accounting/sample_ledger.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -19,6 +20,17 @@ public:
     /// RFC 3550 appendix A.1: a jump that is no loss.
     static constexpr std::int32_t kMostBack = 100;
     static constexpr std::int32_t kMostForward = 3'000;
+    /// Steps ahead that are taken for loss at once; fewer where it may be from before a restart.
+    static constexpr std::uint32_t kSteps = 100;
+    static constexpr std::uint32_t kStepsInDoubt = 8;
+    /// RFC 3550 appendix A.1 takes two successive numbers for a restart. They are enough where nothing can
+    /// have come late from the new place.
+    static constexpr std::size_t kAgreeing = 2;
+    /// Where they may have come late, a burst of late arrivals looks the same: more must agree, closely.
+    /// Networks that reorder hold back a few datagrams in a row, so eight are a choice on the safe side.
+    static constexpr std::size_t kAgreeingClosely = 8;
+    /// What is further back than this is not late.
+    static constexpr std::int32_t kMostLate = 4'096;
 
     struct Waiting {
         SampleLedger::Datagram datagram;
