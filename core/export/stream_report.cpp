@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <map>
 
 namespace posewire::exporting {
 namespace {
@@ -146,8 +147,21 @@ void addOrder(std::vector<Finding>& findings, const model::StreamFigures& sum) {
                "datagrams came after later ones.");
     addCounted(findings, sum.count(Late), "of these was too late to be shown.",
                "of these were too late to be shown.");
-    addCounted(findings, sum.count(Restarts), "time a sample counter restarted.",
-               "times a sample counter restarted.");
+}
+
+/// All streams of a character restart together: that is once.
+void addRestarts(std::vector<Finding>& findings, const std::vector<model::StreamFigures>& streams) {
+    std::map<model::CharacterKey, std::uint64_t> ofEach;
+    for (const model::StreamFigures& stream : streams) {
+        std::uint64_t& restarts = ofEach[{stream.key().sender, stream.key().character}];
+        restarts = std::max(restarts, stream.count(Restarts));
+    }
+    std::uint64_t all = 0;
+    for (const auto& [character, restarts] : ofEach) {
+        all += restarts;
+    }
+    addCounted(findings, all, "time the sample counter of a character restarted.",
+               "times the sample counter of a character restarted.");
 }
 
 /// What this computer did not do in time, and what is no longer listed.
@@ -206,6 +220,7 @@ std::vector<Finding> findingsOn(const model::SessionView& session,
         addCauses(findings, sum);
         addMessages(findings, streams);
         addOrder(findings, sum);
+        addRestarts(findings, streams);
     }
     addSession(findings, session);
     addSenders(findings, session);

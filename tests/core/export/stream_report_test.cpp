@@ -71,6 +71,16 @@ protected:
     static constexpr log::Stamp kStart{1'700'000'000s};
 };
 
+TEST_F(StreamReportTest, CountsOneRestartOfAllStreamsOfACharacterOnce) {
+    for (std::uint32_t i = 0; i < 500; ++i) {
+        const std::uint32_t sample = i < 250 ? 50'000 + i : i;
+        send(standingAt(0), sample, kStart + after(i));
+        send(wire::CentreOfMass{}, sample, kStart + after(i));
+    }
+    follow();
+    EXPECT_THAT(report(), HasSubstr("1 time the sample counter of a character restarted."));
+}
+
 TEST_F(StreamReportTest, TakesStampsOf1970ForStamps) {
     for (std::uint32_t sample = 0; sample < 10; ++sample) {
         send(standingAt(0), sample, log::Stamp(after(sample)));
