@@ -41,10 +41,13 @@ void Comparing::close() {
 }
 
 void Comparing::choose(const ComparisonChoice& choice) {
-    m_state.choice = choice;
-    m_state.isStopped = false;
-    m_nextWork = {};
-    m_pairChosen = {};
+    ComparisonChoice before = std::exchange(m_state.choice, choice);
+    before.isBeside = choice.isBeside; // changes no figure
+    if (before != choice) {
+        m_state.isStopped = false;
+        m_nextWork = {};
+        m_pairChosen = {};
+    }
 }
 
 void Comparing::stop() {

@@ -182,6 +182,24 @@ TEST_F(ComparingTest, ClosingWhileItIsWorkedOutWaitsForNobody) {
     m_driver.endComparison();
 }
 
+TEST_F(ComparingTest, WhatWasStoppedStaysSoWhereOnlyTheBodyMovesAside) {
+    m_driver.openFile(record("a.pcapng", 0, 2000));
+    m_driver.compareWith(record("b.pcapng", 0, 2000));
+    while (!state().isWorking) {
+        m_driver.tick();
+    }
+    m_driver.setComparing(false);
+    ComparisonChoice choice = state().choice;
+    choice.isBeside = true;
+    m_driver.setComparison(choice);
+    m_driver.tick();
+    EXPECT_TRUE(state().isStopped);
+    EXPECT_TRUE(state().choice.isBeside);
+    choice.frame = model::DifferenceFrame::Pelvis;
+    m_driver.setComparison(choice);
+    EXPECT_FALSE(state().isStopped) << "other figures are wanted";
+}
+
 TEST_F(ComparingTest, SaysWhatIsWrongWithTheSecondRecording) {
     m_driver.openFile(record("a.pcapng", 0, 60));
     settle();
