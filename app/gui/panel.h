@@ -89,6 +89,8 @@ public:
     /// The view has moved; called at most once per display tick (at most ten times a second for tables), and
     /// only while visible.
     virtual void refresh() = 0;
+    /// It shows something in a window of its own: then it is told as well while it is not visible itself.
+    [[nodiscard]] virtual bool hasWindow() const { return false; }
 
     /// Shown at the right of the dock's title, such as "2 of 2 live"; empty for nothing.
     [[nodiscard]] virtual QString summary() const { return {}; }

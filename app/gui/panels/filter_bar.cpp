@@ -340,6 +340,7 @@ QJsonObject FilterBar::state() const {
 }
 
 void FilterBar::restoreState(const QJsonObject& state) {
+    m_history.clear();
     const QJsonArray history = state["history"].toArray();
     for (const auto& text : history) {
         if (text.isString() && m_history.size() < kHistory) {
@@ -347,6 +348,7 @@ void FilterBar::restoreState(const QJsonObject& state) {
         }
     }
     if (!state["saved"].isArray()) {
+        setSaved(defaultFilters());
         return;
     }
     std::vector<Saved> saved;

@@ -57,6 +57,7 @@ public:
     [[nodiscard]] static std::span<const ActionInfo> actionTable();
 
     void refresh() override;
+    [[nodiscard]] bool hasWindow() const override { return m_fullScreen != nullptr; }
     /// Which clock is the large one.
     void choose(ClockChoice choice);
     [[nodiscard]] ClockChoice choice() const { return m_choice; }

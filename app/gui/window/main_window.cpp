@@ -136,69 +136,6 @@ void MainWindow::makeBars() {
     showOpening();
 }
 
-void MainWindow::makeDocks() {
-    QMenu* menu = menuAt(*menuBar(), QStringLiteral("&View"));
-    QAction* before = menu->actions().value(0);
-    for (const PanelInfo& info : panelTable()) {
-        auto* dock = new QDockWidget(QCoreApplication::translate("Panel", info.title), this);
-        dock->setObjectName(QLatin1String(info.id));
-        const Page page = makePage(info, dock);
-        page.panel->restoreState(m_settings.panels[QLatin1String(info.id)].toObject());
-        dock->setWidget(page.scroll);
-        auto* title = new DockTitle(dock);
-        dock->setTitleBarWidget(title);
-        addDockWidget(info.area, dock);
-        dock->hide(); // the layout says which ones show: all of them would make the window too wide
-        menu->insertAction(before, dockAction(dock));
-        m_docks.push_back({&info, dock, title, page, {}, page.panel});
-        connect(dock, &QDockWidget::visibilityChanged, this, [this, i = m_docks.size() - 1](bool isVisible) {
-            if (isVisible) {
-                m_docks[i].panel->refresh();
-            }
-        });
-    }
-    menu->insertSeparator(before);
-}
-
-MainWindow::Page MainWindow::makePage(const PanelInfo& info, QDockWidget* dock) {
-    Panel* panel = info.make(m_driver.session(), m_driver, m_driver, dock);
-    return {scrolling(panel, dock), panel};
-}
-
-void MainWindow::showSession() {
-    const bool isFile = m_driver.isFileShown();
-    for (Dock& dock : m_docks) {
-        if (isFile && dock.file.panel == nullptr) {
-            dock.file = makePage(*dock.info, dock.dock);
-            dock.file.panel->restoreState(dock.live.panel->state());
-        }
-        const Page& page = isFile ? dock.file : dock.live;
-        dock.dock->setWidget(page.scroll);
-        page.scroll->show();
-        dock.panel = page.panel;
-    }
-    if (isFile && m_fileHealth == nullptr) {
-        m_fileHealth = new HealthBar(m_driver.session(), m_driver, this);
-        statusBar()->insertWidget(0, m_fileHealth, 1);
-    }
-    m_health->hide();
-    m_health = isFile ? m_fileHealth : m_liveHealth;
-    m_health->show();
-    m_transport->showSession(m_driver.session(), !isFile);
-    m_viewport->showSession(m_driver.session(), isFile ? m_driver.file()->name() : QString());
-    m_menus.showStates();
-    showReceiving();
-    refreshPanels();
-}
-
-/// Its session is about to go.
-void MainWindow::forgetFile() {
-    for (Dock& dock : m_docks) {
-        delete std::exchange(dock.file, {}).scroll;
-    }
-    delete std::exchange(m_fileHealth, nullptr);
-}
-
 void MainWindow::connectDriver() {
     connect(&m_driver, &SessionDriver::shownChanged, this, &MainWindow::showSession);
     connect(&m_driver, &SessionDriver::fileClosing, this, &MainWindow::forgetFile);
@@ -315,16 +252,6 @@ void MainWindow::closeEvent(QCloseEvent* event) {
         qWarning("Settings were not saved: %s", qUtf8Printable(problem));
     }
     event->accept();
-}
-
-void MainWindow::refreshPanels() {
-    for (const Dock& dock : m_docks) {
-        if (dock.isInSight()) {
-            dock.panel->refresh();
-            dock.title->setSummary(dock.panel->summary());
-            dock.title->setTabbed(!tabifiedDockWidgets(dock.dock).isEmpty());
-        }
-    }
 }
 
 void MainWindow::showReceiving() {
