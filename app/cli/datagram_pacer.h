@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/log/raw_pace.h"
 #include "core/log/recording_file.h"
 #include "core/log/timeline.h"
-#include "core/wire/header.h"
-#include "core/wire/type_table.h"
 
 #include <algorithm>
 #include <chrono>
 #include <limits>
 #include <optional>
-#include <utility>
 
 namespace posewire::cli {
 
@@ -46,12 +44,11 @@ public:
         m_place = {};
         m_clock = log::RecordedClock(m_timeline);
         m_stamp.reset();
-        m_previous.reset();
+        m_pace = log::RawPace(m_period);
     }
 
 private:
-    /// Fractions count: rounded steps would add up to drift.
-    using Nanoseconds = std::chrono::duration<double, std::nano>;
+    using Nanoseconds = log::RawPace::Nanoseconds;
 
     Nanoseconds step(const log::FileRecord& record) {
         if (record.time) {
@@ -60,18 +57,7 @@ private:
             m_stamp = stamp;
             return std::max(stamp - before, log::Duration::zero());
         }
-        const auto header = wire::decodeHeader(record.bytes);
-        return header && wire::isSampled(header->type()) ? stepByHeader(*header) : Nanoseconds::zero();
-    }
-
-    Nanoseconds stepByHeader(const wire::Header& header) {
-        constexpr std::chrono::seconds longestPause(2);
-        const auto before = std::exchange(m_previous, header);
-        if (!before || before->sampleCounter == header.sampleCounter) {
-            return Nanoseconds::zero();
-        }
-        const std::chrono::milliseconds elapsed(header.timeCode - before->timeCode); // modulo 2³²
-        return elapsed != elapsed.zero() && elapsed <= longestPause ? elapsed : m_period;
+        return m_pace.step(record.bytes);
     }
 
     Nanoseconds m_period;
@@ -84,7 +70,7 @@ private:
     log::Timeline m_timeline;
     log::RecordedClock m_clock{m_timeline};
     std::optional<log::Stamp> m_stamp;
-    std::optional<wire::Header> m_previous;
+    log::RawPace m_pace{m_period};
 };
 
 } // namespace posewire::cli

@@ -2,14 +2,15 @@
 #include "app/gui/driver/file_import.h"
 
 #include "core/log/packet_log.h"
+#include "core/log/raw_pace.h"
 #include "core/log/recording_file.h"
-#include "core/wire/header.h"
 
 #include <QCoreApplication>
 #include <QFile>
 #include <QFileInfo>
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
 namespace posewire::gui {
@@ -19,26 +20,20 @@ namespace {
 constexpr std::uint64_t kPacketsInStep = 8'192;
 constexpr std::uint64_t kBytesAtOnce = std::uint64_t{4} << 20;
 
-/// Longer jumps of the time code are taken for a new beginning.
-constexpr log::Duration kGreatestStep = std::chrono::seconds(10);
-
-/// Time within a raw file by its time codes, from 0.
-class TimeCodeStamps {
+/// Time within a raw file, from 0.
+class RawTime {
 public:
     log::Duration next(const log::FileRecord& record) {
-        const auto header = wire::decodeHeader(record.bytes);
-        if (!record.flags.skipped && header) {
-            const auto timeCode = static_cast<std::int64_t>(header->timeCode);
-            const log::Duration step = std::chrono::milliseconds(m_timeCode ? timeCode - *m_timeCode : 0);
-            m_time += step > log::Duration::zero() && step <= kGreatestStep ? step : log::Duration::zero();
-            m_timeCode = header->timeCode;
+        constexpr log::RawPace::Nanoseconds longest{1e18}; // 31 years: more may not fit into a duration
+        if (!record.flags.skipped) {
+            m_time = std::min(m_time + m_pace.step(record.bytes), longest);
         }
-        return m_time;
+        return std::chrono::duration_cast<log::Duration>(m_time);
     }
 
 private:
-    log::Duration m_time{};
-    std::optional<std::uint32_t> m_timeCode;
+    log::RawPace m_pace;
+    log::RawPace::Nanoseconds m_time{};
 };
 
 /// Reads a file from its beginning to its end, or to where it is cut off: then the answer says so.
@@ -66,7 +61,7 @@ ImportResult importRawFile(const QString& path, const PacketTaker& take, log::St
                 .arg(path));
     }
     // A raw file is read twice over: how long it lasts is known at its end, and it may be larger than memory.
-    TimeCodeStamps measuring;
+    RawTime measuring;
     log::Duration length{};
     std::uint64_t count = 0;
     bool hasTimes = false;
@@ -87,13 +82,13 @@ ImportResult importRawFile(const QString& path, const PacketTaker& take, log::St
                                   : *measured);
     }
     const log::SenderInfo file{QFileInfo(path).fileName().toStdString(), log::Transport::File, 0};
-    TimeCodeStamps stamps;
+    RawTime places;
     log::RecordedClock clock(timeline);
     std::optional<log::Stamp> last; // of those that say their time: the others came with them
     ImportResult result = visitFile(
         path,
         [&](const log::FileRecord& record) {
-            const log::Duration place = stamps.next(record);
+            const log::Duration place = places.next(record);
             last = record.time ? clock.stampOf(*record.time, record.setBy) : last;
             const log::Stamp stamp = last.value_or(end - length + place);
             take(record, record.sender.value_or(file), log::arrivalOf(record, {}, stamp));

@@ -35,8 +35,8 @@ using PacketTaker = std::function<void(const log::FileRecord& record, const log:
                                        const log::Arrival& arrival)>;
 
 /// Reads a file of datagrams, in the order of the file. Captures keep stamps and senders; a raw file has
-/// none: it is spaced by its time codes so that its newest datagram is at `end`, and is its own sender. What
-/// the file says of its clock goes to `timeline`. Gives up once `isCancelled` says so.
+/// none: it is spaced as log::RawPace says so that its newest datagram is at `end`, and is its own sender.
+/// What the file says of its clock goes to `timeline`. Gives up once `isCancelled` says so.
 [[nodiscard]] ImportResult importRawFile(const QString& path, const PacketTaker& take, log::Stamp end,
                                          log::Timeline& timeline,
                                          const std::function<bool()>& isCancelled = {},

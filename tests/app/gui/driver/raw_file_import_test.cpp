@@ -15,11 +15,16 @@ namespace {
 
 class RawFileImport : public testing::Test {
 protected:
+    /// A sample for each time code; two that are the same are of one sample.
     void writeFile(const std::vector<std::uint32_t>& timeCodes) const {
         QFile file(path);
         ASSERT_TRUE(file.open(QIODevice::WriteOnly));
+        std::uint32_t sample = 0;
+        std::optional<std::uint32_t> before;
         for (const std::uint32_t timeCode : timeCodes) {
+            sample += std::exchange(before, timeCode) == timeCode ? 0 : 1;
             wire::Datagram datagram;
+            datagram.header.sampleCounter = sample;
             datagram.body = smallPose();
             datagram.header.timeCode = timeCode;
             wire::completeHeader(datagram, wire::HeaderEra::Counted);
@@ -95,6 +100,17 @@ TEST_F(RawFileImport, TimeCodesThatGoBackDoNotMoveTheStampsBack) {
     const auto found = stamps();
     EXPECT_TRUE(std::ranges::is_sorted(found));
     EXPECT_EQ(found.back(), Stage::kStart);
+}
+
+TEST_F(RawFileImport, APeriodPassesWhereTimeCodesFreezeOrJump) {
+    writeFile({1000, 1020, 5, 900'000, 900'010});
+    ASSERT_EQ(import(path), "");
+    const std::vector<log::Stamp> found = stamps();
+    ASSERT_EQ(found.size(), 5U);
+    const log::Duration period = std::chrono::duration_cast<log::Duration>(1s) / 240;
+    EXPECT_LE(std::chrono::abs(found[2] - found[1] - period), 1ns) << "as posewire-cli has it";
+    EXPECT_LE(std::chrono::abs(found[3] - found[2] - period), 1ns);
+    EXPECT_EQ(found[4] - found[3], 10ms);
 }
 
 TEST_F(RawFileImport, ACaptureKeepsItsSendersTransportsStampsAndDrops) {
