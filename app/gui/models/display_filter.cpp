@@ -156,29 +156,39 @@ PacketsBehind streamsBehind(model::SessionView& view, const std::vector<log::Str
 }
 
 PacketsBehind lossesBehind(model::SessionView& view, const LossesSought& losses) {
-    constexpr qsizetype kMostNamed = 200;
+    constexpr std::size_t kMostNamed = 200;
     const std::set<log::StreamKey> streams(losses.streams.begin(), losses.streams.end());
-    QStringList numbers;
-    std::optional<std::uint64_t> newest;
-    bool hasOthers = false;
-    const std::deque<model::Gap>& gaps = view.gaps();
-    for (auto gap = gaps.rbegin(); gap != gaps.rend(); ++gap) {
-        const bool isThere = gap->lost != 0 && gap->toPacket >= view.begin() && streams.contains(gap->stream);
-        const bool isInside =
-            !losses.range || (gap->toStamp >= losses.range->from && gap->toStamp < losses.range->to);
-        if (!isThere || !isInside) {
-            continue;
+    std::vector<std::uint64_t> packets;
+    bool mustName = false; // what is sought is not all that a condition can say
+    const auto look = [&](const log::StreamKey& stream, log::Stamp stamp, model::LossCause cause,
+                          std::uint64_t packet) {
+        const bool isInside = !losses.range || (stamp >= losses.range->from && stamp < losses.range->to);
+        if (!isInside || packet < view.begin() || !streams.contains(stream)) {
+            return false;
         }
-        if (losses.cause && gap->cause != *losses.cause) {
-            hasOthers = true;
-            continue;
+        const bool isSought = !losses.cause || cause == *losses.cause;
+        if (isSought) {
+            packets.push_back(packet);
         }
-        newest = newest.value_or(gap->toPacket);
-        if (numbers.size() < kMostNamed) {
-            numbers.prepend(QString::number(gap->toPacket));
+        mustName = mustName || !isSought;
+        return isSought;
+    };
+    for (const model::Gap& gap : view.gaps()) {
+        if (gap.lost != 0) {
+            look(gap.stream, gap.toStamp, gap.cause, gap.toPacket);
         }
     }
-    if (hasOthers) {
+    view.forEachPartialLoss(
+        [&](const log::StreamKey& stream, log::Stamp stamp, model::LossCause cause, std::uint64_t packet) {
+            mustName = look(stream, stamp, cause, packet) || mustName;
+        });
+    std::ranges::sort(packets);
+    const auto newest = packets.empty() ? std::nullopt : std::optional(packets.back());
+    if (mustName) {
+        QStringList numbers;
+        const std::size_t named = std::min(packets.size(), kMostNamed);
+        std::for_each(packets.end() - static_cast<std::ptrdiff_t>(named), packets.end(),
+                      [&](std::uint64_t packet) { numbers += QString::number(packet); });
         return {QStringLiteral("number in {%1}").arg(numbers.join(QStringLiteral(", "))), newest};
     }
     QStringList conditions{QStringLiteral("gap > 0")};

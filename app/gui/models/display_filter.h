@@ -28,7 +28,8 @@ struct LossesSought {
     std::optional<model::LossCause> cause{}; ///< nothing for all
     std::optional<model::TimeRange> range{};
 };
-/// The packets after these losses; of one cause among others, as many of the newest as a filter can name.
+/// The packets after these losses, and the first ones of samples that are incomplete; of those, and of one
+/// cause among others, as many of the newest as a filter can name.
 [[nodiscard]] PacketsBehind lossesBehind(model::SessionView& view, const LossesSought& losses);
 
 /// What the packets of such a filter are, in the words of a menu: "Packets after a gap"; empty for columns

@@ -104,12 +104,12 @@ public:
     [[nodiscard]] log::Duration patience() const { return m_patience; }
     /// The newest ones, oldest first.
     [[nodiscard]] const std::deque<Gap>& gaps() const { return m_gaps; }
-    /// Calls f(stream, stamp, cause) for the newest samples and messages of which only a part came, with when
-    /// they should have come and whose loss the rest was.
+    /// Calls f(stream, stamp, cause, packet) for the newest samples and messages of which only a part came,
+    /// oldest first, with when they should have come, whose loss the rest was and the first packet of them.
     template <class Function>
     void forEachPartialLoss(Function&& f) const {
         for (const Partial& partial : m_judgedPartials) {
-            f(partial.stream->key, partial.stamp, partial.cause);
+            f(partial.stream->key, partial.stamp, partial.cause, partial.packet);
         }
     }
     [[nodiscard]] std::size_t memoryBytes() const;

@@ -48,11 +48,12 @@ Losses::Losses(const SessionView& session, const std::optional<TimeRange>& range
             m_known[gap.stream][static_cast<std::size_t>(gap.cause)] += gap.lost;
         }
     }
-    session.forEachPartialLoss([&](const log::StreamKey& stream, log::Stamp stamp, LossCause cause) {
-        if (stamp >= range->from && stamp < range->to && cause != LossCause::Unknown) {
-            ++m_known[stream][static_cast<std::size_t>(cause)];
-        }
-    });
+    session.forEachPartialLoss(
+        [&](const log::StreamKey& stream, log::Stamp stamp, LossCause cause, std::uint64_t /*packet*/) {
+            if (stamp >= range->from && stamp < range->to && cause != LossCause::Unknown) {
+                ++m_known[stream][static_cast<std::size_t>(cause)];
+            }
+        });
 }
 
 const Losses::Pending* Losses::pendingOf(const log::StreamKey& stream) const {

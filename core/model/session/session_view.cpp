@@ -69,7 +69,7 @@ void SessionView::forEachPending(
 }
 
 void SessionView::forEachPartialLoss(
-    const std::function<void(const log::StreamKey&, log::Stamp, LossCause)>& f) const {
+    const std::function<void(const log::StreamKey&, log::Stamp, LossCause, std::uint64_t)>& f) const {
     m_ingest.attribution().forEachPartialLoss(f);
 }
 

@@ -3,6 +3,7 @@
 
 #include "app/gui/models/span_text.h"
 #include "core/filter/filter.h"
+#include "core/performer/datagram_damage.h"
 #include "tests/app/gui/models/stage.h"
 
 #include <QAbstractItemModelTester>
@@ -126,6 +127,29 @@ TEST_F(FaultModelTest, OfSeveralCausesACellNamesItsOwnPackets) {
     EXPECT_TRUE(isListed(m_stage.session, behind.filter, *behind.packet));
     const PacketsBehind all = m_model.packetsBehind(m_model.index(2, FaultModel::kLost));
     EXPECT_EQ(all.filter, "character == 1 && gap > 0");
+}
+
+TEST_F(FaultModelTest, ACellOfIncompleteSamplesLeadsToWhatCameOfThem) {
+    for (std::uint64_t frame = 0; frame < 100; ++frame) {
+        const auto stamp = Stage::kStart + log::durationOf(static_cast<double>(frame) / 100);
+        const wire::Datagram datagram = m_performer.frame(frame).front(); // type 02 of character 0
+        const auto parts = performer::splitSample(*wire::encode(datagram), 2);
+        ASSERT_EQ(parts.size(), 2U);
+        m_stage.sendBytes(parts[0], stamp);
+        if (frame % 50 != 25) {
+            m_stage.sendBytes(parts[1], stamp);
+        }
+    }
+    refresh();
+    const QModelIndex all = m_model.index(0, 0);
+    ASSERT_EQ(text(all, FaultModel::kLost), QStringLiteral("▲ 2"));
+    const PacketsBehind behind = m_model.packetsBehind(all.siblingAtColumn(FaultModel::kLost));
+    EXPECT_EQ(behind.filter, "number in {50, 149}");
+    EXPECT_EQ(behind.packet, 149U);
+    EXPECT_TRUE(isListed(m_stage.session, behind.filter, 50));
+    m_stage.commands.selectRange({.last = 500ms});
+    refresh();
+    EXPECT_EQ(m_model.packetsBehind(m_model.index(0, FaultModel::kLost)).filter, "number in {149}");
 }
 
 TEST_F(FaultModelTest, CsvHasALineForEachRow) {
