@@ -5,9 +5,12 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <mutex>
 #include <sstream>
 #include <string_view>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 namespace posewire::net {
@@ -51,9 +54,48 @@ bool holdsAnyOf(const fs::path& process, const std::vector<std::string>& sockets
     return false;
 }
 
+/// Who holds these sockets; nothing where the system does not say.
+std::optional<fs::path> holderOf(const std::vector<std::string>& sockets) {
+    std::error_code missing;
+    for (fs::directory_iterator entry("/proc", missing), end; !missing && entry != end;
+         entry.increment(missing)) {
+        const std::string id = entry->path().filename().string();
+        if (id.find_first_not_of("0123456789") == std::string::npos && holdsAnyOf(entry->path(), sockets)) {
+            return entry->path();
+        }
+    }
+    return std::nullopt;
+}
+
+/// Whoever waits for a port asks again and again, and all processes take long to look through: only where a
+/// port has other sockets than last time, or their holder has let go of them.
+class KnownHolders {
+public:
+    std::optional<fs::path> find(std::uint16_t port, bool isTcp, const std::vector<std::string>& sockets) {
+        const std::lock_guard lock(m_mutex);
+        Known& known = m_known[{port, isTcp}];
+        const bool isStill =
+            known.sockets == sockets && (!known.holder || holdsAnyOf(*known.holder, sockets));
+        if (!isStill) {
+            known = {sockets, holderOf(sockets)};
+        }
+        return known.holder;
+    }
+
+private:
+    struct Known {
+        std::vector<std::string> sockets;
+        std::optional<fs::path> holder;
+    };
+
+    std::mutex m_mutex;
+    std::map<std::pair<std::uint16_t, bool>, Known> m_known;
+};
+
 } // namespace
 
 std::optional<Process> holderOfPort(std::uint16_t port, bool isTcp) {
+    static KnownHolders known;
     // States in the kernel's tables; a UDP socket without a peer is listed as closed.
     constexpr std::string_view udpUnconnected = "07";
     constexpr std::string_view tcpListening = "0A";
@@ -65,18 +107,14 @@ std::optional<Process> holderOfPort(std::uint16_t port, bool isTcp) {
     if (sockets.empty()) {
         return std::nullopt;
     }
-    std::error_code missing;
-    for (fs::directory_iterator entry("/proc", missing), end; !missing && entry != end;
-         entry.increment(missing)) {
-        const std::string id = entry->path().filename().string();
-        if (id.find_first_not_of("0123456789") == std::string::npos && holdsAnyOf(entry->path(), sockets)) {
-            std::ifstream file(entry->path() / "comm");
-            Process process{{}, std::strtoll(id.c_str(), nullptr, 10)};
-            std::getline(file, process.name);
-            return process;
-        }
+    const auto holder = known.find(port, isTcp, sockets);
+    if (!holder) {
+        return std::nullopt;
     }
-    return std::nullopt;
+    std::ifstream file(*holder / "comm");
+    Process process{{}, std::strtoll(holder->filename().c_str(), nullptr, 10)};
+    std::getline(file, process.name);
+    return process;
 }
 
 } // namespace posewire::net
