@@ -315,10 +315,19 @@ InputChoices Receiving::choices() const {
     return choices;
 }
 
-std::uint16_t Receiving::openPort() const {
+net::Endpoint Receiving::openPlace() const {
     const auto open = std::ranges::find_if(
         m_state.ports, [](const PortState& state) { return state.id && state.port.kind == Kind::Udp; });
-    return open == m_state.ports.end() ? std::uint16_t{0} : open->port.port;
+    if (open == m_state.ports.end()) {
+        return {{}, 0};
+    }
+    net::Endpoint place = endpointOf(open->port);
+    if (place.host.empty() || place.host == "0.0.0.0") {
+        place.host = "127.0.0.1";
+    } else if (place.host == "::") {
+        place.host = "::1";
+    }
+    return place;
 }
 
 } // namespace posewire::gui

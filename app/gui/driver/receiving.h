@@ -59,7 +59,9 @@ public:
     [[nodiscard]] const ReceivingState& state() const { return m_state; }
 
     /// The first UDP port that is open; 0 where none is.
-    [[nodiscard]] std::uint16_t openPort() const;
+    [[nodiscard]] std::uint16_t openPort() const { return openPlace().port; }
+    /// The same with an address at which this computer reaches it; of none the port is 0.
+    [[nodiscard]] net::Endpoint openPlace() const;
 
     [[nodiscard]] net::Receiver& receiver() { return m_receiver; }
     [[nodiscard]] Relaying& relaying() { return m_relaying; }

@@ -55,8 +55,8 @@ std::shared_ptr<log::Scratch> scratchIn(const QString& folder) {
 }
 
 /// The performer as a sender beside the window, until it is asked to stop.
-void sendDemo(const std::stop_token& stop, int characters, std::uint16_t port) {
-    auto sender = net::DatagramSender::connect({{"127.0.0.1", port}, net::SendTarget::Transport::Udp});
+void sendDemo(const std::stop_token& stop, int characters, const net::Endpoint& to) {
+    auto sender = net::DatagramSender::connect({to, net::SendTarget::Transport::Udp});
     if (!sender) {
         return;
     }
@@ -230,7 +230,6 @@ QString SessionDriver::keepHistory(std::uint64_t most) {
 void SessionDriver::openFile(const QString& path) {
     closeFile();
     qCInfo(filesLog).noquote() << "opening" << path;
-    keepFromSaving(path);
     m_file = std::make_unique<OpenedFile>(m_clock, path, newScratch());
     m_file->session().setThresholds(m_live.thresholds());
 }
@@ -313,7 +312,7 @@ void SessionDriver::setDemo(int characters) {
         if (m_receiving.openPort() == 0) {
             m_receiving.addPort({QStringLiteral("127.0.0.1"), 0});
         }
-        m_demo = std::jthread(sendDemo, characters, m_receiving.openPort());
+        m_demo = std::jthread(sendDemo, characters, m_receiving.openPlace());
     }
     emit demoChanged(isDemoRunning());
 }

@@ -78,6 +78,14 @@ TEST_F(SessionDriverTest, WhatArrivesAtThePortIsInTheSessionAtTheNextTick) {
     EXPECT_NE(driver.session().pose(driver.session().characters()[0].key), nullptr);
 }
 
+TEST_F(SessionDriverTest, TheDemoSendsToTheAddressThatIsListenedAt) {
+    driver.receiving().addPort({"127.0.0.2", 0});
+    ASSERT_NE(driver.receiving().openPort(), 0);
+    driver.setDemo(1);
+    EXPECT_TRUE(tickUntil(driver, [&] { return driver.live().end() != 0; }));
+    driver.setDemo(0);
+}
+
 TEST_F(SessionDriverTest, WhatIsHiddenIsOfTheSessionAndTheViewMoves) {
     const model::CharacterKey key{log::SenderId{0}, 1};
     driver.tick();
