@@ -86,10 +86,15 @@ QString savePicture(const QPixmap& picture, const QString& path) {
                : tr("Not saved: %1 does not end as a picture does; give it .png").arg(path);
 }
 
-void keepFromSaving(const QString& path) {
-    std::string file = QFile::encodeName(QFileInfo(path).absoluteFilePath()).toStdString();
-    if (std::ranges::find(filesInUse(), file) == filesInUse().end()) {
-        filesInUse().push_back(std::move(file));
+KeptFromSaving::KeptFromSaving(const QString& path)
+    : m_file(QFile::encodeName(QFileInfo(path).absoluteFilePath()).toStdString()) {
+    filesInUse().push_back(m_file);
+}
+
+KeptFromSaving::~KeptFromSaving() {
+    const auto own = std::ranges::find(filesInUse(), m_file); // once: another may have it open as well
+    if (own != filesInUse().end()) {
+        filesInUse().erase(own);
     }
 }
 

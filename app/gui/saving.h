@@ -11,6 +11,7 @@
 #include <tl/expected.hpp>
 
 #include <future>
+#include <string>
 
 class QPixmap;
 class QWidget;
@@ -42,8 +43,18 @@ namespace posewire::gui {
 /// The same for a picture, in the format that its ending says.
 [[nodiscard]] QString savePicture(const QPixmap& picture, const QString& path);
 
-/// The file is open as an input from now on: saveFile() does not write over it, whatever leads to it.
-void keepFromSaving(const QString& path);
+/// The file is open as an input for as long as this is there: saveFile() does not write over it, whatever
+/// leads to it.
+class KeptFromSaving {
+public:
+    explicit KeptFromSaving(const QString& path);
+    ~KeptFromSaving();
+    KeptFromSaving(const KeptFromSaving&) = delete;
+    KeptFromSaving& operator=(const KeptFromSaving&) = delete;
+
+private:
+    std::string m_file;
+};
 
 /// A small file of the program's own kind, such as settings or a layout. The error is for the operator: it is
 /// no regular file, is larger than 4 MiB, or cannot be read.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/gui/driver/file_import.h"
+#include "app/gui/saving.h"
 #include "core/log/clock.h"
 #include "core/log/packet_log.h"
 #include "core/model/session/session.h"
@@ -56,6 +57,7 @@ private:
 
     const log::Clock& m_clock;
     const QString m_path;
+    const KeptFromSaving m_kept{m_path};
     log::PacketLog m_log;
     model::Session m_session{m_log};
     model::TakeVerdict m_verdict;

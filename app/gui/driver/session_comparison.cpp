@@ -14,7 +14,6 @@ constexpr log::Duration kReadTime = std::chrono::milliseconds(8); // of each tic
 
 void SessionDriver::compareWith(const QString& path) {
     qCInfo(filesLog).noquote() << "comparing with" << path;
-    keepFromSaving(path);
     m_comparing.open(path, newScratch());
     m_isChanged = true;
     m_tableTick = {};

@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
+
 #include <sys/stat.h>
 
 namespace posewire::gui {
@@ -38,12 +40,23 @@ TEST_F(SavingTest, ReplacesAFileAsAWhole) {
 TEST_F(SavingTest, NeverWritesOverWhatIsOpenAsInput) {
     EXPECT_EQ(saveFile(path("take.pcapng"), "precious"), "");
     ASSERT_TRUE(QFile::link(path("take.pcapng"), path("link")));
-    keepFromSaving(path("take.pcapng"));
+    const KeptFromSaving open(path("take.pcapng"));
     for (const char* name : {"take.pcapng", "link"}) {
         EXPECT_TRUE(saveFile(path(name), "new").startsWith("Not saved: ")) << name;
     }
     EXPECT_EQ(content("take.pcapng"), "precious");
     EXPECT_EQ(saveFile(path("other"), "new"), "");
+}
+
+TEST_F(SavingTest, WritesOverAFileAgainOnceNobodyHasItOpen) {
+    EXPECT_EQ(saveFile(path("take.pcapng"), "precious"), "");
+    auto first = std::make_unique<KeptFromSaving>(path("take.pcapng"));
+    auto second = std::make_unique<KeptFromSaving>(path("take.pcapng"));
+    first.reset();
+    EXPECT_TRUE(saveFile(path("take.pcapng"), "new").startsWith("Not saved: ")) << "the other has it open";
+    second.reset();
+    EXPECT_EQ(saveFile(path("take.pcapng"), "new"), "");
+    EXPECT_EQ(content("take.pcapng"), "new");
 }
 
 TEST(Suffix, IsThatOfTheFilterWhereThereIsNone) {
