@@ -5,6 +5,7 @@
 
 #include <QDir>
 #include <QFileInfo>
+#include <QThreadPool>
 
 #include <algorithm>
 #include <utility>
@@ -25,19 +26,35 @@ QString key(std::size_t mappable) {
 
 } // namespace
 
+CharacterReading::CharacterReading(QObject* parent, Reader read)
+    : QObject(parent), m_read(std::move(read)), m_recipient(std::make_shared<Recipient>()) {
+    m_recipient->reading = this;
+}
+
+CharacterReading::~CharacterReading() {
+    const std::lock_guard lock(m_recipient->mutex);
+    m_recipient->reading = nullptr;
+}
+
 void CharacterReading::begin(const QString& path, std::function<void(const ReadCharacter&)> done) {
     const std::uint64_t number = ++m_number;
-    m_thread = std::jthread([this, path, number, done = std::move(done)] {
-        const ReadCharacter file = readCharacterFile(path);
-        QMetaObject::invokeMethod(
-            this,
-            [this, number, done, file] {
-                if (number == m_number) {
-                    done(file);
-                }
-            },
-            Qt::QueuedConnection);
-    });
+    QThreadPool::globalInstance()->start(
+        [path, number, done = std::move(done), read = m_read, recipient = m_recipient] {
+            const ReadCharacter file = read(path);
+            const std::lock_guard lock(recipient->mutex);
+            CharacterReading* reading = recipient->reading;
+            if (reading == nullptr) {
+                return;
+            }
+            QMetaObject::invokeMethod(
+                reading,
+                [reading, number, done, file] {
+                    if (number == reading->m_number) {
+                        done(file);
+                    }
+                },
+                Qt::QueuedConnection);
+        });
 }
 
 tl::expected<std::shared_ptr<const DressedBody>, QString> bodyOf(const CharacterFile& file,

@@ -12,7 +12,7 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <thread>
+#include <mutex>
 #include <vector>
 
 #include <tl/expected.hpp>
@@ -40,13 +40,24 @@ class CharacterReading final : public QObject {
     Q_OBJECT
 
 public:
-    using QObject::QObject;
+    using Reader = std::function<ReadCharacter(const QString& path)>;
+
+    explicit CharacterReading(QObject* parent = nullptr, Reader read = readCharacterFile);
+    /// Waits for nobody: the program does at its end.
+    ~CharacterReading() override;
 
     void begin(const QString& path, std::function<void(const ReadCharacter&)> done);
 
 private:
+    /// Whom what was read is for.
+    struct Recipient {
+        std::mutex mutex;
+        CharacterReading* reading; ///< null once it is gone
+    };
+
+    Reader m_read;
     std::uint64_t m_number = 0;
-    std::jthread m_thread;
+    std::shared_ptr<Recipient> m_recipient;
 };
 
 /// How a file becomes a body, as the operator chose it.

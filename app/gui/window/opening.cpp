@@ -144,9 +144,14 @@ void MainWindow::editOwnCharacter() {
 
 void MainWindow::showRecovered() {
     auto* dialog = new RecoveryDialog(m_driver, this);
-    dialog->setAttribute(Qt::WA_DeleteOnClose);
     connect(dialog, &RecoveryDialog::openRequested, this,
             [this](const QString& path) { m_driver.openFile(path); }); // it goes: no recent file
+    connect(dialog, &RecoveryDialog::over, this, [this, dialog](const QString& text) {
+        if (!text.isEmpty()) {
+            say(text);
+        }
+        dialog->deleteLater();
+    });
     dialog->show();
 }
 

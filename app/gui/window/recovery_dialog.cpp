@@ -123,7 +123,19 @@ void RecoveryDialog::watchSaving() {
     if (m_saving.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
         m_watch->stop();
         const QString problem = m_saving.get();
-        showState(problem.isEmpty() ? tr("Saved %1").arg(m_target) : problem);
+        const QString text = problem.isEmpty() ? tr("Saved %1").arg(m_target) : problem;
+        showState(text);
+        if (isHidden()) {
+            emit over(text);
+        }
+    }
+}
+
+/// Nobody waits for a file to be copied.
+void RecoveryDialog::done(int result) {
+    QDialog::done(result);
+    if (!m_watch->isActive()) {
+        emit over({});
     }
 }
 

@@ -26,8 +26,12 @@ public:
     /// Copies the selected file, on a thread of its own.
     void save(const QString& path);
 
+    void done(int result) override;
+
 signals:
     void openRequested(const QString& path);
+    /// It is closed, and saves nothing any more: what it was still saving then is at its end, as `text` says.
+    void over(const QString& text);
 
 private:
     void fill();

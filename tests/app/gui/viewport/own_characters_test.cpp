@@ -11,8 +11,11 @@
 #include <QSignalSpy>
 #include <QTemporaryDir>
 #include <QTest>
+#include <QThreadPool>
 
 #include <gtest/gtest.h>
+
+#include <future>
 
 namespace posewire::gui {
 namespace {
@@ -215,6 +218,28 @@ TEST(CharacterReading, NeitherCallsWhoIsGoneNorForAnEarlierFile) {
     reading.begin("/nowhere/first.glb", [&](const ReadCharacter&) { calls += 10; });
     reading.begin(kMannequin, [&](const ReadCharacter& file) { calls += file ? 1 : 1'000; });
     ASSERT_TRUE(QTest::qWaitFor([&] { return calls > 0; }, 20'000));
+    QTest::qWait(0);
+    EXPECT_EQ(calls, 1);
+}
+
+TEST(CharacterReading, NobodyWaitsForAFileThatIsNoLongerWanted) {
+    std::promise<void> slow;
+    const std::shared_future<void> isOver = slow.get_future().share();
+    int calls = 0;
+    const auto read = [isOver](const QString& path) {
+        if (path == "slow") {
+            isOver.wait();
+        }
+        return ReadCharacter(nullptr);
+    };
+    {
+        CharacterReading reading(nullptr, read);
+        reading.begin("slow", [&](const ReadCharacter&) { calls += 100; });
+        reading.begin("quick", [&](const ReadCharacter&) { ++calls; });
+        EXPECT_TRUE(QTest::qWaitFor([&] { return calls != 0; }, 10'000)) << "not held up by the slow one";
+    }
+    slow.set_value();
+    QThreadPool::globalInstance()->waitForDone();
     QTest::qWait(0);
     EXPECT_EQ(calls, 1);
 }

@@ -95,6 +95,22 @@ TEST_F(RecoveryDialogTest, SavesACopyAndSaysSo) {
     }));
 }
 
+TEST_F(RecoveryDialogTest, ClosedWhileItSavesItTellsLater) {
+    leave("history-7-1.pcapng", 1'000'000'000s);
+    RecoveryDialog dialog(m_driver, nullptr);
+    const QSignalSpy over(&dialog, &RecoveryDialog::over);
+    dialog.show();
+    dialog.save(m_folder.filePath("kept.pcapng"));
+    dialog.close();
+    EXPECT_TRUE(dialog.isHidden());
+    EXPECT_EQ(over.count(), 0) << "its copy is not done";
+    ASSERT_TRUE(QTest::qWaitFor([&] { return over.count() == 1; }, 10'000));
+    EXPECT_EQ(over[0][0].toString(), "Saved " + m_folder.filePath("kept.pcapng"));
+    dialog.show();
+    dialog.close();
+    EXPECT_EQ(over.count(), 2) << "nothing to wait for";
+}
+
 TEST_F(RecoveryDialogTest, SaysWhereThereIsNothing) {
     RecoveryDialog dialog(m_driver, nullptr);
     EXPECT_TRUE(dialog.isEmpty());
