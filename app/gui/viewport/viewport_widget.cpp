@@ -350,7 +350,7 @@ void ViewportWidget::frameCharacter(const model::CharacterKey& key) {
         return;
     }
     for (const Figure& figure : m_shown->figures) {
-        if (figure.key == key && !figure.bounds.isEmpty()) {
+        if (m_session->isSame(figure.key, key) && !figure.bounds.isEmpty()) {
             m_look.panes.motion().show(paddedBounds(figure), aspect());
             refresh();
         }

@@ -80,8 +80,7 @@ public:
     /// Those that are yet to be judged: what is not there yet, and not yet lost.
     void forEachPending(
         const std::function<void(const log::StreamKey&, std::uint64_t, log::Stamp, log::Stamp)>& f) const;
-    /// Calls f(stream, stamp, cause, packet) for the newest samples and messages of which only a part came,
-    /// with when they should have come, whose loss the rest was and the first packet of them.
+    /// Calls f(stream, when it was due, cause, first packet) for the newest samples that came in part.
     void forEachPartialLoss(
         const std::function<void(const log::StreamKey&, log::Stamp, LossCause, std::uint64_t)>& f) const;
     /// What was lost before this is known.

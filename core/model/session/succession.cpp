@@ -71,8 +71,10 @@ std::vector<const Character*> SessionView::charactersBefore(std::uint64_t end) c
 
 const Character* SessionView::findListed(const CharacterKey& key, std::uint64_t before) const {
     const Character* character = find(key);
-    const bool isListed =
-        character != nullptr && character->isConfirmed && successor(*character, before) == nullptr;
+    const Character* earlier = predecessor(key);
+    const bool hasBegun = earlier == nullptr || successor(*earlier, before) == character;
+    const bool isListed = character != nullptr && character->isConfirmed && hasBegun &&
+                          successor(*character, before) == nullptr;
     return isListed ? character : nullptr;
 }
 

@@ -158,6 +158,28 @@ TEST_F(Viewport, FacesThePelvisOrTheWorld) {
     EXPECT_EQ(yaw(), 0);
 }
 
+TEST_F(Viewport, FramesACharacterAsItWasBeforeARestart) {
+    performer::Performer performer(sending(1, {2, 12, 13}));
+    const std::string after = "192.168.10.21:52012";
+    stage.perform(performer, 3, 120);
+    for (std::uint64_t frame = 0; frame < 30; ++frame) {
+        for (const wire::Datagram& datagram : performer.frame(frame)) {
+            stage.send(datagram, Stage::kStart + 10s + log::durationOf(static_cast<double>(frame) / 240),
+                       after);
+        }
+    }
+    stage.follow();
+    const model::CharacterKey now = stage.session.current(stage.key());
+    ASSERT_NE(now, stage.key());
+    const std::uint64_t before = stage.session.packetAt(Stage::kStart + 100ms);
+    stage.session.setCursor({model::Cursor::Mode::Paused, before});
+    viewport.refresh();
+    ASSERT_TRUE(settle());
+    EXPECT_EQ(viewport.overlay().labels().size(), 1U) << "it is not there twice";
+    viewport.frameCharacter(now);
+    EXPECT_FALSE(cameraOf(viewport)["following"].toBool());
+}
+
 TEST_F(Viewport, TwoViewsOfOneSessionDrawAtOnce) {
     ViewportWidget other(stage.session, stage.commands);
     other.resize(320, 240);
