@@ -114,8 +114,14 @@ std::optional<std::uint64_t> neighbourInStream(model::SessionView& view, std::ui
                               : digest.kind == own->kind;
     };
     const auto step = static_cast<std::uint64_t>(direction);
-    for (std::uint64_t at = packet + step; const auto* digest = digests.find(at); at += step) {
-        const auto found = isAlike(*digest) ? view.packet(at) : std::nullopt;
+    WalkBounds bounds;
+    for (std::uint64_t at = packet + step; bounds.look(); at += step) {
+        const auto* digest = digests.find(at);
+        const bool mayBe = digest != nullptr && isAlike(*digest);
+        if (digest == nullptr || (mayBe && !bounds.read())) {
+            return std::nullopt;
+        }
+        const auto found = mayBe ? view.packet(at) : std::nullopt;
         if (found && found->sender == ownPacket->sender) {
             return at;
         }

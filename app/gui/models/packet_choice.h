@@ -19,9 +19,19 @@ namespace posewire::gui {
                                                            std::uint8_t preferredType);
 
 /// The nearest packet of the same sender, character and type before (-1) or after (+1) one; for bytes that
-/// are no datagram the nearest of their kind. Nothing where there is none.
+/// are no datagram the nearest of their kind. Nothing where there is none, or none as near as a walk may go.
 [[nodiscard]] std::optional<std::uint64_t> neighbourInStream(model::SessionView& view, std::uint64_t packet,
                                                              int direction);
+
+/// How far a key press may walk over packets, a tenth of a second: what it looks at of a packet without
+/// reading it, and what it reads.
+struct WalkBounds {
+    std::uint64_t looks = 4'000'000;
+    std::uint64_t reads = 10'000;
+
+    [[nodiscard]] bool look() { return looks != 0 && looks-- != 0; }
+    [[nodiscard]] bool read() { return reads != 0 && reads-- != 0; }
+};
 
 /// The packet that one is compared with: the nearest before it of its stream that is the same part of its
 /// sample, where parts of samples come. Nothing where there is none among as many

@@ -227,21 +227,26 @@ void PacketsPanel::goToSameStream(Direction direction) {
         say(tr("No packet is selected."));
         return;
     }
-    const auto isWanted = [&](std::uint64_t other) {
+    const auto mayBe = [&](std::uint64_t other) {
         const model::PacketDigest* candidate = m_view.digests().find(other);
-        if (other == number || candidate == nullptr || candidate->type != wanted->type ||
-            candidate->character != wanted->character) {
-            return false;
-        }
-        const auto found = m_view.packet(other);
-        return found && found->sender == packet->sender;
+        return other != number && candidate != nullptr && candidate->type == wanted->type &&
+               candidate->character == wanted->character;
     };
+    WalkBounds bounds;
     const int rows = m_packets.rowCount();
     int row = isForward ? (from ? m_packets.rowFrom(number + 1) : 0)
                         : (from ? m_packets.rowFrom(number) : rows) - 1;
     for (; row >= 0 && row < rows; row += isForward ? 1 : -1) {
-        if (isWanted(m_packets.packetAt(row))) {
-            showPacket(m_packets.packetAt(row));
+        const std::uint64_t other = m_packets.packetAt(row);
+        const bool isAlike = mayBe(other);
+        if (!bounds.look() || (isAlike && !bounds.read())) {
+            say(isForward ? tr("No later packet of this stream is near this one.")
+                          : tr("No earlier packet of this stream is near this one."));
+            return;
+        }
+        const auto found = isAlike ? m_view.packet(other) : std::nullopt;
+        if (found && found->sender == packet->sender) {
+            showPacket(other);
             return;
         }
     }

@@ -150,18 +150,30 @@ QString TableView::allText() const {
     return text;
 }
 
+/// Texts are made once they are wanted: all of a table may be much.
+void TableView::addCopying(QMenu& menu, const QModelIndex& index) {
+    const QPersistentModelIndex kept(index);
+    QAction* cell = menu.addAction(tr("Copy cell"), this, [this, kept] { copy(cellText(kept)); });
+    QAction* row = menu.addAction(tr("Copy row"), this,
+                                  [this, kept] { copy(kept.isValid() ? rowText(kept) : QString()); });
+    cell->setEnabled(index.isValid() && !cellText(index).isEmpty());
+    row->setEnabled(index.isValid());
+    menu.addAction(tr("Copy all as text"), this, [this] { copy(allText()); });
+}
+
+/// A row may be gone by the time that it is asked for.
+void TableView::copy(const QString& text) {
+    if (!text.isEmpty()) {
+        emit copyRequested(text);
+    }
+}
+
 void TableView::contextMenuEvent(QContextMenuEvent* event) {
     const bool isByKey = event->reason() == QContextMenuEvent::Keyboard;
     const QModelIndex index = isByKey ? currentIndex() : indexAt(event->pos());
     QMenu menu(this);
     emit menuRequested(menu, index);
-    const auto add = [this, &menu](const QString& title, const QString& text) {
-        connect(menu.addAction(title), &QAction::triggered, this, [this, text] { emit copyRequested(text); });
-        menu.actions().back()->setEnabled(!text.isEmpty());
-    };
-    add(tr("Copy cell"), index.isValid() ? cellText(index) : QString());
-    add(tr("Copy row"), index.isValid() ? rowText(index) : QString());
-    add(tr("Copy all as text"), allText());
+    addCopying(menu, index);
     if (m_columns->isChoosable()) {
         menu.addSeparator();
         m_columns->addColumnActions(*menu.addMenu(tr("Columns")));

@@ -70,6 +70,8 @@ protected:
 
 private:
     void addRows(QString& text, const QModelIndex& parent) const;
+    void addCopying(QMenu& menu, const QModelIndex& index);
+    void copy(const QString& text);
     void describe();
 
     FittingHeader* m_columns;

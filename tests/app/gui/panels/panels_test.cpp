@@ -213,6 +213,24 @@ TEST_F(PanelsTest, CopiesARowByKeyboard) {
     EXPECT_TRUE(view->allText().contains("Revision"));
 }
 
+TEST_F(PanelsTest, CopiesAllOfATableByItsMenu) {
+    m_stage.sendMetadata("name:Factory\n", Stage::kStart);
+    const auto panel = open<MetadataPanel>();
+    TableView* view = table(*panel);
+    QTimer::singleShot(0, view, [view] {
+        auto* menu = view->findChild<QMenu*>();
+        for (QAction* action : menu->actions()) {
+            if (action->text() == "Copy all as text") {
+                action->trigger();
+            }
+        }
+        menu->close();
+    });
+    QContextMenuEvent asked(QContextMenuEvent::Mouse, view->rect().center(), view->mapToGlobal(QPoint(5, 5)));
+    QApplication::sendEvent(view->viewport(), &asked);
+    EXPECT_EQ(m_stage.commands.copied, view->allText());
+}
+
 TEST_F(PanelsTest, ClockFillsTheScreenAndLeavesItByEscape) {
     m_stage.send(smallPose(), 1, 639'175, Stage::kStart);
     const auto panel = open<TimecodePanel>();
