@@ -66,6 +66,18 @@ QString wordsOf(model::SessionView& view, const IncidentLine& line) {
                                   fromUtf8(briefOf(view, {*line.pending, State::Provisional})));
 }
 
+/// Without whose loss it was, and what more there is to say of it.
+QString shortWordsOf(model::SessionView& view, const IncidentLine& line) {
+    model::Incident bare = *line.settled;
+    bare.cause.reset();
+    bare.detail.clear();
+    IncidentLine own = line;
+    own.settled = &bare;
+    QString words = wordsOf(view, own);
+    words.chop(words.endsWith(u'.') ? 1 : 0);
+    return words;
+}
+
 QString lostWords(const IncidentLine& line) {
     const std::uint64_t samples = line.settledPart != nullptr               ? line.settledPart->samples
                                   : line.settled != nullptr && !line.isPart ? line.settled->samples
@@ -118,10 +130,9 @@ std::vector<IncidentColumn> textColumns(model::SessionView& view) {
         // Whose fault it was stands beside it, in a column of its own.
         IncidentColumn::words(tr("What happened"), {}, words)
             .withToolTip(words)
-            .withMore([words](const IncidentLine& line, int role) {
-                const QString all = words(line);
-                const qsizetype end = all.indexOf(QLatin1String(", cause:"));
-                return role == kShortTextRole && end > 0 ? QVariant(all.left(end)) : QVariant();
+            .withMore([&view](const IncidentLine& line, int role) {
+                const bool isLong = line.settled != nullptr && line.settled->cause;
+                return role == kShortTextRole && isLong ? QVariant(shortWordsOf(view, line)) : QVariant();
             }),
     };
 }

@@ -97,8 +97,12 @@ QString duration(double seconds) {
                             : whole(3600) + QStringLiteral(" h");
 }
 
+QString inMegabytes(std::uint64_t bytes) {
+    return grouped((bytes + (std::uint64_t{1} << 19)) >> 20);
+}
+
 QString megabytes(std::uint64_t bytes) {
-    return grouped((bytes + (std::uint64_t{1} << 19)) >> 20) + QStringLiteral(" MB");
+    return inMegabytes(bytes) + QStringLiteral(" MB");
 }
 
 } // namespace posewire::gui

@@ -58,7 +58,9 @@ namespace posewire::gui {
 /// "0.4 s", "3.2 s", "12 min", "3 h": as long as a duration is interesting to the digit.
 [[nodiscard]] QString duration(double seconds);
 
-/// "211 MB": binary megabytes, as the limit is set in.
+/// "211": binary megabytes, as the limit is set in.
+[[nodiscard]] QString inMegabytes(std::uint64_t bytes);
+/// "211 MB".
 [[nodiscard]] QString megabytes(std::uint64_t bytes);
 
 } // namespace posewire::gui

@@ -16,6 +16,7 @@
 #include <QToolButton>
 
 #include <algorithm>
+#include <optional>
 
 namespace posewire::gui {
 
@@ -23,24 +24,19 @@ namespace {
 
 constexpr int kMessageMs = 12'000;
 
-/// From the first packet to the newest.
-double historySeconds(model::SessionView& session) {
-    const log::Stamp first = session.firstStamp(); // its stream may be gone
-    log::Stamp last = first;
-    for (const model::Stream& stream : session.streams()) {
-        last = std::max(last, stream.accounting.lastStamp());
-    }
-    return log::secondsOf(last - first);
+/// From the first packet that can still be looked at to the newest.
+std::optional<double> historySeconds(model::SessionView& session) {
+    const auto first = session.end() != 0 ? session.packet(session.begin()) : std::nullopt;
+    const auto last = first ? session.packet(session.end() - 1) : std::nullopt;
+    return last ? std::optional(std::max(0.0, log::secondsOf(last->stamp - first->stamp))) : std::nullopt;
 }
 
 QString historyText(model::SessionView& session) {
     const log::LogFigures figures = session.figures();
-    QString text = HealthBar::tr("%1 of %2")
-                       .arg(megabytes(figures.memoryInUse).section(QLatin1Char(' '), 0, 0),
-                            megabytes(figures.memoryCap));
-    // What the cap has pushed out is no longer history: only while all is kept does the first packet date it.
-    if (figures.begin == 0 && figures.end != 0) {
-        text.prepend(duration(historySeconds(session)) + QStringLiteral(" · "));
+    QString text =
+        HealthBar::tr("%1 of %2 MB").arg(inMegabytes(figures.memoryInUse), inMegabytes(figures.memoryCap));
+    if (const auto seconds = historySeconds(session)) {
+        text.prepend(duration(*seconds) + QStringLiteral(" · "));
     }
     return HealthBar::tr("history %1").arg(text);
 }

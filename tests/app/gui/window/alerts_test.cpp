@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/models/text.h"
 #include "app/gui/window/alerts.h"
+#include "app/gui/window/colour_text.h"
 #include "app/gui/window/health_bar.h"
 #include "app/gui/window/health_popup.h"
 #include "app/gui/window/report_saving.h"
@@ -133,6 +135,30 @@ protected:
     performer::Performer m_performer{sending(1, {2}, 60.0)};
     HealthBar m_bar{m_stage.session, m_stage.commands};
 };
+
+TEST(HealthBarHistory, SaysHowFarBackItGoesAlsoOnceMemoryIsFull) {
+    log::PacketLog log({.memoryCap = std::size_t{1280} << 10, .chunkSize = std::size_t{256} << 10});
+    model::Session session(log);
+    ImmediateCommands commands(session);
+    HealthBar bar(session, commands);
+    const log::SenderId sender = log.senders().intern({Stage::kAddress, log::Transport::Udp, 9763});
+    const std::vector<std::byte> bytes(700);
+    log::Stamp now = Stage::kStart;
+    for (int packet = 0; packet < 6'000; ++packet, now += 10ms) {
+        log.writer().append(bytes, {now, sender, 0, {}});
+        log.writer().publish();
+        session.follow(now);
+    }
+    ASSERT_NE(session.begin(), 0U);
+    bar.refresh({});
+    QStringList texts;
+    for (const auto* text : bar.findChildren<ColourText*>()) {
+        texts += text->text();
+    }
+    const auto first = session.packet(session.begin());
+    const QString back = duration(log::secondsOf(now - 10ms - first->stamp));
+    EXPECT_FALSE(texts.filter("history " + back + " · ").isEmpty()) << texts.join("; ").toStdString();
+}
 
 TEST_F(HealthBarTest, SaysWhyAndEachLineLeadsToItsPackets) {
     perform(0, 240, 60, 63);
