@@ -87,10 +87,10 @@ constexpr ActionInfo groupEntry(const char* id, const char* text) {
 
 constexpr const char* kList = QT_TRANSLATE_NOOP("Action", "&View/&Incidents");
 
-bool isEnd(const QEvent& event) {
+bool asksForNewest(const QEvent& event) {
     const bool isKey = event.type() == QEvent::KeyPress || event.type() == QEvent::ShortcutOverride;
     return isKey && static_cast<const QKeyEvent&>(event).key() == Qt::Key_End &&
-           static_cast<const QKeyEvent&>(event).modifiers() == Qt::NoModifier;
+           static_cast<const QKeyEvent&>(event).modifiers() == Qt::ControlModifier;
 }
 
 } // namespace
@@ -108,8 +108,8 @@ IncidentsPanel::IncidentsPanel(model::SessionView& view, Commands& commands, QWi
     column->addWidget(m_table, 1);
     column->addWidget(m_message);
     m_chip->setObjectName(QStringLiteral("newestEvent"));
-    m_chip->setFocusPolicy(Qt::NoFocus); // the End key does the same
-    m_chip->setToolTip(tr("Go to the newest incident and follow (End)"));
+    m_chip->setFocusPolicy(Qt::NoFocus); // Ctrl+End does the same
+    m_chip->setToolTip(tr("Go to the newest incident and follow (Ctrl+End)"));
     m_chip->hide();
     m_message->setForegroundRole(QPalette::PlaceholderText);
     m_message->setContentsMargins(10, 3, 10, 4);
@@ -387,8 +387,8 @@ void IncidentsPanel::restoreState(const QJsonObject& state) {
 bool IncidentsPanel::eventFilter(QObject* watched, QEvent* event) {
     if (event->type() == QEvent::Resize) {
         placeChip();
-    } else if (watched == m_table && isEnd(*event)) {
-        // The window's own End goes back to live; here it goes to the newest event.
+    } else if (watched == m_table && asksForNewest(*event)) {
+        // The window's own Ctrl+End goes to the newest packet; here it goes to the newest incident.
         if (event->type() == QEvent::KeyPress) {
             newest();
         }

@@ -19,6 +19,14 @@
 
 namespace posewire::gui {
 
+namespace {
+
+bool wantsNewest(const QKeyEvent& event) {
+    return event.key() == Qt::Key_End && event.modifiers() == Qt::ControlModifier;
+}
+
+} // namespace
+
 QFont packetFont() {
     constexpr qreal kScale = 0.92; // ten columns beside each other
     QFont font = monospaceFont();
@@ -41,7 +49,7 @@ PacketView::PacketView(const QString& name, QWidget* parent)
     setHorizontalScrollMode(ScrollPerPixel);
     setCornerWidget(new QWidget(this));
     m_newest->setObjectName(QStringLiteral("newestPacket"));
-    m_newest->setFocusPolicy(Qt::NoFocus); // the End key does the same
+    m_newest->setFocusPolicy(Qt::NoFocus); // Ctrl+End does the same
     m_newest->hide();
     connect(m_newest, &QPushButton::clicked, this, &PacketView::newestRequested);
     const auto placeAll = [this] {
@@ -182,7 +190,7 @@ void PacketView::placeButton() {
         return;
     }
     m_newest->setText(m_missed == 0 ? tr("↓ Follow") : tr("↓ %1 new").arg(grouped(m_missed)));
-    m_newest->setToolTip(tr("Go to the newest packet and follow (End)"));
+    m_newest->setToolTip(tr("Go to the newest packet and follow (Ctrl+End)"));
     // In the line of column titles it covers no row.
     m_newest->resize(m_newest->sizeHint().width(), m_header->height() - 2);
     m_newest->move(m_header->geometry().right() - m_newest->width(), m_header->y());
@@ -258,9 +266,9 @@ QModelIndex PacketView::indexAt(const QPoint& point) const {
 }
 
 bool PacketView::event(QEvent* event) {
-    // In the list the End key is the list's, not the window's.
+    // End alone is the window's everywhere: back to live.
     if (event->type() == QEvent::ShortcutOverride &&
-        (static_cast<QKeyEvent*>(event)->key() == Qt::Key_End ||
+        (wantsNewest(*static_cast<QKeyEvent*>(event)) ||
          static_cast<QKeyEvent*>(event)->matches(QKeySequence::Copy))) {
         event->accept();
         return true;
@@ -272,7 +280,7 @@ void PacketView::keyPressEvent(QKeyEvent* event) {
     if (event->matches(QKeySequence::Copy)) {
         emit copyRequested();
         event->accept();
-    } else if (event->key() == Qt::Key_End && event->modifiers() == Qt::NoModifier) {
+    } else if (wantsNewest(*event)) {
         emit newestRequested();
         event->accept();
     } else {

@@ -56,6 +56,7 @@ TransportBar::TransportBar(model::SessionView& session, const Actions& actions, 
     m_live->setToolButtonStyle(Qt::ToolButtonTextOnly);
     m_live->setProperty("framed", false);
     m_add->setText(tr("Input"));
+    m_time->setObjectName(QStringLiteral("transportTime"));
     m_time->setAccessibleDescription(tr("Time of day shown"));
     auto* row = new QHBoxLayout(this);
     row->setContentsMargins(12, 6, 12, 7);
@@ -171,8 +172,11 @@ void TransportBar::refresh() {
         m_detail->setText(m_session->end() == 0 ? tr("nothing received yet") : tr("no pose"));
         return;
     }
-    m_time->setText(timeOfDay(m_session->wallOf(pose->stamp)));
-    m_detail->setText(tr("received · sample %1").arg(grouped(pose->sample)));
+    // In the past it is the moment that is shown, as everything else in the window says it.
+    const bool isPast = m_session->cursor().mode == model::Cursor::Mode::Paused;
+    m_time->setText(timeOfDay(m_session->wallOf(isPast ? m_session->cursorStamp() : pose->stamp)));
+    m_detail->setText(
+        (isPast ? tr("shown · sample %1") : tr("received · sample %1")).arg(grouped(pose->sample)));
 }
 
 void TransportBar::addPill() {

@@ -86,7 +86,7 @@ TEST_F(PacketsPanelTest, SelectingARowSelectsThePacketAndBack) {
     refresh();
     EXPECT_EQ(list().currentIndex().row(), 7);
     EXPECT_EQ(m_stage.commands.selections, asked + 1);
-    QTest::keyClick(&list(), Qt::Key_End);
+    QTest::keyClick(&list(), Qt::Key_End, Qt::ControlModifier);
     EXPECT_EQ(selected(), std::nullopt);
     EXPECT_TRUE(list().isFollowing());
 }

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/models/text.h"
 #include "app/gui/panels/filter_bar.h"
+#include "app/gui/panels/packet_view.h"
 #include "app/gui/panels/table_view.h"
 #include "app/gui/panels/timecode_panel.h"
+#include "app/gui/theme/widgets.h"
 #include "app/gui/window/main_window.h"
 #include "app/net/datagram_sender.h"
 #include "core/performer/performer.h"
@@ -9,6 +12,7 @@
 
 #include <QDockWidget>
 #include <QJsonArray>
+#include <QLabel>
 #include <QTemporaryDir>
 #include <QTest>
 
@@ -135,6 +139,39 @@ TEST_F(PagesTest, TheHistoryOfFiltersGoesAlongOnceAndDefaultsComeBack) {
     m_driver.showLive();
     EXPECT_EQ(live->history(), (QStringList{"type == 02", "size > 100"}));
     EXPECT_EQ(live->saved(), defaultFilters());
+}
+
+TEST_F(PagesTest, EndGoesBackToLiveFromEveryList) {
+    receive(0, 10);
+    m_window.useLayout("Debug");
+    for (const auto& [name, list] :
+         {std::pair<const char*, QWidget*>{"packets", shownPart<PacketView>("packets")},
+          {"events", shownPart<TableView>("events")},
+          {"faults", shownPart<TableView>("faults")}}) {
+        m_window.showDock(name);
+        list->setFocus();
+        m_driver.setPaused(true);
+        QTest::keyClick(list, Qt::Key_End);
+        EXPECT_FALSE(m_driver.isPaused()) << name;
+    }
+}
+
+TEST_F(PagesTest, TheClockAndTheStripTellTheSameMomentOfThePast) {
+    receive(0, 4);
+    QTest::qWait(20);
+    auto sender = net::DatagramSender::connect(
+        {{"127.0.0.1", m_driver.receiving().openPort()}, net::SendTarget::Transport::Udp});
+    ASSERT_TRUE(sender && sender->send(std::vector(10, std::byte{7})));
+    ASSERT_TRUE(QTest::qWaitFor([&] {
+        m_driver.tick();
+        return m_driver.live().end() == 5;
+    }));
+    m_driver.setPaused(true);
+    m_driver.tick();
+    emit m_driver.tableTick();
+    const QString moment = timeOfDay(m_driver.live().wallOf(m_driver.live().cursorStamp()));
+    EXPECT_EQ(m_window.findChild<QLabel*>("transportTime")->text(), moment);
+    EXPECT_TRUE(m_window.findChild<ElidedLabel*>("stripText")->text().contains(moment));
 }
 
 } // namespace
