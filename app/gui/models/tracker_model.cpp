@@ -2,6 +2,7 @@
 #include "app/gui/models/tracker_model.h"
 
 #include "app/gui/models/shown_character.h"
+#include "app/gui/models/stream_state.h"
 #include "app/gui/models/text.h"
 #include "app/gui/theme/words.h"
 #include "core/model/body/segments.h"
@@ -154,7 +155,7 @@ TrackerColumn normColumn(const QString& title, const QString& help, wire::Vec3 w
 std::vector<TrackerColumn> trackerColumns(const TrackerModel& trackers) {
     const auto always = [] { return true; };
     const auto isInertial = [&trackers] { return trackers.hasInertialData(); };
-    return {
+    std::vector<TrackerColumn> columns{
         TrackerColumn::words(tr("Tracker"), {}, [](const auto& tracker) { return trackerName(tracker.id); }),
         normColumn(tr("|f| m/s²"), tr("Norm of the free acceleration: gravity taken away, global"),
                    &wire::Tracker::freeAcceleration, always),
@@ -174,6 +175,12 @@ std::vector<TrackerColumn> trackerColumns(const TrackerModel& trackers) {
                        "and 2000 °/s.")},
             [&trackers](const wire::Tracker& tracker) { return trackers.state(tracker); }),
     };
+    for (TrackerColumn& column : columns) {
+        column.colour = [&trackers, own = column.colour](const wire::Tracker& tracker) {
+            return trackers.isStale() ? QVariant(theme().dim) : own ? own(tracker) : QVariant();
+        };
+    }
+    return columns;
 }
 
 } // namespace
@@ -194,6 +201,7 @@ void TrackerModel::refresh() {
     const auto* message = m_key ? m_view.message(*m_key, wire::TrackerKinematics::kType) : nullptr;
     const auto* body =
         message == nullptr ? nullptr : std::get_if<wire::TrackerKinematics>(&message->datagram.body);
+    m_isStale = body != nullptr && log::secondsOf(m_view.cursorStamp() - message->stamp) >= kStaleAge;
     std::vector<wire::Tracker> trackers;
     if (body != nullptr) {
         trackers.assign(body->trackers.begin(), body->trackers.end());
@@ -215,6 +223,9 @@ const wire::Tracker* TrackerModel::shown() const {
 }
 
 PropertyValue TrackerModel::state(const wire::Tracker& tracker) const {
+    if (m_isStale) {
+        return {tr("stale")};
+    }
     if (m_history.isSaturated(tracker.id)) {
         return {tr("saturation"), Health::Error};
     }

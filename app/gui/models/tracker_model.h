@@ -96,6 +96,8 @@ public:
     [[nodiscard]] const TrackerHistory& history() const { return m_history; }
     /// False in the form of type 23 that has neither acceleration nor angular velocity.
     [[nodiscard]] bool hasInertialData() const { return m_hasInertialData; }
+    /// Nothing has come of it for a while: what is shown is not how it is now.
+    [[nodiscard]] bool isStale() const { return m_isStale; }
     /// What is wrong with a tracker; good and without text where nothing is.
     [[nodiscard]] PropertyValue state(const wire::Tracker& tracker) const;
 
@@ -103,6 +105,7 @@ private:
     model::SessionView& m_view;
     std::optional<model::CharacterKey> m_key;
     bool m_hasInertialData = true;
+    bool m_isStale = false;
     int m_shownRow = -1;
     TrackerHistory m_history;
 };

@@ -128,8 +128,10 @@ void TrackersPanel::select(const QModelIndex& index) {
 
 QString TrackersPanel::summary() const {
     const wire::Tracker* tracker = m_trackers.shown();
-    return tracker == nullptr ? QString()
-                              : QStringLiteral("%1 · %2").arg(trackerName(tracker->id)).arg(tracker->id);
+    const QString stale = m_trackers.isStale() ? tr(" · stale") : QString();
+    return tracker == nullptr
+               ? QString()
+               : QStringLiteral("%1 · %2").arg(trackerName(tracker->id)).arg(tracker->id) + stale;
 }
 
 void TrackersPanel::resizeEvent(QResizeEvent* event) {

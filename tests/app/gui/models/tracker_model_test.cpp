@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/models/tracker_model.h"
 
+#include "app/gui/theme/theme.h"
 #include "core/model/body/spaces.h"
 #include "tests/app/gui/models/stage.h"
 
@@ -87,6 +88,22 @@ TEST_F(TrackerModelTest, FlagsADisturbedFieldAgainstItsOwnMedian) {
     sendTracker(disturbed, 301);
     refresh();
     EXPECT_EQ(text(0, TrackerModel::kState), QStringLiteral("●"));
+}
+
+TEST_F(TrackerModelTest, DimsWhatIsNoLongerSent) {
+    for (std::uint32_t sample = 0; sample < 300; ++sample) {
+        sendTracker(atRest(), sample);
+    }
+    refresh();
+    EXPECT_FALSE(m_model.isStale());
+    EXPECT_NE(m_model.index(0, TrackerModel::kMagnetic).data(Qt::ForegroundRole), QVariant(theme().dim));
+    m_stage.now += 2s;
+    refresh();
+    EXPECT_TRUE(m_model.isStale());
+    EXPECT_EQ(text(0, TrackerModel::kState), "stale");
+    for (int column = 0; column < m_model.columnCount(); ++column) {
+        EXPECT_EQ(m_model.index(0, column).data(Qt::ForegroundRole), QVariant(theme().dim)) << column;
+    }
 }
 
 TEST_F(TrackerModelTest, FlagsSaturationOfASingleSampleForTenSeconds) {
