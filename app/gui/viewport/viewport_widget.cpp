@@ -357,6 +357,23 @@ void ViewportWidget::frameCharacter(const model::CharacterKey& key) {
     }
 }
 
+void ViewportWidget::orbitBy(int right, int up) {
+    constexpr double kStep = 24; // pixels of a drag: about 10°
+    m_look.panes.motion().orbit(kStep * QPointF(-right, up));
+    refresh();
+}
+
+void ViewportWidget::panBy(int right, int up) {
+    constexpr double kStep = 0.05; // of the height
+    m_look.panes.motion().pan(kStep * height() * QPointF(-right, up), size());
+    refresh();
+}
+
+void ViewportWidget::zoomBy(int steps) {
+    m_look.panes.motion().zoom(steps, QRectF(rect()).center(), size());
+    refresh();
+}
+
 void ViewportWidget::paintEvent(QPaintEvent* /*event*/) {
     if (m_presenter == nullptr) {
         QPainter(this).fillRect(rect(), theme().window);

@@ -90,6 +90,10 @@ public:
     void restoreState(const QJsonObject& state);
     void frameAll();
     void frameCharacter(const model::CharacterKey& key);
+    /// What the mouse does to the camera, by steps: around what it looks at, beside it, and closer.
+    void orbitBy(int right, int up);
+    void panBy(int right, int up);
+    void zoomBy(int steps);
 
     /// True while what is on screen is what was last asked for, or, with data streaming, next to it.
     [[nodiscard]] bool isSettled() const;

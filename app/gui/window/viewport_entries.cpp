@@ -88,6 +88,19 @@ constexpr ActionInfo keepViewEntry(const char* id, const char* text, const char*
             ViewDo::call<keepView<index>>};
 }
 
+template <auto move, int right, int up>
+constexpr ActionInfo moveEntry(const char* id, const char* text, const char* shortcut) {
+    return {id, QT_TRANSLATE_NOOP("Action", "&View/&Camera/&Move"), text, shortcut,
+            ViewDo::callIn<&Window::viewport, move, right, up>};
+}
+constexpr auto kOrbit = &ViewportWidget::orbitBy;
+constexpr auto kPan = &ViewportWidget::panBy;
+template <int steps>
+constexpr ActionInfo zoomEntry(const char* id, const char* text, const char* shortcut) {
+    return {id, QT_TRANSLATE_NOOP("Action", "&View/&Camera/&Move"), text, shortcut,
+            ViewDo::callIn<&Window::viewport, &ViewportWidget::zoomBy, steps>};
+}
+
 template <int count>
 constexpr ActionInfo splitEntry(const char* id, const char* text, const char* shortcut) {
     return {id,
@@ -131,6 +144,16 @@ const ActionInfo kEntries[] = {
      ViewDo::isIn<&Window::viewport, &ViewportWidget::projection, render::Projection::Orthographic>},
     {"frame", "&View/&Camera", QT_TRANSLATE_NOOP("Action", "Fr&ame all"), "F",
      ViewDo::callIn<&Window::viewport, &ViewportWidget::frameAll>},
+    moveEntry<kOrbit, -1, 0>("orbitLeft", QT_TRANSLATE_NOOP("Action", "Orbit to the &left"), "J"),
+    moveEntry<kOrbit, 1, 0>("orbitRight", QT_TRANSLATE_NOOP("Action", "Orbit to the &right"), "L"),
+    moveEntry<kOrbit, 0, 1>("orbitUp", QT_TRANSLATE_NOOP("Action", "Orbit &up"), "I"),
+    moveEntry<kOrbit, 0, -1>("orbitDown", QT_TRANSLATE_NOOP("Action", "Orbit &down"), "K"),
+    moveEntry<kPan, -1, 0>("panLeft", QT_TRANSLATE_NOOP("Action", "Pan to the l&eft"), "Shift+J"),
+    moveEntry<kPan, 1, 0>("panRight", QT_TRANSLATE_NOOP("Action", "Pan to the ri&ght"), "Shift+L"),
+    moveEntry<kPan, 0, 1>("panUp", QT_TRANSLATE_NOOP("Action", "&Pan up"), "Shift+I"),
+    moveEntry<kPan, 0, -1>("panDown", QT_TRANSLATE_NOOP("Action", "Pa&n down"), "Shift+K"),
+    zoomEntry<1>("zoomIn", QT_TRANSLATE_NOOP("Action", "&Closer"), "Z"),
+    zoomEntry<-1>("zoomOut", QT_TRANSLATE_NOOP("Action", "&Farther"), "Shift+Z"),
     showViewEntry<0>("showView1", QT_TRANSLATE_NOOP("Action", "View &1"), "Alt+7"),
     showViewEntry<1>("showView2", QT_TRANSLATE_NOOP("Action", "View &2"), "Alt+8"),
     showViewEntry<2>("showView3", QT_TRANSLATE_NOOP("Action", "View &3"), "Alt+9"),

@@ -7,6 +7,7 @@
 #include "tests/app/gui/models/stage.h"
 
 #include <QApplication>
+#include <QJsonArray>
 #include <QMouseEvent>
 #include <QSignalSpy>
 #include <QTest>
@@ -156,6 +157,25 @@ TEST_F(Viewport, FacesThePelvisOrTheWorld) {
     viewport.toggleRelativeViews();
     viewport.face(render::StandardView::Front);
     EXPECT_EQ(yaw(), 0);
+}
+
+TEST_F(Viewport, TheKeyboardMovesTheCameraAsTheMouseDoes) {
+    viewport.face(render::StandardView::Front);
+    const auto now = [this] { return cameraOf(viewport); };
+    const QJsonObject front = now();
+    viewport.orbitBy(1, 0);
+    EXPECT_NE(now()["yaw"], front["yaw"]);
+    viewport.orbitBy(-1, 1);
+    EXPECT_NEAR(now()["yaw"].toDouble(), front["yaw"].toDouble(), 1e-5);
+    EXPECT_GT(now()["pitch"].toDouble(), front["pitch"].toDouble()) << "from above";
+    viewport.orbitBy(0, -1);
+    EXPECT_TRUE(now()["following"].toBool());
+    viewport.zoomBy(2);
+    EXPECT_LT(now()["distance"].toDouble(), front["distance"].toDouble());
+    const QJsonArray before = now()["target"].toArray();
+    viewport.panBy(0, 1);
+    EXPECT_GT(now()["target"].toArray().at(2).toDouble(), before.at(2).toDouble());
+    EXPECT_FALSE(now()["following"].toBool());
 }
 
 TEST_F(Viewport, FramesACharacterAsItWasBeforeARestart) {
