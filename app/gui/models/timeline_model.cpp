@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 
 namespace posewire::gui {
 
@@ -93,6 +94,40 @@ void TimelineModel::toggle(const model::CharacterKey& key) {
     if (m_open.erase(key) == 0) {
         m_open.insert(key);
     }
+}
+
+std::size_t TimelineModel::spacingOf(const std::vector<model::RangePart>& parts) {
+    constexpr std::size_t kLeast = 4;
+    std::vector<std::size_t> spacings;
+    std::optional<std::size_t> last;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        if (parts[i].datagrams != 0) {
+            if (last) {
+                spacings.push_back(i - *last);
+            }
+            last = i;
+        }
+    }
+    const auto middle = spacings.begin() + static_cast<std::ptrdiff_t>(spacings.size() / 2);
+    std::ranges::nth_element(spacings, middle);
+    return spacings.size() < kLeast ? 0 : *middle;
+}
+
+std::vector<TimelineModel::Gap> TimelineModel::gapsIn(const std::vector<model::RangePart>& parts) {
+    constexpr std::size_t kSpacings = 3;
+    const std::size_t spacing = spacingOf(parts);
+    std::vector<Gap> gaps;
+    std::optional<std::size_t> last;
+    for (std::size_t i = 0; spacing != 0 && i < parts.size(); ++i) {
+        if (parts[i].datagrams == 0) {
+            continue;
+        }
+        if (last && i - *last > kSpacings * spacing) {
+            gaps.emplace_back(*last + spacing, i);
+        }
+        last = i;
+    }
+    return gaps;
 }
 
 } // namespace posewire::gui

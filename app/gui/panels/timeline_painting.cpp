@@ -14,6 +14,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
+#include <vector>
 
 namespace posewire::gui {
 
@@ -40,6 +42,33 @@ QString tickText(log::WallTime time, log::Duration step) {
     }
     const auto micros = std::chrono::floor<std::chrono::microseconds>(time).time_since_epoch() % 1ms;
     return step >= 1ms ? whole : whole + QStringLiteral("%1").arg(micros / 1us, 3, 10, QLatin1Char('0'));
+}
+
+/// Marks of the worst lie on top of others.
+std::vector<const model::Incident*> worstLast(const auto& incidents) {
+    std::vector<const model::Incident*> ordered;
+    std::ranges::transform(incidents, std::back_inserter(ordered), [](const auto& one) { return &one; });
+    std::ranges::stable_sort(ordered, {}, [](const auto* one) { return one->severity(); });
+    return ordered;
+}
+
+/// What came, by part. Parts about as long as a sample have one, two or none of it by chance: there each
+/// counts with its neighbours, or a steady stream would look like a comb.
+std::vector<double> heightsOf(const std::vector<model::RangePart>& parts) {
+    const auto cameIn = [&parts](std::size_t i) { return static_cast<double>(parts[i].datagrams); };
+    const std::size_t spacing = TimelineModel::spacingOf(parts);
+    std::vector<double> heights(parts.size());
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        heights[i] = cameIn(i);
+        if ((spacing == 1 || spacing == 2) && i > 0 && i + 1 < parts.size()) {
+            heights[i] = (cameIn(i - 1) + 2 * cameIn(i) + cameIn(i + 1)) / 4;
+        }
+    }
+    for (const auto& [from, to] : TimelineModel::gapsIn(parts)) {
+        std::fill(heights.begin() + static_cast<std::ptrdiff_t>(from),
+                  heights.begin() + static_cast<std::ptrdiff_t>(to), 0);
+    }
+    return heights;
 }
 
 } // namespace
@@ -116,9 +145,12 @@ void TimelineView::paintIncidents(QPainter& painter) const {
     painter.setRenderHint(QPainter::Antialiasing);
     painter.setPen(Qt::NoPen);
     double last = -2 * size;
-    for (const model::Incident& incident : m_view.incidents().all()) {
+    for (const model::Incident* one : worstLast(m_view.incidents().all())) {
+        const model::Incident& incident = *one;
         const double x = placeOf(incident.firstStamp);
-        const double end = std::min<double>(placeOf(incident.lastStamp), viewport()->width());
+        const bool goesOn = incident.isCurrent && incident.kind == model::IncidentKind::Outage;
+        const double end = std::min<double>(placeOf(goesOn ? m_view.cursorStamp() : incident.lastStamp),
+                                            viewport()->width());
         const Health health = healthOf(incident.severity());
         const bool isNote = incident.severity() == model::IncidentSeverity::Info;
         painter.setBrush(isNote ? theme().dim : healthColour(health));
@@ -175,23 +207,27 @@ void TimelineView::paintRow(QPainter& painter, std::size_t row) {
     painter.setClipping(false);
 }
 
-/// As high as the part with most, with the share that was lost at the bottom; where nothing came it is empty.
+/// As high as the part with most, with the share that was lost at the bottom; where nothing came for longer
+/// than usual it is hatched.
 void TimelineView::paintStrip(QPainter& painter, const TimelineModel::Row& row, const QRect& strip) const {
     const model::RangeParts& parts = m_model.parts();
-    std::uint32_t most = 1;
-    for (const model::RangePart& part : row.parts) {
-        most = std::max(most, part.datagrams);
-    }
+    const std::vector<double> heights = heightsOf(row.parts);
+    const double most = heights.empty() ? 1 : std::max(1e-9, std::ranges::max(heights));
     const double room = strip.height() - 5.0;
     const double bottom = strip.bottom() - 1.0;
     const QColor colour = withAlpha(row.mark.colour, row.type ? 0.45 : 0.7);
     painter.setPen(Qt::NoPen);
+    for (const auto& [from, to] : TimelineModel::gapsIn(row.parts)) {
+        const double left = placeOf(parts.beginOf(from));
+        painter.fillRect(QRectF(left, bottom - room, placeOf(parts.beginOf(to)) - left, room),
+                         QBrush(withAlpha(theme().dim, 0.6), Qt::BDiagPattern));
+    }
     for (std::size_t i = 0; i < row.parts.size(); ++i) {
         const model::RangePart& part = row.parts[i];
         const double left = placeOf(parts.beginOf(i));
         const double right = std::max(left + 1, placeOf(parts.beginOf(i + 1)));
-        if (part.datagrams != 0) {
-            const double height = std::max(2.0, room * part.datagrams / most);
+        if (heights[i] > 0) {
+            const double height = std::max(2.0, room * heights[i] / most);
             painter.fillRect(QRectF(left, bottom - height, right - left, height), colour);
         }
         if (part.lost != 0) {

@@ -63,6 +63,8 @@ std::span<const ActionInfo> TimelinePanel::actionTable() {
          Do::call<&TimelinePanel::showAll>},
         {"timelineShowRange", kMenu, QT_TRANSLATE_NOOP("Action", "The &selected range"), "",
          Do::call<&TimelinePanel::showRange>},
+        {"timelineStreams", kMenu, QT_TRANSLATE_NOOP("Action", "&Streams of the selected character"), "",
+         Do::call<&TimelinePanel::toggleStreams>},
     };
     return kActions;
 }

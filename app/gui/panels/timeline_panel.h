@@ -27,6 +27,7 @@ public:
     void zoomOut() { m_timeline->zoom(2); }
     void showAll() { m_timeline->fit(); }
     void showRange() { m_timeline->fitRange(); }
+    void toggleStreams() { m_timeline->toggleStreams(); }
 
 private:
     QToolButton* add(const QString& name, const QString& text, const QString& toolTip);

@@ -257,12 +257,27 @@ void TimelineView::keyPressEvent(QKeyEvent* event) {
     case Qt::Key_PageDown:
         setWindow({m_window.from + page, m_window.to + page});
         break;
+    case Qt::Key_Return:
+    case Qt::Key_Enter:
+        toggleStreams();
+        break;
     case Qt::Key_Escape:
         m_commands.selectRange({});
         viewport()->update();
         break;
     default:
         QAbstractScrollArea::keyPressEvent(event);
+    }
+}
+
+void TimelineView::toggleStreams() {
+    const auto isWanted = [this](const TimelineModel::Row& row) {
+        return !row.type && m_view.isSelected(row.character);
+    };
+    const auto chosen = std::ranges::find_if(m_model.rows(), isWanted);
+    if (!m_model.rows().empty()) {
+        m_model.toggle((chosen != m_model.rows().end() ? *chosen : m_model.rows().front()).character);
+        readRows();
     }
 }
 
@@ -279,7 +294,10 @@ const model::Incident* TimelineView::incidentAt(const QPoint& place) const {
     double least = lane / 2.0;
     for (const model::Incident& incident : m_view.incidents().all()) {
         const double distance = std::abs(placeOf(incident.firstStamp) - place.x());
-        if (isInLane && distance <= least) {
+        // Of those in one place the worst lies on top.
+        const bool isOver = nearest != nullptr && std::abs(distance - least) < 1;
+        const bool isNearer = isOver ? incident.severity() >= nearest->severity() : distance <= least;
+        if (isInLane && isNearer) {
             least = distance;
             nearest = &incident;
         }

@@ -30,6 +30,8 @@ public:
     void fit();
     /// The range that figures are of.
     void fitRange();
+    /// Shows or hides the streams of the selected character, of the first where none is.
+    void toggleStreams();
     [[nodiscard]] bool isAllShown() const { return m_isAll; }
     /// As much of it as there is; at least the shortest that can be looked at.
     void setWindow(model::TimeRange window);

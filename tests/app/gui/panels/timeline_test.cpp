@@ -58,6 +58,30 @@ TEST_F(TimelineTest, HasAStripForEachCharacterWithItsGaps) {
     EXPECT_EQ(datagrams, 2U * 540U);
 }
 
+TEST_F(TimelineTest, FindsTheGapsAndNoneBetweenSamples) {
+    TimelineModel model(m_stage.session);
+    for (const std::size_t parts : {100U, 400U, 600U, 900U}) {
+        model.refresh({at(0s), at(10s)}, parts);
+        const auto gaps = TimelineModel::gapsIn(model.shown(0).parts);
+        ASSERT_EQ(gaps.size(), 1U) << parts;
+        const log::Duration most = 3 * model.parts().width;
+        EXPECT_LT(std::chrono::abs(model.parts().beginOf(gaps[0].first) - at(4s)), most);
+        EXPECT_LT(std::chrono::abs(model.parts().beginOf(gaps[0].second) - at(5s)), most);
+    }
+    model.refresh({at(1s), at(1s + 200ms)}, 600);
+    EXPECT_TRUE(TimelineModel::gapsIn(model.shown(0).parts).empty()) << "single samples";
+}
+
+TEST_F(TimelineTest, EnterOpensTheStreamsOfTheSelectedCharacter) {
+    const model::CharacterKey second = m_stage.session.characters()[1].key;
+    m_stage.session.setSelection({second.sender, second, -1});
+    QTest::keyClick(&m_timeline, Qt::Key_Return);
+    ASSERT_EQ(m_timeline.model().rows().size(), 4U);
+    EXPECT_EQ(m_timeline.model().rows()[2].type, 2);
+    QTest::keyClick(&m_timeline, Qt::Key_Return);
+    EXPECT_EQ(m_timeline.model().rows().size(), 2U);
+}
+
 TEST_F(TimelineTest, LooksAtSingleDatagramsWhereItIsZoomedIn) {
     TimelineModel model(m_stage.session);
     model.refresh({at(1s), at(1s + 50ms)}, 500);
