@@ -24,9 +24,10 @@ constexpr qreal kRadius = 5;
 constexpr QLatin1String kButtons("viewportButtons");
 constexpr double kBackgroundOpacity = 0.9;
 
-void paintPlate(QPainter& painter, const QRectF& plate, const QColor& border, qreal radius) {
+void paintPlate(QPainter& painter, const QRectF& plate, const QColor& border, qreal radius,
+                double opacity = kBackgroundOpacity) {
     painter.setPen(QPen(border, 1));
-    painter.setBrush(withAlpha(theme().raised, kBackgroundOpacity));
+    painter.setBrush(withAlpha(theme().raised, opacity));
     painter.drawRoundedRect(plate.adjusted(0.5, 0.5, -0.5, -0.5), radius, radius);
 }
 
@@ -342,7 +343,8 @@ ViewportOverlay::CardLayout ViewportOverlay::layOutCard() const {
 void ViewportOverlay::paintCard(QPainter& painter) const {
     const CardLayout layout = layOutCard();
     const bool isPlain = m_card.level == Health::Unknown || m_card.level == Health::Good;
-    paintPlate(painter, layout.card, isPlain ? theme().line : healthColour(m_card.level), 1.4 * kRadius);
+    paintPlate(painter, layout.card, isPlain ? theme().line : healthColour(m_card.level), 1.4 * kRadius,
+               1); // sentences are read: nothing shines through
     QFont titleFont = font();
     titleFont.setWeight(QFont::DemiBold);
     painter.setFont(titleFont);

@@ -139,11 +139,24 @@ void HealthBar::refreshCharacters() {
     }
 }
 
+/// As wide as the longest that was said so far, up to what is usual: it only grows, so that nothing moves to
+/// and fro.
+int HealthBar::stateWidth(const QFontMetrics& metrics) {
+    const int most = metrics.horizontalAdvance(QStringLiteral("■  10.0 % lost, network, over"));
+    int width = std::max(m_stateWidth, metrics.horizontalAdvance(QStringLiteral("■  99 lost, network")));
+    for (const model::CharacterKey& key : m_shown) {
+        const PropertyValue state = verdictState(m_session.verdict(key));
+        width = std::max(width, metrics.horizontalAdvance(QStringLiteral("■  ") + state.text));
+    }
+    m_stateWidth = std::min(width, most);
+    return m_stateWidth;
+}
+
 /// Shows as many entries as have room, and says how many have none. All are of one width, whatever they say,
 /// so that no word moves its neighbour; names have what is left of the room.
 void HealthBar::fitEntries() {
     const QFontMetrics metrics = m_more->fontMetrics();
-    const int stateWidth = metrics.horizontalAdvance(QStringLiteral("■  10.0 % lost, network, over"));
+    const int stateWidth = this->stateWidth(metrics);
     const int leastName = metrics.horizontalAdvance(QStringLiteral("Performer 1"));
     const int mostName = metrics.horizontalAdvance(QStringLiteral("Performer with a name"));
     const int spacing = m_entriesLayout->spacing();

@@ -43,6 +43,7 @@ private:
     void showList();
     void refreshCharacters();
     void fitEntries();
+    [[nodiscard]] int stateWidth(const QFontMetrics& metrics);
     /// Widths in pixels, of the name and of the rest.
     void showEntry(std::size_t index, int nameWidth, int stateWidth);
     void addEntry();
@@ -52,6 +53,7 @@ private:
     QHBoxLayout* m_entriesLayout;
     QWidget* m_entriesArea;
     std::vector<ColourText*> m_entries;       ///< as many as there ever were characters to show
+    int m_stateWidth = 0;                     ///< pixels, of what was said so far
     std::vector<model::CharacterKey> m_shown; ///< all, the worst first; the first entries show them
     ColourText* m_more;                       ///< how many there is no room for
     QPointer<HealthList> m_list;              ///< while it is open
