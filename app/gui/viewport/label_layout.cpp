@@ -93,10 +93,12 @@ public:
         }
         const std::array forms{std::tuple(LabelForm::Whole, own.whole, kMostWhole),
                                std::tuple(LabelForm::Brief, own.brief, kMostBrief)};
-        for (const auto& [form, size, most] : forms) {
-            if (const auto found = find(which, form, size, most)) {
-                m_taken.push_back(found->plate);
-                return *found;
+        for (const bool mayCover : {false, true}) { // rather short than on somebody's head
+            for (const auto& [form, size, most] : forms) {
+                if (const auto found = find(which, form, size, most, mayCover)) {
+                    m_taken.push_back(found->plate);
+                    return *found;
+                }
             }
         }
         const bool isBehind = isOnHead(QRectF(own.anchor - QPointF(4, 4), QSizeF(8, 8)), which, true);
@@ -104,7 +106,8 @@ public:
     }
 
 private:
-    std::optional<PlacedLabel> find(std::size_t which, LabelForm form, const QSizeF& size, qreal most) const {
+    std::optional<PlacedLabel> find(std::size_t which, LabelForm form, const QSizeF& size, qreal most,
+                                    bool mayCover) const {
         const LabelPlace& own = m_places[which];
         const std::optional<Candidate> kept = keptPlace(which, form, size);
         const qreal spare = kept || (own.before && own.before->form > form) ? kToSpare : 0;
@@ -124,7 +127,7 @@ private:
         if (kept) {
             return PlacedLabel{kept->plate, form, kept->offset};
         }
-        return second;
+        return mayCover ? second : std::nullopt;
     }
     /// Where it was in the picture before, if it may be there again.
     [[nodiscard]] std::optional<Candidate> keptPlace(std::size_t which, LabelForm form,

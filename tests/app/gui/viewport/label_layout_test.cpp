@@ -64,6 +64,25 @@ TEST(LabelLayout, NeverLiesOnAnotherLabelOnButtonsOrOnItsOwnOrANearerHead) {
     }
 }
 
+TEST(LabelLayout, GetsShorterBeforeItLiesOnAnyHead) {
+    const QRectF buttons(10, 10, 400, 80);
+    std::size_t covered = 0;
+    for (unsigned seed = 1; seed <= 300; ++seed) {
+        const auto places = crowd(seed, 4);
+        const auto placed = placeLabels(places, kViewport, {buttons});
+        for (const PlacedLabel& label : placed) {
+            covered += label.form == LabelForm::Whole &&
+                               std::ranges::any_of(places,
+                                                   [&](const LabelPlace& place) {
+                                                       return place.head.intersects(label.plate);
+                                                   })
+                           ? 1
+                           : 0;
+        }
+    }
+    EXPECT_LE(covered, 1U) << "only where not even initials have room";
+}
+
 TEST(LabelLayout, StaysByItsHeadInACrowdAndGetsShorterInstead) {
     std::size_t briefs = 0;
     std::size_t shown = 0;
