@@ -261,8 +261,8 @@ std::vector<TableColumn<BoardRow>> CharacterModel::columns(model::SessionView& v
                     [](const BoardRow& row) { return verdictState(row.verdict); })
             .withMore([](const BoardRow& row, int role) {
                 if (role == kShortTextRole) { // whose loss it is stands beside it, in the columns of losses
-                    return QVariant(verdictState(row.verdict).display().section(QLatin1Char(','), 0, 0) +
-                                    (row.verdict.isOver ? tr(", over") : QString()));
+                    const PropertyValue what{fromUtf8(row.verdict.what), healthOf(row.verdict.state)};
+                    return QVariant(what.display() + (row.verdict.isOver ? tr(", over") : QString()));
                 }
                 if (row.restarts == 0) {
                     return QVariant();

@@ -309,6 +309,14 @@ std::string outageHeadlineOf(const SessionView& session, std::span<const ListedI
     return "no data from " + who + (hasCause ? causeOf(outages.front().incident) : std::string());
 }
 
+std::string causeOf(const ListedIncident& listed) {
+    const Incident& incident = listed.incident;
+    const bool isLoss = (incident.kind == IncidentKind::Loss || incident.kind == IncidentKind::Local) &&
+                        incident.samples != 0;
+    const bool isSilence = incident.kind == IncidentKind::Outage && incident.cause;
+    return listed.state != State::Provisional && (isLoss || isSilence) ? causeOf(incident) : std::string();
+}
+
 std::string briefOf(const SessionView& session, const ListedIncident& listed) {
     const Incident& incident = listed.incident;
     const std::string count = grouped(incident.count);
@@ -319,10 +327,10 @@ std::string briefOf(const SessionView& session, const ListedIncident& listed) {
     switch (incident.kind) {
     case IncidentKind::Loss:
     case IncidentKind::Local:
-        return incident.samples != 0 ? amountOf(session, incident, {}) + " lost" + causeOf(incident)
+        return incident.samples != 0 ? amountOf(session, incident, {}) + " lost"
                                      : grouped(static_cast<std::uint64_t>(incident.value)) + " dropped here";
     case IncidentKind::Outage:
-        return silenceOf(session, listed) + (incident.cause ? causeOf(incident) : std::string());
+        return silenceOf(session, listed);
     case IncidentKind::Reordered:
         return count + " reordered";
     case IncidentKind::Duplicates:

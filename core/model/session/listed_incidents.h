@@ -50,10 +50,12 @@ struct ListedIncident {
 [[nodiscard]] std::string outageHeadlineOf(const SessionView& session,
                                            std::span<const ListedIncident> outages);
 
-/// The same without whose: "37 lost, network".
+/// What happened, without to whom and whose it was: "37 lost".
 [[nodiscard]] std::string briefOf(const SessionView& session, const ListedIncident& listed);
 /// What it rests on, in a sentence.
 [[nodiscard]] std::string evidenceOf(const ListedIncident& listed);
+/// Whose loss it was, to be added to that: ", network", ", cause unknown"; empty for what is no loss.
+[[nodiscard]] std::string causeOf(const ListedIncident& listed);
 /// ", since 03:28:07", or ", 03:28:07 to 03:28:09" of what is over.
 [[nodiscard]] std::string whenOf(const SessionView& session, const ListedIncident& listed);
 

@@ -120,12 +120,12 @@ TakeVerdict fromIncidents(const SessionView& session, const std::vector<ListedIn
     verdict.text = answer + ": " + what + lasts;
     verdict.narrow = answer + lasts + ": " + what;
     const std::string amount = losses.amountOf(worst, {});
-    verdict.brief = amount.empty() ? briefOf(session, worst)
-                                   : amount + " lost, " +
-                                         (worst.incident.cause == LossCause::Unknown
-                                              ? "cause unknown"
-                                              : std::string(nameOf(*worst.incident.cause)));
-    verdict.brief += (verdict.isOver ? ", over" : "");
+    verdict.what = amount.empty() ? briefOf(session, worst) : amount + " lost";
+    const std::string cause = amount.empty() ? causeOf(worst)
+                              : worst.incident.cause == LossCause::Unknown
+                                  ? ", cause unknown"
+                                  : ", " + std::string(nameOf(*worst.incident.cause));
+    verdict.brief = verdict.what + cause + (verdict.isOver ? ", over" : "");
     verdict.since = worst.incident.firstStamp;
     verdict.incident = worst.incident.number;
     if (const auto character = worst.incident.character(); character && together.size() == 1) {
@@ -140,6 +140,7 @@ TakeVerdict lasting(TakeVerdict::State state, const std::string& text, std::stri
     verdict.state = state;
     verdict.text = text;
     verdict.narrow = text;
+    verdict.what = brief;
     verdict.brief = std::move(brief);
     verdict.since = since;
     return verdict;

@@ -23,6 +23,7 @@ struct TakeVerdict {
     std::optional<CharacterKey> character{}; ///< that it is about, where it is one
     bool isOver = false;  ///< what it says is over, and mentioned only because it is recent
     std::string narrow{}; ///< `text` with whether it lasts first, where the end of it has no room
+    std::string what{};   ///< `brief` without whose it is and whether it is over: "37 lost"
 
     friend bool operator==(const TakeVerdict&, const TakeVerdict&) = default;
 };
