@@ -185,17 +185,19 @@ TEST_F(ComparingTest, ClosingWhileItIsWorkedOutWaitsForNobody) {
 TEST_F(ComparingTest, WhatWasStoppedStaysSoWhereOnlyTheBodyMovesAside) {
     m_driver.openFile(record("a.pcapng", 0, 2000));
     m_driver.compareWith(record("b.pcapng", 0, 2000));
-    while (!state().isWorking) {
-        m_driver.tick();
-    }
-    m_driver.setComparing(false);
+    settle();
     ComparisonChoice choice = state().choice;
+    choice.frame = model::DifferenceFrame::Pelvis;
+    m_driver.setComparison(choice);
+    m_driver.tick(); // begins to work it out
+    m_driver.setComparing(false);
+    ASSERT_TRUE(state().isStopped);
     choice.isBeside = true;
     m_driver.setComparison(choice);
     m_driver.tick();
     EXPECT_TRUE(state().isStopped);
     EXPECT_TRUE(state().choice.isBeside);
-    choice.frame = model::DifferenceFrame::Pelvis;
+    choice.frame = model::DifferenceFrame::World;
     m_driver.setComparison(choice);
     EXPECT_FALSE(state().isStopped) << "other figures are wanted";
 }
