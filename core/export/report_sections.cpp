@@ -123,11 +123,12 @@ SvgPlot causePlot(const model::SessionView& session, const ReportSteps& steps) {
     for (const model::Gap* gap : gapsIn(session, steps)) {
         add(gap->toStamp, gap->cause, gap->lost);
     }
-    session.forEachPartialLoss([&](const log::StreamKey& key, log::Stamp stamp, model::LossCause cause) {
-        if (model::countsSamples(key.type) && stamp >= steps.from && stamp <= steps.to) {
-            add(stamp, cause, 1);
-        }
-    });
+    session.forEachPartialLoss(
+        [&](const log::StreamKey& key, log::Stamp stamp, model::LossCause cause, std::uint64_t /*packet*/) {
+            if (model::countsSamples(key.type) && stamp >= steps.from && stamp <= steps.to) {
+                add(stamp, cause, 1);
+            }
+        });
     return plot;
 }
 
