@@ -138,7 +138,7 @@ bool MonitorRun::isOver() const {
 }
 
 void MonitorRun::follow(log::Stamp now) {
-    m_session.setHeldUp(m_heldUp.at(now));
+    m_session.setHeldUp(m_options.file.empty() && m_heldUp.at(now)); // a file holds nobody up
     while (m_session.follow(now)) {
     }
     if (m_options.isVerbose) {

@@ -188,12 +188,18 @@ void IncidentFollower::fallSilent(const CharacterKey& key, Character& character,
     character.isLong = false;
 }
 
-/// Something came of a character that was silent, or nothing is expected of it any more.
+/// Something came of a character that was silent, or nothing is expected of it any more. What comes late to
+/// us may show that it was not.
 void IncidentFollower::resume(const CharacterKey& key, Character& character, log::Stamp stamp) {
     const std::uint64_t number = std::exchange(character.outage, 0);
-    character.lastSilence = {character.lastSampled, stamp, number};
+    const bool wasSilent = silenceOf(character, stamp) > character.patience;
+    character.lastSilence = wasSilent ? Silence{character.lastSampled, stamp, number} : Silence();
     for (Stream* stream : character.streams) {
         stream->excusedUntil = stamp + log::durationOf(kWindowAndMore * thresholds().windowS);
+    }
+    if (!wasSilent) {
+        m_incidents.takeBackPart(number, key.character);
+        return;
     }
     Occurrence one = Occurrence::at(IncidentKind::Outage, key.sender, character.lastSampled, m_lastPacket);
     one.character = key.character;
@@ -201,7 +207,7 @@ void IncidentFollower::resume(const CharacterKey& key, Character& character, log
     one.count = 0;
     one.value = log::secondsOf(stamp - character.lastSampled);
     m_incidents.addTo(number, one);
-    m_incidents.endPart(number, key.character, std::nullopt, stamp);
+    m_incidents.endPartExactly(number, key.character, stamp);
 }
 
 void IncidentFollower::takeVerdict(Stream& stream, const Verdict& verdict) {
@@ -334,7 +340,9 @@ log::Duration IncidentFollower::silenceOf(const Character& character, log::Stamp
 /// Whether more time has passed without a sample than its streams ever leave.
 void IncidentFollower::checkSilence(const CharacterKey& key, Character& character, log::Stamp stamp) {
     const log::Duration silent = silenceOf(character, stamp);
-    if (silent > kSilent && silent > patienceWith(character.streams, kSilent, 3)) {
+    const log::Duration patience = patienceWith(character.streams, kSilent, 3);
+    if (silent > patience) {
+        character.patience = patience;
         fallSilent(key, character, stamp);
     }
 }

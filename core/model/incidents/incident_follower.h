@@ -100,6 +100,7 @@ private:
         std::uint64_t lastPacket = 0;
         std::uint64_t outage = 0; ///< its number while nothing comes
         bool isLong = false;      ///< the outage
+        log::Duration patience{}; ///< for which it was waited until then
         Silence lastSilence;
         log::Stamp restart{}; ///< when its counter last restarted
         TimeCodes timeCodes;

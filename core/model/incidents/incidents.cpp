@@ -219,10 +219,23 @@ void Incidents::noteLimit(const Occurrence& one) {
     }
 }
 
-void Incidents::remove(std::uint64_t number) {
-    if (const auto place = placeOf(number); place != m_incidents.end() && place->number == number) {
-        erase(place);
+void Incidents::takeBackPart(std::uint64_t number, std::uint8_t character) {
+    const auto place = placeOf(number);
+    if (place == m_incidents.end() || place->number != number) {
+        return;
     }
+    std::vector<Incident::Part>& parts = place->parts;
+    const std::size_t gone =
+        std::erase_if(parts, [&](const Incident::Part& part) { return part.character == character; });
+    m_parts -= gone;
+    place->count -= std::min<std::uint64_t>(place->count, gone);
+    if (!parts.empty()) {
+        place->firstStamp = std::ranges::min(parts, {}, &Incident::Part::from).from;
+        changed(*place);
+        return;
+    }
+    m_next = number + 1 == m_next ? number : m_next; // as if it had never been
+    erase(place);
 }
 
 void Incidents::end(std::uint64_t number, log::Stamp stamp) {
@@ -257,6 +270,18 @@ void Incidents::endPart(std::uint64_t number, std::uint8_t character, std::optio
     if (std::ranges::none_of(incident->parts, &Incident::Part::isCurrent)) {
         end(number, stamp);
     }
+}
+
+void Incidents::endPartExactly(std::uint64_t number, std::uint8_t character, log::Stamp stamp) {
+    Incident* incident = findOwn(number);
+    if (incident == nullptr) {
+        return;
+    }
+    for (Incident::Part& part : incident->parts) {
+        part.to = part.character == character ? stamp : part.to;
+    }
+    incident->lastStamp = std::ranges::max(incident->parts, {}, &Incident::Part::to).to;
+    endPart(number, character, std::nullopt, stamp);
 }
 
 void Incidents::setCause(std::uint64_t number, LossCause cause) {

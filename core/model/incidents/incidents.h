@@ -50,20 +50,21 @@ public:
                   std::uint64_t gaps);
     /// A stream is above a limit because of a loss that lasts: that makes the loss graver.
     void noteLimit(const Occurrence& one);
-    /// It was none.
-    void remove(std::uint64_t number);
+    /// For one character it was none; what comes to nothing is gone.
+    void takeBackPart(std::uint64_t number, std::uint8_t character);
     /// It is over.
     void end(std::uint64_t number, log::Stamp stamp);
     void end(const Occurrence& like, log::Stamp stamp);
     /// For one stream or character; and altogether, where it was the last of them.
     void endPart(std::uint64_t number, std::uint8_t character, std::optional<std::uint8_t> type,
                  log::Stamp stamp);
+    /// The same for a character as a whole, which ended then, however long it was thought to last.
+    void endPartExactly(std::uint64_t number, std::uint8_t character, log::Stamp stamp);
     /// Whose fault it was is known now.
     void setCause(std::uint64_t number, LossCause cause);
     /// The number that the next loss of a sender will have where it begins an incident: so that what is not
     /// settled yet keeps its number when it is.
     std::uint64_t reserve(log::SenderId sender);
-    void unreserve(log::SenderId sender) { m_reserved.erase(sender); }
     /// Nothing of a sender lasts any longer.
     void retire(log::SenderId sender);
     /// Ends what has been quiet for long, by the time of the log.

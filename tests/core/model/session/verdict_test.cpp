@@ -345,6 +345,36 @@ TEST(HeldUp, IsWhoWasNotAskedForLongUntilWhatCameIsRead) {
     EXPECT_FALSE(heldUp.at(log::Stamp(101s + 700ms))) << "so that one that is always slow judges too";
 }
 
+TEST_F(VerdictTest, TakesBackASilenceThatWhatComesLateToUsShowsToBeNone) {
+    for (std::uint32_t sample = 1; sample <= 300; ++sample, m_at += 10ms) {
+        pose(sample);
+        poseOfOther(sample);
+    }
+    EXPECT_NE(verdictAfter(1'000ms).state, State::Good) << "nothing was received";
+    for (std::uint32_t sample = 301; sample <= 400; ++sample, m_at += 10ms) {
+        pose(sample);
+        if (sample > 350) {
+            poseOfOther(sample);
+        }
+    }
+    const auto outages = of(IncidentKind::Outage);
+    ASSERT_EQ(outages.size(), 1U);
+    EXPECT_EQ(outages[0].characters(), std::vector<std::uint8_t>{1}) << "the first was never silent";
+    EXPECT_EQ(outages[0].lastStamp - outages[0].firstStamp, 510ms) << "not until it was read";
+    EXPECT_NE(outages[0].cause, LossCause::Sender) << "the other one shows what is lost";
+}
+
+TEST_F(VerdictTest, ForgetsASilenceOfNobody) {
+    poses(1, 300);
+    EXPECT_EQ(verdictAfter(900ms).state, State::Warning);
+    poses(301, 500);
+    EXPECT_TRUE(of(IncidentKind::Outage).empty());
+    EXPECT_EQ(verdict().state, State::Good);
+    m_at += 2s;
+    poses(701, 800);
+    EXPECT_EQ(of(IncidentKind::Outage).size(), 1U);
+}
+
 TEST_F(VerdictTest, MentionsWhatIsOverForTenSecondsAndThenIsGood) {
     poses(1, 300);
     m_at += 1s;
