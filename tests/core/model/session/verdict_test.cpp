@@ -2,7 +2,7 @@
 #include "core/model/session/held_up.h"
 #include "core/model/session/verdict.h"
 
-#include "tests/core/model/incidents/incidents_fixture.h"
+#include "tests/core/model/session/verdict_fixture.h"
 
 #include <array>
 #include <numeric>
@@ -12,49 +12,6 @@ namespace posewire::model {
 namespace {
 
 using State = TakeVerdict::State;
-
-class VerdictTest : public IncidentsTest {
-protected:
-    TakeVerdict verdict() {
-        follow();
-        return verdictOf(m_session, recentSpan(m_session));
-    }
-    TakeVerdict verdictAfter(log::Duration silence) {
-        follow();
-        m_session.follow(m_at - 10ms + silence);
-        return verdictOf(m_session, recentSpan(m_session));
-    }
-    /// The same as pose(), of the character with the ID 1.
-    void poseOfOther(std::uint32_t sample) {
-        wire::Datagram datagram{{}, standingAt(0), {}};
-        datagram.header.sampleCounter = sample;
-        datagram.header.character = 1;
-        datagram.header.timeCode = static_cast<std::uint32_t>(m_at.time_since_epoch() / 1ms);
-        wire::completeHeader(datagram, wire::HeaderEra::Counted);
-        sendBytes(*wire::encode(datagram), m_at);
-    }
-    TakeVerdict verdictOn(std::uint8_t character) {
-        follow();
-        return verdictOf(m_session, recentSpan(m_session), CharacterKey{sender(), character});
-    }
-    /// What incidents say was lost, by cause.
-    std::array<std::uint64_t, kLossCauses> told() {
-        std::array<std::uint64_t, kLossCauses> sums{};
-        for (const ListedIncident& one : listedIncidents(m_session)) {
-            sums[static_cast<std::size_t>(one.incident.cause.value_or(LossCause::Unknown))] +=
-                one.incident.samples;
-        }
-        return sums;
-    }
-    std::array<std::uint64_t, kLossCauses> lost() {
-        std::array<std::uint64_t, kLossCauses> sums{};
-        for (const Stream& stream : m_session.streams()) {
-            const auto own = stream.lostByCause();
-            std::transform(sums.begin(), sums.end(), own.begin(), sums.begin(), std::plus());
-        }
-        return sums;
-    }
-};
 
 TEST_F(VerdictTest, IsNotGoodBeforeAnythingArrived) {
     EXPECT_EQ(verdict().state, State::None);
@@ -517,62 +474,6 @@ TEST_F(VerdictTest, LossThatGoesOnForAnotherIsOverForOneThatHasNoneAnyMore) {
     EXPECT_EQ(of(IncidentKind::Loss).size(), 1U) << "it is one incident all the same";
     EXPECT_EQ(verdictOn(0).state, State::Good) << verdictOn(0).text;
     EXPECT_EQ(verdictOn(1).state, State::Bad) << verdictOn(1).text;
-}
-
-TEST_F(VerdictTest, DoesNotBelieveACharacterOfOneCorruptHeader) {
-    poses(1, 200);
-    wire::Datagram datagram{{}, standingAt(0), {}};
-    datagram.header.sampleCounter = 201;
-    datagram.header.character = 66;
-    wire::completeHeader(datagram, wire::HeaderEra::Counted);
-    sendBytes(*wire::encode(datagram), m_at);
-    poses(201, 300);
-    EXPECT_EQ(verdict().state, State::Good);
-    EXPECT_EQ(m_session.currentCharacters().size(), 1U);
-    ASSERT_NE(m_session.find(CharacterKey{sender(), 66}), nullptr) << "it is counted";
-    EXPECT_FALSE(m_session.find(CharacterKey{sender(), 66})->isConfirmed);
-}
-
-TEST_F(VerdictTest, DoesNotBelieveACharacterOfCorruptHeadersHoweverMany) {
-    std::uint32_t random = 7;
-    poses(1, 200);
-    for (std::uint32_t sample = 201; sample <= 6'000; ++sample, m_at += 10ms) {
-        random = random * 1'664'525 + 1'013'904'223;
-        (random >> 24) % 20 == 0 ? poseOfOther(sample) : pose(sample);
-    }
-    follow();
-    EXPECT_EQ(m_session.charactersNow().size(), 1U);
-    EXPECT_EQ(m_session.unproven().characters, 1U);
-    EXPECT_GT(m_session.unproven().datagrams, 200U);
-}
-
-TEST_F(VerdictTest, BelievesACharacterWithinATenthOfASecondThatLosesSome) {
-    poses(1, 200);
-    for (std::uint32_t sample = 201; sample <= 212; ++sample, m_at += 10ms) {
-        pose(sample);
-        if (sample != 203) {
-            poseOfOther(sample);
-        }
-    }
-    follow();
-    EXPECT_EQ(m_session.charactersNow().size(), 2U);
-}
-
-TEST_F(VerdictTest, TakesAllOfACharacterOnceItIsBelieved) {
-    poses(1, 200);
-    for (std::uint32_t sample = 201; sample <= 260; ++sample, m_at += 10ms) {
-        pose(sample);
-        wire::Datagram datagram{{}, standingAt(0), {}};
-        datagram.header.sampleCounter = sample;
-        datagram.header.character = 1;
-        wire::completeHeader(datagram, wire::HeaderEra::Counted);
-        sendBytes(*wire::encode(datagram), m_at);
-    }
-    follow();
-    const Stream* stream = m_session.find(log::StreamKey{sender(), 1, 2});
-    ASSERT_NE(stream, nullptr);
-    EXPECT_EQ(stream->accounting.counts().samples, 60U);
-    EXPECT_EQ(m_session.currentCharacters().size(), 2U);
 }
 
 TEST_F(VerdictTest, SumsOfIncidentsAreTheSumsOfTheStreamsAtEveryMoment) {
