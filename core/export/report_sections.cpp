@@ -259,7 +259,7 @@ ReportSteps stepsOf(const model::SessionView& session, const std::optional<model
         return {};
     }
     const log::Duration least = (steps.to - steps.from) / kMostSteps + log::Duration(1);
-    steps.width = (least + resolution - log::Duration(1)) / resolution * resolution;
+    steps.width = model::roundedUp(least, resolution);
     steps.first = model::roundedDown(steps.from, steps.width);
     steps.count = static_cast<std::size_t>((steps.to - steps.first) / steps.width + 1);
     return steps;

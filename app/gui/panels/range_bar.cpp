@@ -107,7 +107,7 @@ void RangeStrip::choose(log::Stamp from, log::Stamp to) {
     range.to = std::clamp(range.to, range.from, span.to);
     // As buckets go: what is shown as chosen is what is counted.
     range.from = model::roundedDown(range.from, resolution);
-    range.to = model::roundedDown(range.to + resolution - log::Duration(1), resolution);
+    range.to = model::roundedUp(range.to, resolution);
     if (range.to == range.from) {
         range.to += resolution;
     }

@@ -54,7 +54,8 @@ std::vector<const model::Incident*> worstLast(const auto& incidents) {
 
 /// What came, by part. Parts about as long as a sample have one, two or none of it by chance: there each
 /// counts with its neighbours, or a steady stream would look like a comb.
-std::vector<double> heightsOf(const std::vector<model::RangePart>& parts) {
+std::vector<double> heightsOf(const std::vector<model::RangePart>& parts,
+                              const std::vector<TimelineModel::Gap>& gaps) {
     const auto cameIn = [&parts](std::size_t i) { return static_cast<double>(parts[i].datagrams); };
     const std::size_t spacing = TimelineModel::spacingOf(parts);
     std::vector<double> heights(parts.size());
@@ -64,7 +65,7 @@ std::vector<double> heightsOf(const std::vector<model::RangePart>& parts) {
             heights[i] = (cameIn(i - 1) + 2 * cameIn(i) + cameIn(i + 1)) / 4;
         }
     }
-    for (const auto& [from, to] : TimelineModel::gapsIn(parts)) {
+    for (const auto& [from, to] : gaps) {
         std::fill(heights.begin() + static_cast<std::ptrdiff_t>(from),
                   heights.begin() + static_cast<std::ptrdiff_t>(to), 0);
     }
@@ -211,13 +212,14 @@ void TimelineView::paintRow(QPainter& painter, std::size_t row) {
 /// than usual it is hatched.
 void TimelineView::paintStrip(QPainter& painter, const TimelineModel::Row& row, const QRect& strip) const {
     const model::RangeParts& parts = m_model.parts();
-    const std::vector<double> heights = heightsOf(row.parts);
+    const std::vector<TimelineModel::Gap> gaps = TimelineModel::gapsIn(row.parts);
+    const std::vector<double> heights = heightsOf(row.parts, gaps);
     const double most = heights.empty() ? 1 : std::max(1e-9, std::ranges::max(heights));
     const double room = strip.height() - 5.0;
     const double bottom = strip.bottom() - 1.0;
     const QColor colour = withAlpha(row.mark.colour, row.type ? 0.45 : 0.7);
     painter.setPen(Qt::NoPen);
-    for (const auto& [from, to] : TimelineModel::gapsIn(row.parts)) {
+    for (const auto& [from, to] : gaps) {
         const double left = placeOf(parts.beginOf(from));
         painter.fillRect(QRectF(left, bottom - room, placeOf(parts.beginOf(to)) - left, room),
                          QBrush(withAlpha(theme().dim, 0.6), Qt::BDiagPattern));

@@ -35,6 +35,10 @@ log::Stamp roundedUp(log::Stamp stamp, log::Duration width) {
     return down < stamp ? down + width : down;
 }
 
+log::Duration roundedUp(log::Duration time, log::Duration width) {
+    return roundedUp(log::Stamp(time), width).time_since_epoch();
+}
+
 log::Stamp CountHistory::roundedUp(log::Stamp stamp) const {
     return stamp < m_fineFrom ? std::min(model::roundedUp(stamp, m_width), m_fineFrom)
                               : model::roundedUp(stamp, kFirstWidth);

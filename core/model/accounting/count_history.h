@@ -17,6 +17,8 @@ namespace posewire::model {
 [[nodiscard]] log::Stamp roundedDown(log::Stamp stamp, log::Duration width);
 /// The next one, or the stamp itself where a bucket begins there.
 [[nodiscard]] log::Stamp roundedUp(log::Stamp stamp, log::Duration width);
+/// The least multiple of a width that is no shorter than a time of 0 or more.
+[[nodiscard]] log::Duration roundedUp(log::Duration time, log::Duration width);
 
 /// Counts of a stream so far at the ends of buckets of time, so that those of any range are the difference of
 /// two. Bounded: the newest half of them are 0.1 s wide, and those before are merged into ever wider ones, so

@@ -10,11 +10,6 @@ namespace {
 
 constexpr std::size_t kMostSpans = 120;
 
-log::Duration roundedUp(log::Duration value, log::Duration unit) {
-    const log::Duration rest = value % unit;
-    return value - rest + (rest > log::Duration::zero() ? unit : log::Duration::zero());
-}
-
 std::uint64_t unitsOf(const StreamCounts& counts) {
     return counts.samples + counts.incomplete != 0 ? counts.samples + counts.incomplete : counts.datagrams;
 }
@@ -49,7 +44,7 @@ void readMean(const StreamAccounting& stream, const TimeRange& air, const Stream
 void readSpread(const StreamAccounting& stream, const TimeRange& air, RateFigures& rate) {
     rate.leastHz = rate.mostHz = rate.meanHz;
     const log::Duration resolution = stream.resolution(air.from);
-    const TimeRange whole{model::roundedUp(air.from, resolution), roundedDown(air.to, resolution)};
+    const TimeRange whole{roundedUp(air.from, resolution), roundedDown(air.to, resolution)};
     if (whole.to - whole.from < std::chrono::seconds(1)) {
         return;
     }

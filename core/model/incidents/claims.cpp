@@ -51,8 +51,8 @@ void IncidentFollower::checkTakenOver(const CharacterKey& key, Character& charac
     m_incidents.report(one);
 }
 
-void IncidentFollower::noteClaim(const log::Packet& packet, const wire::Header& header) {
-    const Claim claim{packet.sender, m_sources.at(packet.sender).host, packet.stamp};
+void IncidentFollower::noteClaim(const log::Packet& packet, const wire::Header& header, std::size_t host) {
+    const Claim claim{packet.sender, host, packet.stamp};
     Claims& ofType = m_claims[{header.character, header.type()}];
     bool isTold = false;
     if (ofType.newest.stamp != log::Stamp() && ofType.newest.sender != packet.sender) {

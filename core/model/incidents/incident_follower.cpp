@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <span>
 #include <string_view>
 #include <tuple>
 #include <utility>
@@ -39,7 +40,7 @@ Occurrence ofStream(IncidentKind kind, const log::StreamKey& stream, const Verdi
 }
 
 /// How long a character may be silent: at least three samples of its fastest stream.
-log::Duration patienceWith(const std::vector<Stream*>& streams, log::Duration least, double samples) {
+log::Duration patienceWith(std::span<Stream* const> streams, log::Duration least, double samples) {
     double fastestHz = 0;
     for (const Stream* stream : streams) {
         fastestHz = std::max(fastestHz, stream->statistics.rateHz());
@@ -131,17 +132,19 @@ void IncidentFollower::retire(log::SenderId sender) {
 void IncidentFollower::takeDatagram(const log::Packet& packet, const wire::Header& header, Stream& stream,
                                     const std::string& address) {
     m_watch.wake(stream);
-    if (const auto [place, isNew] = m_sources.try_emplace(packet.sender); isNew) {
+    const auto [place, isNew] = m_sources.try_emplace(packet.sender);
+    if (isNew) {
         const std::string_view host = std::string_view(address).substr(0, address.rfind(':'));
         place->second = {address, std::hash<std::string_view>{}(host)};
         m_incidents.report(occurrenceOf(IncidentKind::SourceUp, packet));
     }
     if (countsSamples(header.type())) {
-        noteSampled(packet, header, stream);
+        noteSampled(packet, header, stream, place->second.host);
     }
 }
 
-void IncidentFollower::noteSampled(const log::Packet& packet, const wire::Header& header, Stream& stream) {
+void IncidentFollower::noteSampled(const log::Packet& packet, const wire::Header& header, Stream& stream,
+                                   std::size_t host) {
     const CharacterKey key{packet.sender, header.character};
     Character& character = m_characters[key];
     if (!std::exchange(stream.isFollowed, true)) {
@@ -164,7 +167,7 @@ void IncidentFollower::noteSampled(const log::Packet& packet, const wire::Header
     }
     character.lastSampled = std::max(character.lastSampled, packet.stamp);
     character.lastPacket = packet.number;
-    noteClaim(packet, header);
+    noteClaim(packet, header, host);
 }
 
 void IncidentFollower::fallSilent(const CharacterKey& key, Character& character, log::Stamp stamp) {
@@ -340,6 +343,9 @@ log::Duration IncidentFollower::silenceOf(const Character& character, log::Stamp
 /// Whether more time has passed without a sample than its streams ever leave.
 void IncidentFollower::checkSilence(const CharacterKey& key, Character& character, log::Stamp stamp) {
     const log::Duration silent = silenceOf(character, stamp);
+    if (silent <= kSilent) {
+        return; // as with nearly every packet
+    }
     const log::Duration patience = patienceWith(character.streams, kSilent, 3);
     if (silent > patience) {
         character.patience = patience;
@@ -373,7 +379,7 @@ void IncidentFollower::checkStalled(Character& character, log::Stamp stamp) {
     for (Stream* stream : character.streams) {
         const log::Duration silent = character.lastSampled - stream->accounting.lastStamp();
         stream->isStalled = goesOn && !stream->hasEnded && stream->isEstablished() && silent > kSilent &&
-                            silent > patienceWith(std::vector{stream}, kSilent, 3);
+                            silent > patienceWith(std::span(&stream, 1), kSilent, 3);
     }
 }
 
@@ -386,7 +392,7 @@ void IncidentFollower::checkEnded(log::Stamp stamp) {
         for (Stream* stream : character.streams) {
             const log::Duration silent = character.lastSampled - stream->accounting.lastStamp();
             const bool isOver = stream->isEstablished() && stamp - character.lastSampled < kSilent &&
-                                silent > patienceWith(std::vector{stream}, kEnded, 3);
+                                silent > patienceWith(std::span(&stream, 1), kEnded, 3);
             if (isOver && !std::exchange(stream->hasEnded, true)) {
                 Occurrence one = Occurrence::at(IncidentKind::Step, key.sender,
                                                 stream->accounting.lastStamp(), m_lastPacket);

@@ -128,7 +128,7 @@ private:
     void checkEnded(log::Stamp stamp);
     void fallSilent(const CharacterKey& key, Character& character, log::Stamp stamp);
     void resume(const CharacterKey& key, Character& character, log::Stamp stamp);
-    void noteSampled(const log::Packet& packet, const wire::Header& header, Stream& stream);
+    void noteSampled(const log::Packet& packet, const wire::Header& header, Stream& stream, std::size_t host);
     void noteStep(Stream& stream, const Verdict& verdict);
     [[nodiscard]] static Occurrence timeCodeOccurrence(const log::StreamKey& stream, const Verdict& verdict);
     void noteTimeCode(const Stream& stream, const Verdict& verdict);
@@ -136,7 +136,7 @@ private:
     bool noteChange(const Stream& stream, const Verdict& verdict, Character& character);
     void tellPause(std::uint64_t outage, std::uint8_t character);
     void checkTakenOver(const CharacterKey& key, Character& character, log::Stamp stamp);
-    void noteClaim(const log::Packet& packet, const wire::Header& header);
+    void noteClaim(const log::Packet& packet, const wire::Header& header, std::size_t host);
     [[nodiscard]] static bool isTurn(const Claims& claims, log::Stamp stamp);
     void tellConflict(const log::Packet& packet, log::SenderId other, std::uint8_t character);
     [[nodiscard]] std::uint64_t outageOf(const Loss& loss) const;

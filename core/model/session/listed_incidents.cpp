@@ -30,44 +30,42 @@ std::string clockText(log::WallTime time) {
     return text.data();
 }
 
-/// What the streams of each sender lost, less what incidents tell.
-std::map<log::SenderId, LossesByCause> untold(const SessionView& session) {
-    std::map<log::SenderId, LossesByCause> rest;
+/// What no incident of the list tells of a sender.
+struct Untold {
+    LossesByCause lost{};
+    std::vector<Incident::Part> stalled; ///< streams that are missing while others of their character go on
+};
+
+std::map<log::SenderId, Untold> untoldOf(const SessionView& session) {
+    std::map<log::SenderId, Untold> rest;
     for (const Stream& stream : session.streams()) {
-        addLosses(rest[stream.key.sender], stream.lostByCause());
+        Untold& own = rest[stream.key.sender];
+        addLosses(own.lost, stream.lostByCause());
+        if (stream.isStalled) {
+            own.stalled.push_back(
+                {stream.key.character, stream.key.type, 0, 0, stream.accounting.lastStamp(), session.now()});
+        }
     }
     for (const Incident& incident : session.incidents().all()) {
-        if (const auto sums = rest.find(incident.sender); sums != rest.end() && incident.samples != 0) {
+        if (const auto own = rest.find(incident.sender); own != rest.end() && incident.samples != 0) {
             std::uint64_t& sum =
-                sums->second[static_cast<std::size_t>(incident.cause.value_or(LossCause::Unknown))];
+                own->second.lost[static_cast<std::size_t>(incident.cause.value_or(LossCause::Unknown))];
             sum -= std::min(sum, incident.samples);
         }
     }
     return rest;
 }
 
-/// Streams of a sender that are missing while others of their character go on.
-std::vector<Incident::Part> stalledOf(const SessionView& session, log::SenderId sender) {
-    std::vector<Incident::Part> parts;
-    for (const Stream& stream : session.streams()) {
-        if (stream.isStalled && stream.key.sender == sender) {
-            parts.push_back(
-                {stream.key.character, stream.key.type, 0, 0, stream.accounting.lastStamp(), session.now()});
-        }
-    }
-    return parts;
-}
-
 /// What is not there yet: gaps that late arrivals may still fill, samples of which a part is under way, and
 /// streams that are missing.
-ListedIncident provisionalOf(const SessionView& session, log::SenderId sender, std::uint64_t samples) {
+ListedIncident provisionalOf(const SessionView& session, log::SenderId sender, const Untold& untold) {
     ListedIncident listed;
     listed.state = State::Provisional;
     Incident& incident = listed.incident;
     incident.kind = IncidentKind::Loss;
     incident.sender = sender;
     incident.cause = LossCause::Unknown;
-    incident.samples = samples;
+    incident.samples = untold.lost[kUnknownCause];
     incident.firstStamp = log::Stamp::max();
     incident.version = session.incidents().version();
     session.forEachPending(
@@ -79,7 +77,7 @@ ListedIncident provisionalOf(const SessionView& session, log::SenderId sender, s
                 ++incident.count;
             }
         });
-    for (const Incident::Part& part : stalledOf(session, sender)) {
+    for (const Incident::Part& part : untold.stalled) {
         incident.firstStamp = std::min(incident.firstStamp, part.from);
         incident.lastStamp = std::max(incident.lastStamp, part.to);
         incident.parts.push_back(part);
@@ -95,10 +93,7 @@ ListedIncident provisionalOf(const SessionView& session, log::SenderId sender, s
 /// A type of it that ended has not come back.
 bool isMissingStill(const SessionView& session, const Incident& incident) {
     return std::ranges::any_of(incident.parts, [&](const Incident::Part& part) {
-        const Stream* stream =
-            part.character && part.type
-                ? session.find(log::StreamKey{incident.sender, *part.character, *part.type})
-                : nullptr;
+        const Stream* stream = streamOf(session, incident.sender, part);
         return stream != nullptr && stream->hasEnded;
     });
 }
@@ -148,9 +143,7 @@ std::string whom(const SessionView& session, const Incident& incident) {
 std::string amountOf(const SessionView& session, const Incident& incident, std::string_view noun) {
     StreamCounts sum;
     for (const Incident::Part& part : incident.parts) {
-        const bool isStream = part.character && part.type;
-        const Stream* stream =
-            isStream ? session.find(log::StreamKey{incident.sender, *part.character, *part.type}) : nullptr;
+        const Stream* stream = streamOf(session, incident.sender, part);
         if (stream != nullptr) {
             sum += stream->accounting.countsBetween(incident.firstStamp,
                                                     incident.lastStamp + std::chrono::seconds(1));
@@ -181,14 +174,14 @@ std::string silenceOf(const SessionView& session, const ListedIncident& listed) 
 /// What no incident of the list tells.
 std::vector<ListedIncident> unlistedOf(const SessionView& session) {
     std::vector<ListedIncident> all;
-    for (const auto& [sender, sums] : untold(session)) {
+    for (const auto& [sender, untold] : untoldOf(session)) {
         for (std::size_t cause = 0; cause < kUnknownCause; ++cause) {
-            if (sums[cause] != 0) {
-                all.push_back(forgottenOf(sender, static_cast<LossCause>(cause), sums[cause]));
+            if (untold.lost[cause] != 0) {
+                all.push_back(forgottenOf(sender, static_cast<LossCause>(cause), untold.lost[cause]));
             }
         }
-        if (sums[kUnknownCause] != 0 || !stalledOf(session, sender).empty()) {
-            all.push_back(provisionalOf(session, sender, sums[kUnknownCause]));
+        if (untold.lost[kUnknownCause] != 0 || !untold.stalled.empty()) {
+            all.push_back(provisionalOf(session, sender, untold));
         }
     }
     return all;
@@ -205,6 +198,11 @@ std::string namesOrCount(const SessionView& session, std::span<const CharacterKe
         names.push_back(session.displayName(key).shown());
     }
     return listed(names);
+}
+
+const Stream* streamOf(const SessionView& session, log::SenderId sender, const Incident::Part& part) {
+    return part.character && part.type ? session.find(log::StreamKey{sender, *part.character, *part.type})
+                                       : nullptr;
 }
 
 std::string_view nameOf(ListedIncident::State state) {

@@ -32,6 +32,9 @@ struct ListedIncident {
 [[nodiscard]] std::vector<ListedIncident> unsettledIncidents(const SessionView& session);
 /// Of an incident of the session's list; a note is over unless it lasts.
 [[nodiscard]] ListedIncident::State stateOf(const SessionView& session, const Incident& incident);
+/// Of a part of an incident; null where it is of no stream, or that is there no more.
+[[nodiscard]] const Stream* streamOf(const SessionView& session, log::SenderId sender,
+                                     const Incident::Part& part);
 /// Whether it is a note: something to know, and no fault.
 [[nodiscard]] bool isNote(const Incident& incident);
 

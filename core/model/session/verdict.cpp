@@ -85,9 +85,7 @@ public:
 
 private:
     [[nodiscard]] FaultCounts countsOf(log::SenderId sender, const Incident::Part& part) {
-        const bool isStream = part.character && part.type;
-        const Stream* stream =
-            isStream ? m_session.find(log::StreamKey{sender, *part.character, *part.type}) : nullptr;
+        const Stream* stream = streamOf(m_session, sender, part);
         if (stream == nullptr) {
             return {};
         }

@@ -26,6 +26,13 @@ protected:
             pose(sample);
         }
     }
+    /// The same with a time code that stands still.
+    void posesOfOneTimeCode(std::uint32_t first, std::uint32_t last) {
+        for (std::uint32_t sample = first; sample <= last; ++sample, m_at += 10ms) {
+            m_timeCodeOff -= 10ms;
+            pose(sample);
+        }
+    }
     std::vector<Incident> of(IncidentKind kind) {
         follow();
         std::vector<Incident> found;

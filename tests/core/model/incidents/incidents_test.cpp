@@ -163,10 +163,7 @@ TEST_F(IncidentsTest, TellThatTheSenderSendsAnotherShareOfItsSamples) {
 
 TEST_F(IncidentsTest, TellATimeCodeThatStandsStill) {
     poses(1, 100);
-    for (std::uint32_t sample = 101; sample <= 400; ++sample, m_at += 10ms) {
-        m_timeCodeOff -= 10ms;
-        pose(sample);
-    }
+    posesOfOneTimeCode(101, 400);
     ASSERT_EQ(of(IncidentKind::TimeCode).size(), 1U);
     EXPECT_EQ(of(IncidentKind::TimeCode)[0].text(), "The time code stands still while samples come.");
     EXPECT_EQ(of(IncidentKind::TimeCode)[0].count, 1U);
@@ -174,16 +171,10 @@ TEST_F(IncidentsTest, TellATimeCodeThatStandsStill) {
 
 TEST_F(IncidentsTest, TellWithinAQuarterOfASecondThatATimeCodeStandsStillAndForHowLongItDid) {
     poses(1, 100);
-    for (std::uint32_t sample = 101; sample <= 125; ++sample, m_at += 10ms) {
-        m_timeCodeOff -= 10ms;
-        pose(sample);
-    }
+    posesOfOneTimeCode(101, 125);
     ASSERT_EQ(of(IncidentKind::TimeCode).size(), 1U);
     EXPECT_EQ(of(IncidentKind::TimeCode)[0].firstStamp, at(100s + 990ms)) << "when it last changed";
-    for (std::uint32_t sample = 126; sample <= 400; ++sample, m_at += 10ms) {
-        m_timeCodeOff -= 10ms;
-        pose(sample);
-    }
+    posesOfOneTimeCode(126, 400);
     m_timeCodeOff = 0s;
     poses(401, 500);
     ASSERT_EQ(of(IncidentKind::TimeCode).size(), 1U) << "that it is right again is no jump";
