@@ -9,6 +9,9 @@
 namespace posewire::model {
 namespace {
 
+/// A new one, one that stays as it is, and one for all before.
+constexpr std::size_t kLeastBuckets = 3;
+
 using Counters = CountHistory::Counters;
 
 constexpr std::array kCounters{&Counters::datagrams,  &Counters::samples,   &Counters::lost,
@@ -110,7 +113,7 @@ void CountHistory::coarsen() {
 }
 
 void CountHistory::setMost(std::size_t buckets) {
-    m_most = buckets;
+    m_most = std::max(buckets, kLeastBuckets);
     if (m_buckets.size() > m_most) {
         coarsen();
     }

@@ -70,7 +70,7 @@ public:
     /// Where a range that begins or ends at a stamp does so in fact: where the next bucket begins.
     [[nodiscard]] log::Stamp roundedUp(log::Stamp stamp) const;
 
-    /// How many buckets there may be; at least two.
+    /// How many buckets there may be; three if fewer.
     void setMost(std::size_t buckets);
     [[nodiscard]] std::size_t memoryBytes() const { return m_buckets.capacity() * sizeof(Bucket); }
     /// What memoryBytes() can become.

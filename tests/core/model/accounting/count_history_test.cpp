@@ -308,5 +308,14 @@ TEST(CountHistory, FitsTheNewestGenerationOfARangeAlone) {
     EXPECT_NEAR(history.skewBetween(at(120s), at(200s)).skewPpm, -40.0, 0.1);
 }
 
+TEST(CountHistoryOfFewBuckets, GoesOn) {
+    CountHistory history;
+    history.setMost(2);
+    for (int i = 0; i < 1'000; ++i) {
+        history.add(log::Stamp(i * 100ms), {.datagrams = 1});
+    }
+    EXPECT_EQ(history.countsBetween(log::Stamp(), log::Stamp(1h)).datagrams, 1'000U);
+}
+
 } // namespace
 } // namespace posewire::model
