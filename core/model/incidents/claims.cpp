@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/incidents/incident_follower.h"
 
+#include "core/model/text.h"
+
+#include <algorithm>
+#include <ranges>
+#include <string>
 #include <utility>
 
 /// Who sends a character: one sender after the other, or two at once.
@@ -9,6 +14,8 @@ namespace {
 
 /// Senders that take turns within this time send at once.
 constexpr log::Duration kTurns = std::chrono::seconds(1);
+/// So many senders of one character are told apart.
+constexpr std::size_t kMostClaims = 8;
 
 } // namespace
 
@@ -53,38 +60,50 @@ void IncidentFollower::checkTakenOver(const CharacterKey& key, Character& charac
 
 void IncidentFollower::noteClaim(const log::Packet& packet, const wire::Header& header, std::size_t host) {
     const Claim claim{packet.sender, host, packet.stamp};
-    Claims& ofType = m_claims[{header.character, header.type()}];
-    bool isTold = false;
-    if (ofType.newest.stamp != log::Stamp() && ofType.newest.sender != packet.sender) {
-        isTold = ofType.before.sender == packet.sender && isTurn(ofType, packet.stamp);
-        if (isTold) {
-            tellConflict(packet, ofType.newest.sender, header.character);
-        }
-        ofType.before = ofType.newest;
-    }
-    ofType.newest = claim;
     // One host may send types from several ports; two hosts are two performers.
-    Claims& ofHost = m_claimsOfHosts[header.character];
-    if (ofHost.newest.stamp != log::Stamp() && ofHost.newest.host != claim.host) {
-        if (!isTold && ofHost.before.host == claim.host && isTurn(ofHost, packet.stamp)) {
-            tellConflict(packet, ofHost.newest.sender, header.character);
-        }
-        ofHost.before = ofHost.newest;
+    std::vector<Claim>& ofType = m_claims[{header.character, header.type()}];
+    std::vector<Claim>& ofHosts = m_claimsOfHosts[header.character];
+    const std::span<const Claim> turn = turnOf(ofType, claim, &Claim::sender);
+    const std::span<const Claim> turnOfHost = turnOf(ofHosts, claim, &Claim::host);
+    if (turn.size() > 1 || turnOfHost.size() > 1) {
+        tellConflict(turn.size() > 1 ? turn : turnOfHost, packet, header.character);
     }
-    ofHost.newest = claim;
 }
 
-bool IncidentFollower::isTurn(const Claims& claims, log::Stamp stamp) {
-    return claims.before.stamp != log::Stamp() && stamp - claims.before.stamp < kTurns;
+/// Makes a claim the newest. Those that came since its sender or host sent before, if that was a moment ago,
+/// itself the last.
+template <class Key>
+std::span<const IncidentFollower::Claim> IncidentFollower::turnOf(std::vector<Claim>& claims,
+                                                                  const Claim& claim, Key Claim::*key) {
+    const auto own = std::ranges::find(claims, claim.*key, key);
+    if (own == claims.end()) {
+        if (claims.size() == kMostClaims) {
+            claims.erase(claims.begin());
+        }
+        claims.push_back(claim);
+        return {};
+    }
+    const bool isSoon = claim.stamp - own->stamp < kTurns;
+    std::rotate(own, own + 1, claims.end());
+    claims.back() = claim;
+    return isSoon ? std::span<const Claim>(own, claims.end()) : std::span<const Claim>();
 }
 
-/// Of both.
-void IncidentFollower::tellConflict(const log::Packet& packet, log::SenderId other, std::uint8_t character) {
-    for (const auto& [of, with] : {std::pair(packet.sender, other), std::pair(other, packet.sender)}) {
-        Occurrence one = Occurrence::at(IncidentKind::Conflict, of, packet.stamp, packet.number);
+/// Of each of them, naming all others.
+void IncidentFollower::tellConflict(std::span<const Claim> claims, const log::Packet& packet,
+                                    std::uint8_t character) {
+    for (const Claim& own : claims | std::views::reverse) {
+        std::vector<std::string> others;
+        for (const Claim& other : claims) {
+            if (other.sender != own.sender) {
+                const auto found = m_sources.find(other.sender);
+                others.push_back(found != m_sources.end() ? found->second.address : "a retired sender");
+            }
+        }
+        std::ranges::sort(others); // so that the text stays
+        Occurrence one = Occurrence::at(IncidentKind::Conflict, own.sender, packet.stamp, packet.number);
         one.character = character;
-        const auto found = m_sources.find(with);
-        one.detail = found != m_sources.end() ? found->second.address : "a retired sender";
+        one.detail = listed(others);
         m_incidents.report(one);
     }
 }

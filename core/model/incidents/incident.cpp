@@ -203,8 +203,8 @@ std::string Incident::text() const {
     case IncidentKind::TimeCode:
         return !detail.empty() ? detail : "The time code jumped by " + fixedText(value, 0) + " ms.";
     case IncidentKind::Conflict:
-        return "Two senders send character " + std::to_string(character().value_or(0)) +
-               " at the same time; the other is " + detail + '.';
+        return "Character " + std::to_string(character().value_or(0)) +
+               " comes from elsewhere at the same time: " + detail + '.';
     case IncidentKind::ClockSet:
         return std::string("The receiving computer's clock was set ") + (value < 0 ? "back" : "forward") +
                " by " + fixedText(std::abs(value), 3) + " s.";

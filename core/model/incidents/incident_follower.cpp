@@ -39,13 +39,16 @@ Occurrence ofStream(IncidentKind kind, const log::StreamKey& stream, const Verdi
     return one;
 }
 
+/// Before the second sample of a character: its rate may be 1 Hz, and that sample late.
+constexpr log::Duration kFirst = std::chrono::milliseconds(2'500);
+
 /// How long a character may be silent: at least three samples of its fastest stream.
 log::Duration patienceWith(std::span<Stream* const> streams, log::Duration least, double samples) {
     double fastestHz = 0;
     for (const Stream* stream : streams) {
         fastestHz = std::max(fastestHz, stream->statistics.rateHz());
     }
-    return fastestHz > 0 ? std::max(least, log::durationOf(samples / fastestHz)) : std::max(least, kLong);
+    return fastestHz > 0 ? std::max(least, log::durationOf(samples / fastestHz)) : kFirst;
 }
 
 /// "Types 02 and 20 are not sent any more …": one that ended now, and those of the incident before it.

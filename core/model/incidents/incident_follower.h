@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -106,15 +107,11 @@ private:
         TimeCodes timeCodes;
         std::optional<TakeOver> tookOver{}; ///< while it may be that both go on
     };
-    /// Who sends a character, and who did before; without a stamp where there is none.
+    /// Who sends a character, and when it last did.
     struct Claim {
         log::SenderId sender{};
         std::size_t host = 0;
         log::Stamp stamp{};
-    };
-    struct Claims {
-        Claim newest;
-        Claim before;
     };
     struct Source {
         std::string address;
@@ -137,8 +134,9 @@ private:
     void tellPause(std::uint64_t outage, std::uint8_t character);
     void checkTakenOver(const CharacterKey& key, Character& character, log::Stamp stamp);
     void noteClaim(const log::Packet& packet, const wire::Header& header, std::size_t host);
-    [[nodiscard]] static bool isTurn(const Claims& claims, log::Stamp stamp);
-    void tellConflict(const log::Packet& packet, log::SenderId other, std::uint8_t character);
+    template <class Key>
+    static std::span<const Claim> turnOf(std::vector<Claim>& claims, const Claim& claim, Key Claim::*key);
+    void tellConflict(std::span<const Claim> claims, const log::Packet& packet, std::uint8_t character);
     [[nodiscard]] std::uint64_t outageOf(const Loss& loss) const;
     void excuse(const log::StreamKey& key, log::Stamp from);
 
@@ -147,10 +145,11 @@ private:
     std::map<log::SenderId, Source> m_sources;
     std::map<log::SenderId, std::uint64_t> m_outages; ///< the newest of each sender
     std::map<CharacterKey, Character> m_characters;
-    std::map<std::pair<std::uint8_t, std::uint8_t>, Claims> m_claims; ///< by character and type
-    std::map<std::uint8_t, Claims> m_claimsOfHosts;                   ///< by character
-    std::size_t m_clockSteps = 0;                                     ///< of the time line that were seen
-    std::vector<log::ClockStep> m_untoldSteps;                        ///< no packet has come since
+    /// By character and type, each sender once, the newest last.
+    std::map<std::pair<std::uint8_t, std::uint8_t>, std::vector<Claim>> m_claims;
+    std::map<std::uint8_t, std::vector<Claim>> m_claimsOfHosts; ///< by character, each host once
+    std::size_t m_clockSteps = 0;                               ///< of the time line that were seen
+    std::vector<log::ClockStep> m_untoldSteps;                  ///< no packet has come since
     std::uint64_t m_lastPacket = 0;
     log::Stamp m_nextCheck{};
     log::Stamp m_nextWatch{};

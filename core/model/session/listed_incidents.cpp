@@ -269,8 +269,8 @@ std::string headlineOf(const SessionView& session, const ListedIncident& listed,
     case IncidentKind::Restart:
         return who + " restarted";
     case IncidentKind::Conflict:
-        return who + " comes from two senders, " + session.addressOf(incident.sender).shown() + " and " +
-               incident.detail;
+        return who + " comes from several senders at once, " + session.addressOf(incident.sender).shown() +
+               " and also " + incident.detail;
     case IncidentKind::Overtaken:
     case IncidentKind::RelayLoop:
     case IncidentKind::RecordingEnded:
