@@ -21,23 +21,30 @@ Occurrence stepOf(const log::StreamKey& stream, const Verdict& verdict) {
 void IncidentFollower::noteStep(Stream& stream, const Verdict& verdict) {
     constexpr std::uint64_t kSettled = 128;
     const std::uint32_t step = stream.accounting.step();
-    const std::uint64_t known = stream.accounting.datagrams() - stream.toldStepSince;
-    if (step == 0 && stream.toldStep != 0 && known >= kSettled && !std::exchange(stream.isUneven, true)) {
-        Occurrence one = stepOf(stream.key, verdict); // until it has another one
-        one.detail =
-            "The step of the sample counter is irregular; it was " + std::to_string(stream.toldStep) + '.';
-        m_incidents.report(one);
+    const std::uint64_t datagrams = stream.accounting.datagrams();
+    const bool wasKnown = datagrams - stream.toldStepSince >= kSettled;
+    if (step == 0 && stream.toldStep != 0 && !stream.isUneven) {
+        if (wasKnown) {
+            Occurrence one = stepOf(stream.key, verdict); // until it has another one
+            one.detail = "The step of the sample counter is irregular; it was " +
+                         std::to_string(stream.toldStep) + '.';
+            m_incidents.report(one);
+        }
+        stream.isUneven = wasKnown;
+        stream.toldStep = wasKnown ? stream.toldStep : 0;
     }
     if (step == 0) {
         return;
     }
-    stream.isUneven = false;
+    if (std::exchange(stream.isUneven, false)) {
+        stream.toldStepSince = datagrams;
+    }
     if (step == stream.toldStep) {
         return;
     }
     const std::uint32_t before = std::exchange(stream.toldStep, step);
-    const std::uint64_t since = std::exchange(stream.toldStepSince, stream.accounting.datagrams());
-    if (before == 0 || stream.accounting.datagrams() - since < kSettled) {
+    stream.toldStepSince = datagrams;
+    if (before == 0 || !wasKnown) {
         return; // nobody knew it before
     }
     Occurrence one = stepOf(stream.key, verdict);

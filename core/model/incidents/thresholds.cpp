@@ -110,7 +110,8 @@ void ThresholdWatch::check(Stream& stream, log::Stamp stamp, Incidents& incident
     const double rateHz = static_cast<double>(read.counts.samples) / m_thresholds.windowS;
     double& usualHz = stream.usualHz;
     if (usualHz > 0) {
-        const double offPercent = 100 * std::abs(rateHz - usualHz) / usualHz;
+        const double off = std::abs(rateHz - usualHz);
+        const double offPercent = off * m_thresholds.windowS > chanceOf(stream) ? 100 * off / usualHz : 0;
         hold(stream, {IncidentKind::RateLimit, offPercent, m_thresholds.ratePercent}, stamp, incidents);
     }
     // What lasts becomes usual: half of the way in about a minute of two checks a second.
@@ -118,13 +119,22 @@ void ThresholdWatch::check(Stream& stream, log::Stamp stamp, Incidents& incident
     usualHz += usualHz > 0 ? (rateHz - usualHz) * kShare : rateHz;
 }
 
+/// By how many samples a clean window may differ from what is usual: the ends of the window cut one off each;
+/// where the step is irregular, three standard deviations of what comes at random.
+double ThresholdWatch::chanceOf(const Stream& stream) const {
+    constexpr double kEnds = 2;
+    constexpr double kDeviations = 3;
+    return stream.accounting.step() != 0 ? kEnds
+                                         : kDeviations * std::sqrt(stream.usualHz * m_thresholds.windowS);
+}
+
 /// Whether the sender sends at another rate than before, what it lost included, or may: it does where the
-/// rate is the same in two short times one after the other.
+/// rate is the same in two short times one after the other. Of an irregular stream that is not known.
 bool ThresholdWatch::noteRate(Stream& stream, log::Stamp to, log::Stamp now, Incidents& incidents) const {
     constexpr double kLeastS = 0.5;
     constexpr double kLeastSamples = 20;
     constexpr double kSteadyPercent = 10;
-    const double usualHz = stream.usualHz;
+    const double usualHz = stream.accounting.step() != 0 ? stream.usualHz : 0;
     const double spanS = usualHz > 0 ? std::max(kLeastS, std::ceil(10 * kLeastSamples / usualHz) / 10) : 0;
     if (usualHz <= 0 || m_thresholds.ratePercent <= 0 || 2 * spanS > m_thresholds.windowS) {
         return false;

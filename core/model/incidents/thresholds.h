@@ -63,6 +63,7 @@ private:
         double limit;
     };
     void check(Stream& stream, log::Stamp stamp, Incidents& incidents) const;
+    [[nodiscard]] double chanceOf(const Stream& stream) const;
     bool noteRate(Stream& stream, log::Stamp to, log::Stamp now, Incidents& incidents) const;
     void hold(const Stream& stream, const Measure& measure, log::Stamp stamp, Incidents& incidents) const;
 

@@ -17,7 +17,7 @@ constexpr log::Duration kJumped = std::chrono::milliseconds(200);
 /// A time code stands still that has not changed for three times as long as it ever took, at least and at
 /// most; at most until it has changed so often.
 constexpr log::Duration kStill = std::chrono::milliseconds(200);
-constexpr log::Duration kMostStill = std::chrono::seconds(1);
+constexpr log::Duration kMostStill = std::chrono::seconds(2);
 constexpr std::uint32_t kKnown = 10;
 
 std::int64_t millisecondsOf(log::Duration time) {
@@ -81,8 +81,8 @@ bool IncidentFollower::noteChange(const Stream& stream, const Verdict& verdict, 
     const log::Duration passed = verdict.stamp - codes.stamp;
     const std::int64_t passedMs = millisecondsOf(passed);
     const std::int64_t jumpMs = timeCodeStep(codes.code, verdict.timeCode) - passedMs;
-    // It may go on from where it stood, or have gone on unseen.
-    const bool isExplained = codes.isStill && jumpMs > -kJumpMs && jumpMs < millisecondsOf(stood) + kJumpMs;
+    // It may go on from where it stood, or have gone on unseen; some move once a second.
+    const bool isExplained = jumpMs > -kJumpMs && jumpMs < millisecondsOf(stood - passed) + kJumpMs;
     const bool isJump = samples < Probation::kMostForward && std::abs(jumpMs) > kJumpMs &&
                         codes.moved != log::Stamp() && !isExplained;
     const Silence& silence = character.lastSilence;

@@ -2,6 +2,8 @@
 #include "core/model/session/verdict.h"
 #include "tests/core/model/incidents/incidents_fixture.h"
 
+#include <array>
+#include <cstddef>
 #include <utility>
 
 namespace posewire::model {
@@ -161,6 +163,30 @@ TEST_F(IncidentsTest, TellThatTheSenderSendsAnotherShareOfItsSamples) {
     EXPECT_TRUE(of(IncidentKind::Loss).empty());
 }
 
+TEST_F(IncidentsTest, TellThatAStepIsIrregularOnlyWhereThereWasOne) {
+    const std::array<std::uint32_t, 4> differences{2, 4, 3, 1}; // as real senders do
+    std::uint32_t sample = 1'000;
+    const auto send = [&](std::uint32_t difference) {
+        sample += difference;
+        m_at += difference * 10ms;
+        pose(sample);
+    };
+    for (const std::size_t even : {0U, 300U}) {
+        SCOPED_TRACE(even);
+        sample += 1'000'000; // another start of its counter
+        m_at += 1min;
+        for (std::size_t i = 0; i < even; ++i) {
+            send(2);
+        }
+        for (std::size_t i = 0; i < 1'000; ++i) {
+            send(differences[i % 4]);
+        }
+        EXPECT_EQ(of(IncidentKind::Step).size(), even == 0 ? 0U : 1U);
+        EXPECT_TRUE(of(IncidentKind::RateLimit).empty());
+    }
+    EXPECT_EQ(of(IncidentKind::Step)[0].text(), "The step of the sample counter is irregular; it was 2.");
+}
+
 TEST_F(IncidentsTest, TellATimeCodeThatStandsStill) {
     poses(1, 100);
     posesOfOneTimeCode(101, 400);
@@ -188,6 +214,17 @@ TEST_F(IncidentsTest, TakeATimeCodeThatAlwaysMovesInStepsForNoneThatStandsStill)
         pose(sample);
     }
     EXPECT_TRUE(of(IncidentKind::TimeCode).empty());
+}
+
+TEST_F(IncidentsTest, TakeATimeCodeThatMovesOnceASecondForOneThatMoves) {
+    for (std::uint32_t sample = 1; sample <= 3'000; ++sample, m_at += 10ms) {
+        m_timeCodeOff = -(m_at.time_since_epoch() % 1s);
+        pose(sample);
+    }
+    EXPECT_TRUE(of(IncidentKind::TimeCode).empty()) << of(IncidentKind::TimeCode).front().text();
+    m_timeCodeOff += 5s;
+    posesOfOneTimeCode(3'001, 3'400);
+    EXPECT_EQ(of(IncidentKind::TimeCode).size(), 1U) << "and still tells a jump";
 }
 
 TEST_F(IncidentsTest, TellAPauseOfTheSenderWhoseCounterGoesOnWhereItStopped) {
@@ -369,6 +406,17 @@ TEST_F(IncidentsTest, TellTwoSendersWithOneCharacterButNotASuccessor) {
     EXPECT_EQ(conflicts[0].severity(), IncidentSeverity::Error);
     EXPECT_NE(conflicts[0].sender, conflicts[1].sender);
     EXPECT_NE(conflicts[0].detail, conflicts[1].detail);
+}
+
+TEST_F(IncidentsTest, TellEverySenderOfACharacterThatTheyTakeTurnsWith) {
+    poses(1, 50);
+    for (std::uint32_t sample = 51; sample <= 100; ++sample, m_at += 10ms) {
+        pose(sample, "127.0.0.1:4000" + std::to_string(1 + sample % 3));
+    }
+    const auto conflicts = of(IncidentKind::Conflict);
+    ASSERT_EQ(conflicts.size(), 3U);
+    EXPECT_EQ(conflicts[0].text(),
+              "Character 0 comes from elsewhere at the same time: 127.0.0.1:40002 and 127.0.0.1:40003.");
 }
 
 TEST_F(IncidentsTest, CallALossAboveItsLimitAnError) {

@@ -223,6 +223,27 @@ TEST_F(Limits, OfTheRateKnowWhatWasUsual) {
     EXPECT_FALSE(isAlert(IncidentKind::RateLimit)) << "what lasts becomes usual";
 }
 
+TEST_F(Limits, OfTheRateTakeNoChanceForAChange) {
+    for (const log::Duration interval : {700ms, 1'400ms, 1'700ms, 2'000ms}) {
+        SCOPED_TRACE(interval / 1ms);
+        for (int i = 0; i < 100; ++i) { // two checks a second, whatever the rate
+            sendOne();
+            for (const log::Stamp next = m_stamp + interval; m_stamp < next;) {
+                m_stamp += 100ms;
+                if (m_stamp >= m_nextCheck) {
+                    check();
+                    m_nextCheck = m_stamp + 500ms;
+                }
+            }
+            ++m_sample;
+        }
+        EXPECT_TRUE(of(IncidentKind::RateLimit).empty());
+        m_streams.clear();
+        addStream(2);
+        m_stamp += 60s;
+    }
+}
+
 TEST_F(Limits, OfTheRateSayNothingBeforeAWholeWindow) {
     for (const log::Stamp end = m_stamp + 2s; m_stamp < end; step(2ms)) {
         sendOne();
