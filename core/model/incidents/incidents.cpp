@@ -248,12 +248,6 @@ void Incidents::end(std::uint64_t number, log::Stamp stamp) {
     }
 }
 
-void Incidents::end(const Occurrence& like, log::Stamp stamp) {
-    if (const Incident* incident = currentLike(like)) {
-        end(incident->number, stamp);
-    }
-}
-
 void Incidents::endPart(std::uint64_t number, std::uint8_t character, std::optional<std::uint8_t> type,
                         log::Stamp stamp) {
     Incident* incident = findOwn(number);

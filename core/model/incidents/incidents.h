@@ -54,7 +54,6 @@ public:
     void takeBackPart(std::uint64_t number, std::uint8_t character);
     /// It is over.
     void end(std::uint64_t number, log::Stamp stamp);
-    void end(const Occurrence& like, log::Stamp stamp);
     /// For one stream or character; and altogether, where it was the last of them.
     void endPart(std::uint64_t number, std::uint8_t character, std::optional<std::uint8_t> type,
                  log::Stamp stamp);

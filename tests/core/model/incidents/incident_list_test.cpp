@@ -168,9 +168,9 @@ TEST(IncidentList, KnowsWhatLastsOfOneSender) {
         incidents.report(occurrenceAt(IncidentKind::Outage, at(1s), sender));
     }
     const Occurrence loss = occurrenceAt(IncidentKind::Loss, at(1s), 2);
-    incidents.report(loss);
+    const std::uint64_t number = incidents.report(loss);
     EXPECT_THAT(numbersOf(incidents.currentOf(loss.sender)), testing::UnorderedElementsAre(2, 4));
-    incidents.end(loss, at(2s));
+    incidents.end(number, at(2s));
     EXPECT_EQ(numbersOf(incidents.currentOf(loss.sender)), (std::vector<std::uint64_t>{2}));
     EXPECT_TRUE(incidents.currentOf(static_cast<log::SenderId>(4)).empty());
 }
@@ -195,14 +195,14 @@ TEST(IncidentList, EndsWhatHasBeenQuietForFiveSeconds) {
 TEST(IncidentList, EndsAConditionOnce) {
     Incidents incidents;
     const Occurrence down = occurrenceAt(IncidentKind::Outage, at(1s));
-    incidents.report(down);
-    incidents.end(down, at(9s));
+    const std::uint64_t number = incidents.report(down);
+    incidents.end(number, at(9s));
     EXPECT_EQ(incidents.currentLike(down), nullptr);
     EXPECT_FALSE(incidents.all().front().isCurrent);
     EXPECT_EQ(incidents.all().front().lastStamp, at(9s));
     const std::uint64_t version = incidents.version();
-    incidents.end(down, at(20s));
-    incidents.end(occurrenceAt(IncidentKind::AgeLimit, at(1s)), at(20s));
+    incidents.end(number, at(20s));
+    incidents.end(number + 1, at(20s));
     EXPECT_EQ(incidents.all().front().lastStamp, at(9s));
     EXPECT_EQ(incidents.version(), version);
 }
@@ -224,9 +224,7 @@ TEST(IncidentList, AFigureThatHoversAboutItsLimitIsOne) {
 
 TEST(IncidentList, KnowsWhatLastedAtATimeOfThePast) {
     Incidents incidents;
-    const Occurrence down = occurrenceAt(IncidentKind::Outage, at(10s));
-    incidents.report(down);
-    incidents.end(down, at(20s));
+    incidents.end(incidents.report(occurrenceAt(IncidentKind::Outage, at(10s))), at(20s));
     incidents.report(occurrenceAt(IncidentKind::Loss, at(30s)));
     incidents.report(occurrenceAt(IncidentKind::AgeLimit, at(40s))); // lasts
     const auto countAt = [&incidents](log::Duration time) { return incidents.currentAt(at(time)).size(); };
@@ -269,7 +267,7 @@ TEST(IncidentList, IsBoundedAlsoInItsParts) {
             one.type = static_cast<std::uint8_t>(part / 250);
             incidents.report(one);
         }
-        incidents.end(one, at(2s));
+        incidents.end(incidents.all().back().number, at(2s));
     }
     EXPECT_LE(incidents.all().size(), Incidents::kMostParts / 1'000 + 1);
     EXPECT_GE(incidents.all().size(), Incidents::kMostParts / 1'000 - 1);
