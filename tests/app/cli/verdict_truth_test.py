@@ -166,6 +166,8 @@ class Faults:
             known = later
             if not isWhole and parts:
                 known = min(later, min(parts.values()) + 0.15)
+            if known + 100 / self.take.plan.rate < whole < float("inf"):
+                whole += 4 / self.take.plan.rate  # so far back it may be a restart: the next ones tell
             if whole > known:
                 self.missing.append((known, whole))
                 self.points[stream[0]].append(known if not isWhole else whole)
