@@ -123,7 +123,6 @@ std::size_t Ingest::takeNew(log::Stamp now, std::size_t most) {
     }
     m_index.dropBefore(m_begin);
     m_digests.dropBefore(m_begin);
-    lookForContradictions();
     return count;
 }
 
@@ -168,6 +167,7 @@ void Ingest::take(const log::Packet& packet) {
         }
     }
     m_digests.append(packet.number, seen.digest);
+    lookForContradictions();
 }
 
 /// Decodes into what is kept of the stream, whose memory fits already.

@@ -4,6 +4,7 @@
 #include "core/model/incidents/thresholds.h"
 #include "core/model/session/verdict.h"
 
+#include <algorithm>
 #include <string>
 
 /// How a character does, in one word and one sentence; and what the session keeps of the wildest input.
@@ -91,6 +92,22 @@ TEST_F(ConditionTest, OfARecordingIsThatOfAllOfIt) {
     EXPECT_EQ(m_session.verdict(key()).state, State::Warning);
     EXPECT_TRUE(m_session.verdict(key()).brief.ends_with("lost, cause unknown, over"))
         << m_session.verdict(key()).brief;
+}
+
+TEST_F(ConditionTest, FindsAContradictionAtTheSamePacketHoweverMuchIsFollowedAtOnce) {
+    poses(1, 100);
+    poses(101, 100, wire::HeaderEra::Reserved);
+    Session along(m_log);
+    while (along.follow(m_now, 3)) {
+    }
+    follow();
+    const auto contradictionOf = [](const Session& session) {
+        const auto& all = session.incidents().all();
+        const auto found = std::ranges::find(all, IncidentKind::Scale, &Incident::kind);
+        return found == all.end() ? log::Stamp() : found->firstStamp;
+    };
+    EXPECT_GE(contradictionOf(along), at(101s));
+    EXPECT_EQ(contradictionOf(m_session), contradictionOf(along));
 }
 
 TEST_F(ConditionTest, WarnsWhereASenderContradictsItself) {
