@@ -96,6 +96,10 @@ public:
     /// Takes in everything that is in the log.
     void follow(log::Stamp now);
 
+    /// The same when nothing more is received: no silence until then is doubted. Returns the end, which is
+    /// not before anything that came.
+    log::Stamp followToEnd(log::Stamp end);
+
     /// Shows the table if it is time to, or writes a line if one is due at a time of the log.
     void show(const exporting::MonitorFacts& facts, log::Stamp now);
 
@@ -114,6 +118,7 @@ public:
                                       std::optional<log::Stamp> end);
 
 private:
+    void takeIn(log::Stamp now);
     void tellSenders();
     ExitStatus writeReport(const exporting::MonitorFacts& facts);
     void showLine(log::Stamp now);

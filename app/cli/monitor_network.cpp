@@ -293,12 +293,12 @@ ExitStatus monitorNetwork(const MonitorOptions& options, Console& console) {
     RecordingWatch recordingWatch(std::move(recording), run, console);
     InputWatch inputs(*receiver, console);
     const double elapsedS = watch(options, *receiver, run, recordingWatch, inputs);
-    const log::Stamp end = run.log().timeline().now(clock);
+    const log::Stamp over = run.log().timeline().now(clock);
     exporting::MonitorFacts facts = factsOf(*receiver, elapsedS);
     facts.exceeded = inputs.silent();
     inputs.end();
     receiver.reset(); // what is in the sockets still comes into the log
-    run.follow(run.log().timeline().now(clock));
+    const log::Stamp end = run.followToEnd(over);
     const ExitStatus recorded = recordingWatch.stop(run.receptionOf(facts));
     return run.conclude(facts, recorded, end);
 }

@@ -139,6 +139,20 @@ bool MonitorRun::isOver() const {
 
 void MonitorRun::follow(log::Stamp now) {
     m_session.setHeldUp(m_options.file.empty() && m_heldUp.at(now)); // a file holds nobody up
+    takeIn(now);
+}
+
+log::Stamp MonitorRun::followToEnd(log::Stamp end) {
+    m_session.setHeldUp(false);
+    takeIn(end);
+    for (const model::Sender& sender : m_session.senders()) {
+        end = std::max(end, sender.lastStamp);
+    }
+    takeIn(end);
+    return end;
+}
+
+void MonitorRun::takeIn(log::Stamp now) {
     while (m_session.follow(now)) {
     }
     if (m_options.isVerbose) {

@@ -4,6 +4,7 @@
 #include <QHostAddress>
 #include <QProcess>
 #include <QTcpServer>
+#include <QThread>
 #include <QUdpSocket>
 
 #include <gmock/gmock.h>
@@ -77,6 +78,19 @@ TEST(MonitorNetwork, CountsEveryDatagramThatWasSentAndRecordsIt) {
     EXPECT_GT(report["local"]["receiveBufferBytes"], 0);
     EXPECT_EQ(report["sources"][0]["characters"].size(), 2U);
     EXPECT_EQ(reportOf(recording), report) << "a recording gives the report that was made live";
+}
+
+TEST(MonitorNetwork, RecordsWhatALimitSaysOfASilenceUntilTheEnd) {
+    const std::string recording = newPath();
+    Monitor monitor({"--max-gap", "100", "--record", QString::fromStdString(recording)});
+    const ProgramRun sender =
+        runProgram({"send", "--to", monitor.place(), "--types", "02", "--duration", "0.2"});
+    ASSERT_EQ(sender.status, 0) << sender.err;
+    QThread::msleep(200);
+    const Json report = Json::parse(monitor.end().out, nullptr, false);
+    ASSERT_TRUE(report.is_object());
+    ASSERT_FALSE(report["exceeded"].empty());
+    EXPECT_EQ(reportOf(recording, {"--max-gap", "100"})["exceeded"], report["exceeded"]);
 }
 
 TEST(MonitorNetwork, TellsWhereItListensAndWhoSendsOnlyWhereAskedTo) {
