@@ -22,6 +22,11 @@ constexpr std::size_t kMostNamesakes = 16;
 constexpr log::Duration kLive = std::chrono::seconds(10);
 /// What was received this long ago is in the log.
 constexpr log::Duration kUnderWay = std::chrono::milliseconds(50);
+/// Silence is looked at so often while it is short, then each time it is an eighth longer.
+constexpr log::Duration kMoment = std::chrono::milliseconds(20);
+constexpr log::Duration kShortSilence = std::chrono::seconds(5);
+/// Then nothing is left that depends on when it is looked.
+constexpr log::Duration kLongSilence = std::chrono::minutes(1);
 /// So many datagrams of each character of a sender make it unlikely that another one appears.
 constexpr std::size_t kEstablishedEach = 32;
 /// Whether senders contradict themselves is looked at this often.
@@ -76,8 +81,11 @@ bool Ingest::follow(log::Stamp now, std::size_t most) {
         m_isLive = now - m_observed < kLive && m_observed - now < kLive;
     }
     if (m_isLive && !m_isHeldUp && m_follower.lag() == 0) {
-        m_attribution->advance(now - kUnderWay);
-        m_incidents->advance(now);
+        passTime(now);
+        if (now - m_observed > kLongSilence) {
+            m_attribution->advance(now - kUnderWay);
+            m_incidents->advance(now);
+        }
     }
     return count > 0;
 }
@@ -85,6 +93,16 @@ bool Ingest::follow(log::Stamp now, std::size_t most) {
 bool Ingest::followFile(log::Stamp now, std::size_t most) {
     m_isFile = true;
     return takeNew(now, most) > 0;
+}
+
+void Ingest::passTime(log::Stamp until) {
+    until = std::min(until, m_observed + kLongSilence);
+    while (m_moment <= until) {
+        m_attribution->advance(m_moment - kUnderWay);
+        m_incidents->advance(m_moment);
+        const log::Duration silence = m_moment - m_observed;
+        m_moment += silence < kShortSilence ? kMoment : silence / 8;
+    }
 }
 
 void Ingest::settle() {
@@ -151,7 +169,11 @@ void Ingest::take(const log::Packet& packet) {
     if (m_digests.end() == 0) {
         m_firstStamp = packet.stamp;
     }
+    if (m_digests.end() != 0) {
+        passTime(packet.stamp);
+    }
     m_observed = packet.stamp;
+    m_moment = packet.stamp + kUnderWay;
     Observation seen{packet};
     observe(seen);
     if (seen.sender != nullptr) {

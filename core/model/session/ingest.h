@@ -188,6 +188,9 @@ private:
 
     /// How many it took.
     std::size_t takeNew(log::Stamp now, std::size_t most);
+    /// Silence after the newest packet, at moments that follow from its stamp alone: what is found, and in
+    /// which order, is the same however often it is looked.
+    void passTime(log::Stamp until);
     // The stages, in this order. Those from takeHeader() on are for datagrams that could be decoded.
     void take(const log::Packet& packet);
     void takeOvertaken(std::uint64_t count, const log::Packet* next);
@@ -229,6 +232,7 @@ private:
     log::Stamp m_now{};
     log::Stamp m_firstStamp{};
     log::Stamp m_observed{}; ///< of the newest packet
+    log::Stamp m_moment{};   ///< at which silence after it is looked at next
     PacketDigests m_digests;
     Roster<log::SenderId, Sender> m_senders;
     Roster<CharacterKey, Character> m_characters;

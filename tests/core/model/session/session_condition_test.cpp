@@ -5,6 +5,7 @@
 #include "core/model/session/verdict.h"
 
 #include <algorithm>
+#include <map>
 #include <string>
 
 /// How a character does, in one word and one sentence; and what the session keeps of the wildest input.
@@ -121,6 +122,28 @@ TEST_F(ConditionTest, WarnsWhereASenderContradictsItself) {
         << verdict.text;
     m_session.setOverride(sender(), {.revision = Revision::N});
     EXPECT_TRUE(verdictAfter(0ms).brief.ends_with(", over"));
+}
+
+TEST_F(ConditionTest, NumbersWhatHappenedAlikeHoweverOftenSilenceIsLookedAt) {
+    Session along(m_log);
+    for (std::uint32_t sample = 1; sample < 156; ++sample) {
+        sample = sample == 101 ? 105 : sample; // four are lost just before a silence
+        poses(sample, 1);
+        for (const log::Stamp end = m_at + (sample == 105 ? 600ms : 0ms); m_at < end; m_at += 7ms) {
+            along.follow(m_at);
+        }
+        along.follow(m_now);
+    }
+    follow();
+    const auto numbersOf = [](const Session& session) {
+        std::map<std::uint64_t, IncidentKind> numbers;
+        for (const Incident& incident : session.incidents().all()) {
+            numbers[incident.number] = incident.kind;
+        }
+        return numbers;
+    };
+    EXPECT_GT(numbersOf(along).size(), 1U);
+    EXPECT_EQ(numbersOf(m_session), numbersOf(along));
 }
 
 TEST_F(ConditionTest, WarnsOfASenderThatChangesItsHeaders) {
