@@ -105,13 +105,14 @@ void ClockHistory::follow(model::SessionView& view, const std::optional<model::C
     }
     const log::Stamp from = std::max(newest - kWindow, m_lastStamp + log::Duration(1));
     m_lastStamp = newest;
-    const std::size_t added =
-        view.visitHeaders(*stream, from, kMostReadings, [this](log::Stamp stamp, const wire::Header& header) {
-            add({stamp, header.sampleCounter, header.timeCode});
-        });
-    if (added != 0) {
-        m_drift = fitDrift();
-    }
+    view.visitHeaders(*stream, from, kMostReadings, [this](log::Stamp stamp, const wire::Header& header) {
+        add({stamp, header.sampleCounter, header.timeCode});
+    });
+    const model::ClockSkew skew =
+        view.find(*stream)
+            ->accounting.clock(model::TimeRange{newest - kWindow, newest + log::Duration(1)})
+            .skew;
+    m_drift = skew.isKnown() ? std::optional(skew) : std::nullopt;
     if (m_jump) {
         m_jump->time = view.wallOf(m_jump->stamp);
     }
@@ -206,37 +207,6 @@ std::optional<std::uint32_t> ClockHistory::headerMs() const {
     return m_readings.empty() ? std::nullopt : std::optional(m_readings.back().timeCode);
 }
 
-std::optional<ClockHistory::Drift> ClockHistory::fitDrift() const {
-    const Reading& first = m_readings.front();
-    if (log::secondsOf(m_readings.back().stamp - first.stamp) < kLeastDriftSeconds) {
-        return std::nullopt;
-    }
-    double meanX = 0;
-    double meanY = 0;
-    const auto x = [&](const Reading& r) { return log::secondsOf(r.stamp - first.stamp); };
-    const auto y = [&](const Reading& r) {
-        return static_cast<std::int32_t>(r.timeCode - first.timeCode) * 1e-3 - x(r);
-    };
-    const auto count = static_cast<double>(m_readings.size());
-    for (const Reading& reading : m_readings) {
-        meanX += x(reading) / count;
-        meanY += y(reading) / count;
-    }
-    double xx = 0;
-    double xy = 0;
-    double yy = 0;
-    for (const Reading& reading : m_readings) {
-        const double dx = x(reading) - meanX;
-        const double dy = y(reading) - meanY;
-        xx += dx * dx;
-        xy += dx * dy;
-        yy += dy * dy;
-    }
-    const double slope = xy / xx;
-    const double variance = std::max(0.0, yy - slope * xy) / std::max(1.0, count - 2);
-    return Drift{slope * 1e6, std::sqrt(variance / xx) * 1e6};
-}
-
 namespace {
 
 PropertyValue header(const ClockHistory& clock) {
@@ -259,13 +229,17 @@ PropertyValue offset(const ClockHistory& clock) {
 
 PropertyValue drift(const ClockHistory& clock) {
     const auto& found = clock.drift();
-    const QString text = found ? tr("%1 ± %2 ppm").arg(signedFixed(found->ppm, 1), fixed(found->error, 1))
-                         : clock.headerMs()
-                             ? tr("after %1 s").arg(static_cast<int>(ClockHistory::kLeastDriftSeconds))
-                             : dash();
+    const QString none = clock.headerMs() ? tr("not yet known") : dash();
+    constexpr double kLeastShown = 0.05;
+    const bool isSeen = found && std::abs(found->skewPpm) >= kLeastShown;
+    const QString text =
+        !found   ? none
+        : isSeen ? tr("%1 ± %2 ppm").arg(signedFixed(found->skewPpm, 1), fixed(found->errorPpm, 1))
+                 : tr("none, ± %1 ppm").arg(fixed(found->errorPpm, 1));
     return {text, Health::Unknown,
-            tr("How much faster the sender's header clock runs than this computer's: slope over "
-               "the last minute of time code against receive stamps, ± its standard error")};
+            tr("How much faster the sender's header clock runs than this computer's, by the least delayed "
+               "samples of the last minute, ± its standard error. Not known as long as delays on the way "
+               "hide it.")};
 }
 
 PropertyValue frameRate(const ClockHistory& clock) {

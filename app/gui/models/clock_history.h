@@ -55,15 +55,9 @@ public:
     /// Frames a second by the time code alone.
     [[nodiscard]] std::optional<double> frameHz() const { return m_rate.frameHz(); }
 
-    /// Header clock against this computer's, in parts per million: slope over the last minute by least
-    /// squares, with its standard error; above 0 the sender's runs faster. Nothing before
-    /// `kLeastDriftSeconds`.
-    struct Drift {
-        double ppm = 0;
-        double error = 0;
-    };
-    static constexpr double kLeastDriftSeconds = 10;
-    [[nodiscard]] const std::optional<Drift>& drift() const { return m_drift; }
+    /// Header clock against this computer's, as the stream's accounting has it, over the last minute; nothing
+    /// while that does not know.
+    [[nodiscard]] const std::optional<model::ClockSkew>& drift() const { return m_drift; }
 
     /// The newest place where the time code did not advance with its samples.
     struct Jump {
@@ -87,7 +81,6 @@ private:
     [[nodiscard]] std::optional<double> jumpBetween(const Reading& before, const Reading& reading) const;
     [[nodiscard]] bool isCorrupt(const Reading& reading);
     void readType25(const model::Message* message);
-    [[nodiscard]] std::optional<Drift> fitDrift() const;
 
     std::optional<log::StreamKey> m_stream;
     log::Stamp m_lastStamp{};
@@ -96,7 +89,7 @@ private:
     std::vector<Reading> m_jumped;   ///< in a row: corrupt, or the time code has jumped
     NominalRate m_rate;
     std::optional<Jump> m_jump;
-    std::optional<Drift> m_drift;
+    std::optional<model::ClockSkew> m_drift;
     std::optional<std::string> m_type25;
     std::optional<double> m_offsetMs;
 };

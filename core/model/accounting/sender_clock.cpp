@@ -18,6 +18,9 @@ constexpr std::int64_t kMostParts = 128;
 /// Fewer parts than these show no skew.
 constexpr std::size_t kLeastParts = 8;
 
+/// Clocks of ordinary computers differ by up to 100 ppm: a skew that is less sure says nothing of them.
+constexpr double kMostErrorPpm = 50;
+
 constexpr std::int32_t kDayMs = 86'400'000;
 /// What came around midnight came within so much.
 constexpr std::int32_t kMidnightMs = 60'000;
@@ -85,6 +88,7 @@ void ClockFit::Sums::add(double atSeconds, double differenceMs) {
     seconds += atSeconds;
     ms += differenceMs;
     squares += atSeconds * atSeconds;
+    squaresMs += differenceMs * differenceMs;
     products += atSeconds * differenceMs;
 }
 
@@ -117,8 +121,15 @@ ClockSkew ClockFit::skew() const {
         return {};
     }
     // Ours minus theirs grows where theirs is slow; 1 ms in a second is 1,000 ppm.
-    const double slope = -(sums.products - sums.seconds * sums.ms / count) / square;
-    return {slope * 1e3, slope * lastSeconds};
+    const double product = sums.products - sums.seconds * sums.ms / count;
+    const double slope = -product / square;
+    const double unexplained = std::max(0.0, sums.squaresMs - sums.ms * sums.ms / count + slope * product);
+    const double error = std::sqrt(unexplained / (count - 2) / square);
+    if (error * 1e3 > kMostErrorPpm) {
+        return {};
+    }
+    return std::abs(slope) > error ? ClockSkew{slope * 1e3, slope * lastSeconds, error * 1e3}
+                                   : ClockSkew{0, 0, error * 1e3};
 }
 
 } // namespace posewire::model

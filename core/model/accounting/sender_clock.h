@@ -68,7 +68,8 @@ private:
         std::size_t count = 0;
         double seconds = 0;
         double ms = 0;
-        double squares = 0;
+        double squares = 0; ///< of seconds
+        double squaresMs = 0;
         double products = 0;
         void add(double atSeconds, double differenceMs);
     };

@@ -4,8 +4,10 @@
 #include "core/log/time.h"
 #include "core/wire/type_table.h"
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string_view>
 
@@ -89,11 +91,15 @@ struct InterArrival {
     double deviationMs = 0;
 };
 
-/// How much faster the sender's clock goes than ours, in parts per million, and what that made; both 0 where
-/// it is not known: where only the sample counter shows the sender's time, and in the first seconds.
+/// How much faster the sender's clock goes than ours, in parts per million, and what that made. Both are 0
+/// where it is not known: where only the sample counter shows the sender's time, and as long as delays on the
+/// way hide it; and where it is less than its own error, so that none is seen.
 struct ClockSkew {
     double skewPpm = 0;
     double driftMs = 0;
+    double errorPpm = std::numeric_limits<double>::infinity(); ///< standard error, also of none
+
+    [[nodiscard]] bool isKnown() const { return std::isfinite(errorPpm); }
 };
 
 /// The sender's clock against ours.

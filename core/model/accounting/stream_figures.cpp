@@ -29,7 +29,7 @@ double spacing(const RangeFigures& read) {
 }
 template <auto Member>
 double clockOf(const RangeFigures& read) {
-    return read.clock.isFromTimeCode ? read.clock.skew.*Member : kUnknown;
+    return read.clock.isFromTimeCode && read.clock.skew.isKnown() ? read.clock.skew.*Member : kUnknown;
 }
 template <LossCause Cause>
 double lostBy(const RangeFigures& read) {
@@ -168,8 +168,8 @@ constexpr std::array kRows{
               "Standard deviation of the time between the first arrivals of successive samples, ms",
               Of::Samples, "Spacing dev."},
     FigureRow{Skew, "clock.skewPpm", "Skew ppm", kPpm, Sum::None, Trouble::None, clockOf<&Clock::skewPpm>,
-              "How much faster the sender's clock runs than this computer's; known only where the header's "
-              "time code advances"},
+              "How much faster the sender's clock runs than this computer's; known where the header's time "
+              "code advances, and once delays on the way do not hide it"},
     FigureRow{Drift, "clock.driftMs", "Drift ms", kDrift, Sum::None, Trouble::None, clockOf<&Clock::driftMs>,
               "How far the skew moved the sender's clock in the range"},
     FigureRow{Missing, "", "Lost", kCount, Sum::Sum, Trouble::Warning, missing,

@@ -188,7 +188,26 @@ TEST(ClockFit, SaysNothingOfTheFirstSeconds) {
     // Eight parts of 250 ms sentAt least.
     EXPECT_EQ(fitted(500, 1'500ms, 10ms).skewPpm, 0);
     EXPECT_EQ(fitted(500, 1'500ms, 10ms).driftMs, 0);
-    EXPECT_NE(fitted(500, 2'500ms, 10ms).skewPpm, 0);
+    EXPECT_NEAR(fitted(500, 2'490ms, 10ms).skewPpm, 500, 1);
+}
+
+/// Ten seconds of samples that are all held up, by up to 300 ms.
+ClockSkew fittedThroughUnrest(double ppm) {
+    std::mt19937 random(5);
+    ClockFit fit(10s);
+    for (log::Duration time{}; time <= 10s; time += 100ms) {
+        const double delayMs = static_cast<double>(random() % 300);
+        fit.add(sentAt(50s + time), delayMs - ppm * 1e-3 * log::secondsOf(time));
+    }
+    return fit.skew();
+}
+
+TEST(ClockFit, SaysNothingWhileItsErrorIsMoreThanClocksDiffer) {
+    for (const double ppm : {-20.0, 0.0, 50.0}) {
+        const ClockSkew skew = fittedThroughUnrest(ppm);
+        EXPECT_EQ(skew.skewPpm, 0) << ppm;
+        EXPECT_EQ(skew.driftMs, 0) << ppm;
+    }
 }
 
 TEST(TimeCodeStep, IsThatOfTheClockAtMidnightToo) {
