@@ -27,8 +27,9 @@ void TimelineModel::refresh(const model::TimeRange& window, std::size_t most) {
         resolution = std::max(resolution, stream.accounting.resolution(window.from));
     }
     constexpr std::int64_t kLeastBuckets = 2; // per part, or its edges would show
+    m_settled.emplace(m_view, window);
     m_isFine = (window.to - window.from) / static_cast<std::int64_t>(most) < kLeastBuckets * resolution &&
-               datagramsIn(window) <= kMostArrivals;
+               m_settled->isWhole() && datagramsIn(window) <= kMostArrivals;
     m_parts = m_isFine ? fineParts(window, most)
                        : model::partsOf(window, most, kLeastBuckets * resolution, resolution);
     m_losses.emplace(m_view, std::nullopt);
@@ -82,7 +83,7 @@ const TimelineModel::Row& TimelineModel::shown(std::size_t row) {
     for (const log::StreamKey& key : read.streams) {
         if (m_isFine) {
             m_view.addArrivals(key, m_parts, 2 * kMostArrivals, read.parts); // edges of buckets
-            m_losses->takePending(key, m_parts, read.parts);
+            m_settled->addParts(key, m_parts, read.parts);
         } else if (const model::Stream* stream = m_view.find(key)) {
             m_losses->addParts(*stream, m_parts, read.parts);
         }

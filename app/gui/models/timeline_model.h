@@ -61,7 +61,8 @@ private:
     model::SessionView& m_view;
     model::RangeParts m_parts;
     std::optional<model::Losses> m_losses; ///< as of the newest refresh
-    bool m_isFine = false;                 ///< parts are finer than the accounting's buckets
+    std::optional<model::SettledLosses> m_settled;
+    bool m_isFine = false; ///< parts are finer than the accounting's buckets
     std::vector<Row> m_rows;
     std::set<model::CharacterKey> m_open;
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/session/losses.h"
 
-#include "core/model/accounting/gap.h"
+#include "core/model/accounting/attribution.h"
 
 #include <algorithm>
 
@@ -9,6 +9,8 @@ namespace posewire::model {
 
 namespace {
 
+/// Stamps of the log grow, but for those of several sockets, which are less than this apart.
+constexpr log::Duration kSocketsApart = std::chrono::seconds(1);
 constexpr std::size_t kUnknown = static_cast<std::size_t>(LossCause::Unknown);
 
 } // namespace
@@ -37,11 +39,10 @@ Losses::Losses(const SessionView& session, const std::optional<TimeRange>& range
     if (!range) {
         return;
     }
-    // Newest first: stamps grow, but for those of several sockets.
-    constexpr log::Duration kApart = std::chrono::seconds(1);
+    // Newest first.
     for (auto one = session.gaps().rbegin(); one != session.gaps().rend(); ++one) {
         const Gap& gap = *one;
-        if (gap.toStamp + kApart < range->from) {
+        if (gap.toStamp + kSocketsApart < range->from) {
             break;
         }
         if (gap.toStamp >= range->from && gap.toStamp < range->to && gap.cause != LossCause::Unknown) {
@@ -128,6 +129,37 @@ void Losses::takePending(const log::StreamKey& stream, const RangeParts& parts,
         if (stamp >= parts.first && stamp < parts.beginOf(parts.count)) {
             RangePart& part = from[static_cast<std::size_t>((stamp - parts.first) / parts.width)];
             part.lost -= static_cast<std::uint32_t>(std::min<std::uint64_t>(part.lost, samples));
+        }
+    }
+}
+
+SettledLosses::SettledLosses(const SessionView& session, const TimeRange& range) : m_range(range) {
+    const auto& gaps = session.gaps();
+    m_isWhole = gaps.size() < Attribution::kMostGaps || gaps.front().toStamp < range.from;
+    for (auto gap = gaps.rbegin(); gap != gaps.rend() && gap->toStamp + kSocketsApart >= range.from; ++gap) {
+        if (gap->isJudged && gap->lost != 0) {
+            add(gap->stream, gap->toStamp, gap->lost);
+        }
+    }
+    session.forEachPartialLoss([this](const log::StreamKey& stream, log::Stamp stamp, LossCause /*cause*/,
+                                      std::uint64_t /*packet*/) { add(stream, stamp, 1); });
+}
+
+void SettledLosses::add(const log::StreamKey& stream, log::Stamp stamp, std::uint32_t samples) {
+    if (stamp >= m_range.from && stamp < m_range.to) {
+        m_lost[stream].emplace_back(stamp, samples);
+    }
+}
+
+void SettledLosses::addParts(const log::StreamKey& stream, const RangeParts& parts,
+                             std::span<RangePart> into) const {
+    const auto lost = m_lost.find(stream);
+    if (lost == m_lost.end() || parts.count == 0) {
+        return;
+    }
+    for (const auto& [stamp, samples] : lost->second) {
+        if (stamp >= parts.first && stamp < parts.beginOf(parts.count)) {
+            into[static_cast<std::size_t>((stamp - parts.first) / parts.width)].lost += samples;
         }
     }
 }

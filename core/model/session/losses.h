@@ -45,8 +45,6 @@ public:
     [[nodiscard]] std::uint64_t longestGapOf(const Stream& stream) const;
     /// As model::addParts; what is pending is not lost.
     void addParts(const Stream& stream, const RangeParts& parts, std::span<RangePart> into) const;
-    /// Takes what is pending out of what was counted as lost in equal parts of the range.
-    void takePending(const log::StreamKey& stream, const RangeParts& parts, std::span<RangePart> from) const;
 
 private:
     struct Pending {
@@ -57,10 +55,32 @@ private:
     };
     [[nodiscard]] LossesByCause causesOf(const Stream& stream) const;
     [[nodiscard]] const Pending* pendingOf(const log::StreamKey& stream) const;
+    /// Takes what is pending out of what was counted as lost in equal parts of the range.
+    void takePending(const log::StreamKey& stream, const RangeParts& parts, std::span<RangePart> from) const;
 
     std::optional<TimeRange> m_range;
     std::unordered_map<log::StreamKey, LossesByCause> m_known; ///< of the range, where there is one
     std::unordered_map<log::StreamKey, Pending> m_pending;
+};
+
+/// What was lost for good within a range, finer than the accounting's buckets: each gap, and each sample of
+/// which only a part came, when the next one did. What may still come, or turns out never to have been
+/// expected, is none.
+class SettledLosses {
+public:
+    SettledLosses(const SessionView& session, const TimeRange& range);
+
+    /// Adds what a stream lost in equal parts of the range.
+    void addParts(const log::StreamKey& stream, const RangeParts& parts, std::span<RangePart> into) const;
+    /// False where gaps from the beginning of the range are forgotten: then the accounting has to do.
+    [[nodiscard]] bool isWhole() const { return m_isWhole; }
+
+private:
+    void add(const log::StreamKey& stream, log::Stamp stamp, std::uint32_t samples);
+
+    TimeRange m_range;
+    bool m_isWhole = true;
+    std::unordered_map<log::StreamKey, std::vector<std::pair<log::Stamp, std::uint32_t>>> m_lost;
 };
 
 } // namespace posewire::model

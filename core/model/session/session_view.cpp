@@ -385,8 +385,6 @@ void SessionView::addArrivals(const log::StreamKey& key, const RangeParts& parts
         RangePart& part = into[static_cast<std::size_t>((entry.stamp - parts.first) / parts.width)];
         ++part.datagrams;
         part.samples += entry.isLast ? 1 : 0;
-        const PacketDigest* digest = digests().find(entry.packet);
-        part.lost += digest != nullptr ? digest->gap : 0;
     }
 }
 

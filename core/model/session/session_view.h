@@ -222,7 +222,7 @@ public:
     std::size_t visitHeaders(const log::StreamKey& key, log::Stamp fromStamp, std::size_t most,
                              const std::function<void(log::Stamp, const wire::Header&)>& visitor) const;
     /// Adds what arrived of a stream in each part, datagram by datagram: finer than its accounting's buckets.
-    /// A gap is in the part of the datagram after it. Nothing is added where more than `most` datagrams would
+    /// What was lost is left to SettledLosses. Nothing is added where more than `most` datagrams would
     /// have to be looked at. The cursor plays no part.
     void addArrivals(const log::StreamKey& key, const RangeParts& parts, std::size_t most,
                      std::span<RangePart> into) const;

@@ -129,6 +129,57 @@ TEST(TimelineModel, LeavesNothingOutWhereThereIsTooMuchToLookAtOneByOne) {
     EXPECT_LE(model.parts().width, 1ms) << "a short window is looked at closely";
 }
 
+/// Samples lost as the timeline paints them, looked at datagram by datagram.
+std::uint64_t lostPainted(Stage& stage, log::Duration length) {
+    stage.follow();
+    TimelineModel model(stage.session);
+    model.refresh({Stage::kStart, Stage::kStart + length}, 20'000);
+    std::uint64_t lost = 0;
+    for (const model::RangePart& part : model.shown(0).parts) {
+        lost += part.lost;
+    }
+    return lost;
+}
+
+TEST(TimelineModel, PaintsNoLossWhereTheSenderChangesItsStep) {
+    Stage stage;
+    for (std::uint32_t i = 0; i < 600; ++i) {
+        const std::uint32_t sample = i < 300 ? i : 300 + 2 * (i - 300);
+        stage.send(smallPose(), sample, sample * 10, Stage::kStart + i * 10ms);
+        if (i % 20 == 0) {
+            EXPECT_EQ(lostPainted(stage, 6s), 0U) << i;
+        }
+    }
+    EXPECT_EQ(lostPainted(stage, 6s), 0U);
+}
+
+TEST(TimelineModel, PaintsWhatCameLateAsNoLossAndWhatDidNotAsOne) {
+    Stage stage;
+    const auto send = [&](std::uint32_t sample, log::Duration at) {
+        stage.send(smallPose(), sample, sample * 10, Stage::kStart + at);
+    };
+    for (std::uint32_t i = 0; i < 400; ++i) {
+        if (i != 100 && i != 200) {
+            send(i, i * 10ms);
+        }
+        if (i == 110) {
+            send(100, 1'101ms);
+        }
+    }
+    EXPECT_EQ(lostPainted(stage, 4s), 1U);
+}
+
+TEST(TimelineModel, PaintsASampleOfWhichOnlyAPartCameAsLost) {
+    Stage stage;
+    for (std::uint32_t i = 0; i < 200; ++i) {
+        stage.send(smallPose(), i, i * 10, Stage::kStart + i * 10ms, 0x00);
+        if (i != 50) {
+            stage.send(smallPose(), i, i * 10, Stage::kStart + i * 10ms + 1ms, 0x81);
+        }
+    }
+    EXPECT_EQ(lostPainted(stage, 2s), 1U);
+}
+
 /// What is counted coarsely and finely is the same.
 TEST_F(TimelineTest, BothWaysOfCountingFindTheSame) {
     const auto sums = [this](std::size_t most) {
