@@ -32,13 +32,20 @@ QString cellText(const QModelIndex& index) {
 }
 
 PropertyModel::PropertyModel(std::vector<Property> properties, QObject* parent)
-    : TableModel({TableColumn<Property>::words(tr("Property"), {}, &Property::label)
-                      .dimmed()
-                      .withToolTip([](const Property& row) { return row.read().toolTip; }),
-                  valueColumn(TableColumn<Property>{.title = tr("Value"), .isNumber = true},
-                              [](const Property& row) { return row.read(); })},
-                 parent) {
+    : TableModel(columns(), parent) {
     setRows(std::move(properties));
+}
+
+std::vector<TableColumn<Property>> PropertyModel::columns() const {
+    auto value = valueColumn(TableColumn<Property>{.title = tr("Value"), .isNumber = true},
+                             [](const Property& row) { return row.read(); });
+    value.colour = [this, own = value.colour](const Property& row) {
+        return m_isPast && m_isPast() ? QVariant(theme().dim) : own(row);
+    };
+    return {TableColumn<Property>::words(tr("Property"), {}, &Property::label)
+                .dimmed()
+                .withToolTip([](const Property& row) { return row.read().toolTip; }),
+            std::move(value)};
 }
 
 } // namespace posewire::gui

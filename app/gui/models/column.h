@@ -245,6 +245,13 @@ public:
 
     /// Announces that all values may have changed.
     void refresh() { announceChange(); }
+    /// From now on values are dim while that says that they are not how it is now.
+    void dimWhile(std::function<bool()> isPast) { m_isPast = std::move(isPast); }
+
+private:
+    [[nodiscard]] std::vector<TableColumn<Property>> columns() const;
+
+    std::function<bool()> m_isPast;
 };
 
 } // namespace posewire::gui

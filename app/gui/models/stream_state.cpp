@@ -11,13 +11,18 @@
 
 namespace posewire::gui {
 
+QString staleText(double ageSeconds, double rateHz) {
+    const bool isStale = ageSeconds >= std::max(kStaleAge, patienceAt(rateHz));
+    return isStale ? tr("stale %1").arg(duration(ageSeconds)) : QString();
+}
+
 namespace {
 
 /// What the time without data says; nothing before a stream is silent.
 PropertyValue ageState(double age, double rateHz) {
     const double patience = patienceAt(rateHz);
-    if (age >= std::max(kStaleAge, patience)) {
-        return {tr("stale %1").arg(duration(age)), Health::Error};
+    if (const QString stale = staleText(age, rateHz); !stale.isEmpty()) {
+        return {stale, Health::Error};
     }
     if (age >= std::max(kSilentAge, patience)) {
         return {tr("silent %1").arg(duration(age)), Health::Warning};

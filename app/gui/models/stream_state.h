@@ -16,6 +16,9 @@ inline constexpr double kStaleAge = 1.0;
     return rateHz > 0 ? 2.5 / rateHz : 0.0;
 }
 
+/// "stale 3.2 s"; nothing while it is not.
+[[nodiscard]] QString staleText(double ageSeconds, double rateHz = 0);
+
 /// Whether a stream is well: age first, then malformed datagrams, then lost samples. Types that are sent now
 /// and then (12, 13) never get stale. Of `losses` the range is that in which what was lost counts.
 [[nodiscard]] PropertyValue streamState(model::SessionView& view, const model::Losses& losses,

@@ -201,7 +201,7 @@ void TrackerModel::refresh() {
     const auto* message = m_key ? m_view.message(*m_key, wire::TrackerKinematics::kType) : nullptr;
     const auto* body =
         message == nullptr ? nullptr : std::get_if<wire::TrackerKinematics>(&message->datagram.body);
-    m_isStale = body != nullptr && log::secondsOf(m_view.cursorStamp() - message->stamp) >= kStaleAge;
+    m_stale = body == nullptr ? QString() : staleTextAt(message->stamp);
     std::vector<wire::Tracker> trackers;
     if (body != nullptr) {
         trackers.assign(body->trackers.begin(), body->trackers.end());
@@ -218,13 +218,20 @@ void TrackerModel::refresh() {
     setRows(std::move(trackers));
 }
 
+QString TrackerModel::staleTextAt(log::Stamp newest) const {
+    const model::Stream* stream =
+        m_view.find(log::StreamKey{m_key->sender, m_key->character, wire::TrackerKinematics::kType});
+    return gui::staleText(log::secondsOf(m_view.cursorStamp() - newest),
+                          stream == nullptr ? 0 : stream->statistics.rateHz());
+}
+
 const wire::Tracker* TrackerModel::shown() const {
     return m_shownRow < 0 ? nullptr : &tracker(m_shownRow);
 }
 
 PropertyValue TrackerModel::state(const wire::Tracker& tracker) const {
-    if (m_isStale) {
-        return {tr("stale")};
+    if (isStale()) {
+        return {m_stale};
     }
     if (m_history.isSaturated(tracker.id)) {
         return {tr("saturation"), Health::Error};

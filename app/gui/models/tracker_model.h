@@ -97,15 +97,19 @@ public:
     /// False in the form of type 23 that has neither acceleration nor angular velocity.
     [[nodiscard]] bool hasInertialData() const { return m_hasInertialData; }
     /// Nothing has come of it for a while: what is shown is not how it is now.
-    [[nodiscard]] bool isStale() const { return m_isStale; }
+    [[nodiscard]] bool isStale() const { return !m_stale.isEmpty(); }
+    /// "stale 3.2 s"; empty while it is not.
+    [[nodiscard]] const QString& staleText() const { return m_stale; }
     /// What is wrong with a tracker; good and without text where nothing is.
     [[nodiscard]] PropertyValue state(const wire::Tracker& tracker) const;
 
 private:
+    [[nodiscard]] QString staleTextAt(log::Stamp newest) const;
+
     model::SessionView& m_view;
     std::optional<model::CharacterKey> m_key;
     bool m_hasInertialData = true;
-    bool m_isStale = false;
+    QString m_stale;
     int m_shownRow = -1;
     TrackerHistory m_history;
 };

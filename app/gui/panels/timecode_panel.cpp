@@ -157,7 +157,7 @@ QString TimecodePanel::caption() const {
         return tr("No type 25 on the air. In MVN: Network Streamer > Time Code");
     }
     if (m_clock.headerMs() && age() >= kStaleAge) {
-        return tr("stale %1").arg(duration(age()));
+        return staleText(age());
     }
     return characterName(m_view, *key);
 }

@@ -84,6 +84,7 @@ TrackersPanel::TrackersPanel(model::SessionView& view, Commands& commands, QWidg
     m_table->setOptionalColumns(TrackerModel::kFree);
     m_table->setEmptyText(tr("No tracker data on the air.\nIn MVN: Network Streamer > enable Motion Tracker "
                              "Kinematics (type 23)."));
+    m_facts.dimWhile([this] { return m_trackers.isStale(); });
     m_factTable->showFacts(m_facts, QStringLiteral("Free acceleration m/s²"));
     m_factTable->fixHeight();
     connect(m_table->selectionModel(), &QItemSelectionModel::currentRowChanged, this, &TrackersPanel::select);
@@ -103,6 +104,7 @@ void TrackersPanel::refresh() {
     }
     m_detail->setVisible(hasTracker);
     if (m_detail->isVisible()) {
+        m_plots->setPast(m_trackers.staleText());
         plotHistory(*m_plots, m_trackers.history());
     }
     followSelection();
@@ -128,10 +130,11 @@ void TrackersPanel::select(const QModelIndex& index) {
 
 QString TrackersPanel::summary() const {
     const wire::Tracker* tracker = m_trackers.shown();
-    const QString stale = m_trackers.isStale() ? tr(" · stale") : QString();
-    return tracker == nullptr
-               ? QString()
-               : QStringLiteral("%1 · %2").arg(trackerName(tracker->id)).arg(tracker->id) + stale;
+    if (tracker == nullptr) {
+        return {};
+    }
+    const QString stale = m_trackers.isStale() ? QStringLiteral(" · ") + m_trackers.staleText() : QString();
+    return QStringLiteral("%1 · %2").arg(trackerName(tracker->id)).arg(tracker->id) + stale;
 }
 
 void TrackersPanel::resizeEvent(QResizeEvent* event) {

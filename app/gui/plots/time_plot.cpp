@@ -22,6 +22,7 @@ struct TimePlot::Parts {
     struct Chart {
         QCPAxisRect* axes;
         QCPTextElement* title;
+        QString words;
         double leastRange;
     };
     struct Curve {
@@ -36,6 +37,7 @@ struct TimePlot::Parts {
     void fitValues(std::size_t number);
     /// As many labels of values as stand above each other; none where there is no room for two.
     void fitLabels(const Chart& chart);
+    void showTitles();
     /// One rectangle in each chart.
     void addHatch();
 
@@ -48,11 +50,12 @@ struct TimePlot::Parts {
     std::vector<QCPItemRect*> hatches;
     std::vector<double> shortGaps;             ///< their middles
     std::vector<QCPItemStraightLine*> cursors; ///< one in each chart; none before a cursor was set
+    QString past;                              ///< why it is not how it is now
 };
 
 TimePlot::TimePlot(const QString& name, double secondsShown, QWidget* parent)
     : QWidget(parent),
-      m_parts(new Parts{secondsShown, new QCustomPlot(this), nullptr, {}, {}, nullptr, {}, {}, {}}) {
+      m_parts(new Parts{secondsShown, new QCustomPlot(this), nullptr, {}, {}, nullptr, {}, {}, {}, {}}) {
     setAccessibleName(name);
     QCustomPlot* plot = m_parts->plot;
     auto* layout = new QVBoxLayout(this);
@@ -86,7 +89,7 @@ int TimePlot::addChart(const QString& title, int share, double leastRange) {
     if (!m_parts->charts.empty()) {
         Parts::time(m_parts->charts.back())->setTickLabels(false); // the lowest one's are for all
     }
-    const Parts::Chart& chart = m_parts->charts.emplace_back(Parts::Chart{axes, words, leastRange});
+    const Parts::Chart& chart = m_parts->charts.emplace_back(Parts::Chart{axes, words, title, leastRange});
     Parts::time(chart)->setRange(-m_parts->secondsShown, 0);
     Parts::time(chart)->ticker()->setTickCount(5);
     Parts::values(chart)->ticker()->setTickCount(3);
@@ -108,7 +111,25 @@ int TimePlot::addCurve(int chart, QColor Theme::*colour) {
 }
 
 void TimePlot::setTitle(int chart, const QString& title) {
-    m_parts->charts[static_cast<std::size_t>(chart)].title->setText(title);
+    m_parts->charts[static_cast<std::size_t>(chart)].words = title;
+    m_parts->showTitles();
+}
+
+void TimePlot::setPast(const QString& why) {
+    const bool isOther = why.isEmpty() != m_parts->past.isEmpty();
+    m_parts->past = why;
+    m_parts->showTitles();
+    if (isOther) {
+        applyColours();
+    }
+}
+
+void TimePlot::Parts::showTitles() {
+    for (const Chart& chart : charts) {
+        const bool isFirst = &chart == &charts.front();
+        chart.title->setText(isFirst && !past.isEmpty() ? chart.words + QStringLiteral(" · ") + past
+                                                        : chart.words);
+    }
 }
 
 void TimePlot::setSpan(double from, double to) {
@@ -265,8 +286,10 @@ int TimePlot::chartHeight(int chart) const {
 void TimePlot::applyColours() {
     const Theme& colours = theme();
     m_parts->plot->setBackground(colours.panel);
+    constexpr double kPastAlpha = 0.4;
     for (const Parts::Curve& curve : m_parts->curves) {
-        curve.graph->setPen(QPen(colours.*curve.colour, 1));
+        const QColor colour = colours.*curve.colour;
+        curve.graph->setPen(QPen(m_parts->past.isEmpty() ? colour : withAlpha(colour, kPastAlpha), 1));
     }
     for (QCPItemStraightLine* line : m_parts->cursors) {
         line->setPen(QPen(colours.text, 1));
@@ -276,7 +299,8 @@ void TimePlot::applyColours() {
     QFont small = font();
     small.setPointSizeF(small.pointSizeF() * 0.88);
     for (const Parts::Chart& chart : m_parts->charts) {
-        chart.title->setTextColor(colours.dim);
+        const bool saysPast = !m_parts->past.isEmpty() && &chart == &m_parts->charts.front();
+        chart.title->setTextColor(saysPast ? colours.error : colours.dim);
         chart.title->setFont(small);
         for (QCPAxis* axis : chart.axes->axes()) {
             axis->setBasePen(QPen(colours.line));

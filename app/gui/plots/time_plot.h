@@ -39,6 +39,9 @@ public:
     int addCurve(int chart, QColor Theme::*colour);
 
     void setTitle(int chart, const QString& title);
+    /// Why what is shown is not how it is now: said behind the title of the first chart, and curves are dim.
+    /// Empty: it is.
+    void setPast(const QString& why);
     /// From when to when (s), instead of the last seconds.
     void setSpan(double from, double to);
     /// A line through all charts, where a moment is shown; nothing for none. From now on a click asks for

@@ -100,10 +100,41 @@ TEST_F(TrackerModelTest, DimsWhatIsNoLongerSent) {
     m_stage.now += 2s;
     refresh();
     EXPECT_TRUE(m_model.isStale());
-    EXPECT_EQ(text(0, TrackerModel::kState), "stale");
+    EXPECT_EQ(text(0, TrackerModel::kState), "stale 2.0 s");
     for (int column = 0; column < m_model.columnCount(); ++column) {
         EXPECT_EQ(m_model.index(0, column).data(Qt::ForegroundRole), QVariant(theme().dim)) << column;
     }
+}
+
+TEST_F(TrackerModelTest, DimsTheFactsOfWhatIsNoLongerSentAndSaysHowOldTheyAre) {
+    PropertyModel facts(trackerFacts(m_model));
+    facts.dimWhile([this] { return m_model.isStale(); });
+    for (std::uint32_t sample = 0; sample < 300; ++sample) {
+        sendTracker(atRest(), sample);
+    }
+    refresh();
+    const int last = facts.rowCount() - 1;
+    EXPECT_NE(facts.index(0, 1).data(Qt::ForegroundRole), QVariant(theme().dim));
+    m_stage.now += 3s;
+    refresh();
+    for (int row = 0; row <= last; ++row) {
+        EXPECT_EQ(facts.index(row, 1).data(Qt::ForegroundRole), QVariant(theme().dim)) << row;
+    }
+    EXPECT_EQ(facts.index(last, 1).data().toString(), "stale 3.0 s");
+}
+
+TEST_F(TrackerModelTest, GivesASlowStreamTheTimeOfItsSamples) {
+    for (std::uint32_t sample = 0; sample < 8; ++sample) {
+        wire::TrackerKinematics body;
+        body.trackers.push_back(atRest());
+        m_stage.send(body, sample, sample * 1'000, Stage::kStart + sample * 1s);
+    }
+    m_stage.now += 2s;
+    refresh();
+    EXPECT_FALSE(m_model.isStale());
+    m_stage.now += 1s;
+    refresh();
+    EXPECT_TRUE(m_model.isStale());
 }
 
 TEST_F(TrackerModelTest, FlagsSaturationOfASingleSampleForTenSeconds) {

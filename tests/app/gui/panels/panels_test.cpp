@@ -94,6 +94,33 @@ TEST_F(PanelsTest, SummariesTellTheStateInAFewWords) {
     EXPECT_EQ(open<CharactersPanel>()->summary(), "0 of 2 good");
 }
 
+TEST_F(PanelsTest, PlotsOfATrackerThatIsNoLongerSentAreDimmed) {
+    performer::Performer performer(sending(1, {2, 23}));
+    m_stage.perform(performer, 0, 480);
+    const auto panel = open<TrackersPanel>();
+    panel->resize(500, 700);
+    const auto pixelsOf = [&](const QColor& colour) {
+        refresh(*panel);
+        QTest::qWait(1); // plots paint by themselves
+        const QImage image = panel->findChild<TimePlot*>()->grab().toImage();
+        int count = 0;
+        for (int y = 0; y < image.height(); ++y) {
+            for (int x = 0; x < image.width(); ++x) {
+                count += image.pixelColor(x, y) == colour ? 1 : 0;
+            }
+        }
+        return count;
+    };
+    EXPECT_GT(pixelsOf(theme().plotFourth), 0);
+    EXPECT_FALSE(panel->summary().contains("stale"));
+    m_stage.now += 3s;
+    EXPECT_EQ(pixelsOf(theme().plotFourth), 0);
+    EXPECT_TRUE(panel->summary().endsWith("stale 3.0 s")) << panel->summary().toStdString();
+    for (const TableView* one : panel->findChildren<TableView*>()) {
+        EXPECT_EQ(one->model()->index(0, 1).data(Qt::ForegroundRole), QVariant(theme().dim));
+    }
+}
+
 TEST_F(PanelsTest, ClickingACharacterSelectsItForAllPanels) {
     performer::Performer performer(sending(2, {2, 12}));
     m_stage.perform(performer, 0, 10);
