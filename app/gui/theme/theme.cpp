@@ -162,6 +162,7 @@ QToolButton[flat="true"]:focus { border-color: @accent; }
 QToolButton[flat="true"]:checked { background: @selection; color: @text; border-color: @accent; }
 QLineEdit, QAbstractSpinBox, QPlainTextEdit, QTextEdit, QTextBrowser { background: @panel; border: 1px solid @line;
   border-radius: 5px; padding: 3px 6px; selection-background-color: @selection; selection-color: @text; }
+QAbstractSpinBox:focus, QPlainTextEdit:focus, QTextEdit:focus, QTextBrowser:focus { border-color: @accent; }
 
 QTabBar::tab { background: @header; color: @dim; border: none; border-right: 1px solid @line;
   border-top: 2px solid transparent; padding: @menuv 12px; }

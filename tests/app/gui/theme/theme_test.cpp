@@ -3,6 +3,14 @@
 
 #include "app/gui/theme/desktop_theme.h"
 
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QLineEdit>
+#include <QPlainTextEdit>
+#include <QPushButton>
+#include <QTest>
+#include <QVBoxLayout>
+
 #include <gtest/gtest.h>
 
 namespace posewire::gui {
@@ -30,6 +38,36 @@ TEST_P(ThemeTest, TextStandsOutOnASelectedRow) {
         EXPECT_GE(contrast(onSelection(text), theme().selection), 4.5) << text.name().toStdString();
     }
     EXPECT_EQ(onSelection(theme().text), theme().text);
+}
+
+TEST_P(ThemeTest, WhatHasTheKeyboardHasAFrameThatShowsIt) {
+    QWidget window;
+    QVBoxLayout column(&window);
+    for (QWidget* field :
+         std::initializer_list<QWidget*>{new QLineEdit, new QSpinBox, new QDoubleSpinBox, new QComboBox,
+                                         new QPushButton, new QPlainTextEdit}) {
+        column.addWidget(field);
+    }
+    window.show();
+    window.activateWindow();
+    ASSERT_TRUE(QTest::qWaitForWindowActive(&window));
+    const auto fields = window.findChildren<QWidget*>(Qt::FindDirectChildrenOnly);
+    const auto accents = [](QWidget& field) {
+        const QImage image = field.grab().toImage();
+        int count = 0;
+        for (int y = 0; y < image.height(); ++y) {
+            for (int x = 0; x < image.width(); ++x) {
+                count += image.pixelColor(x, y) == theme().accent ? 1 : 0;
+            }
+        }
+        return count;
+    };
+    for (QWidget* field : fields) {
+        fields.front() == field ? fields.back()->setFocus() : fields.front()->setFocus();
+        const int before = accents(*field);
+        field->setFocus();
+        EXPECT_GT(accents(*field), before + 10) << field->metaObject()->className();
+    }
 }
 
 QPalette desktop(const char* text, const char* ground) {
