@@ -123,8 +123,7 @@ void takeScreenshot(MainWindow& window, const Options& options, int attempts) {
                            [&window, options, left] { takeScreenshot(window, options, left); });
         return;
     }
-    QWidget* part =
-        options.screenshotPart.isEmpty() ? &window : window.findChild<QWidget*>(options.screenshotPart);
+    QWidget* part = options.screenshotPart.isEmpty() ? &window : window.showPart(options.screenshotPart);
     const QString problem =
         part == nullptr
             ? QStringLiteral("--part: there is no '%1' in the window.").arg(options.screenshotPart)
@@ -150,6 +149,9 @@ void begin(MainWindow& window, const Options& options, const Settings& settings)
         }
     } else {
         constexpr int kAttempts = 100;
+        if (!options.screenshotPart.isEmpty()) {
+            static_cast<void>(window.showPart(options.screenshotPart)); // what it shows comes in meanwhile
+        }
         QTimer::singleShot(static_cast<int>(options.screenshotAfterSeconds * 1000), &window,
                            [&window, options] { takeScreenshot(window, options, kAttempts); });
     }

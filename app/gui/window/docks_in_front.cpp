@@ -48,6 +48,17 @@ void MainWindow::showDock(const QString& dock) {
     }
 }
 
+QWidget* MainWindow::showPart(const QString& name) {
+    auto* part = findChild<QWidget*>(name);
+    for (const Dock& dock : m_docks) {
+        if (part == dock.dock || dock.dock->isAncestorOf(part)) {
+            showDock(dock.dock->objectName());
+            refreshPanels();
+        }
+    }
+    return part;
+}
+
 QStringList MainWindow::docksInSight() const {
     QStringList names;
     for (const Dock& dock : m_docks) {
@@ -110,6 +121,30 @@ void MainWindow::dockAll() {
     if (onScreen(geometry()).isEmpty()) {
         move(screen()->availableGeometry().topLeft());
     }
+}
+
+bool MainWindow::focusNextPrevChild(bool isNext) {
+    const auto step = [isNext](QWidget* one) {
+        return isNext ? one->nextInFocusChain() : one->previousInFocusChain();
+    };
+    // Docks behind others, and the tabs of an area without any, lie beside the window.
+    const auto isInSight = [this](const QWidget* one) {
+        while (one->parentWidget() != this) {
+            one = one->parentWidget();
+        }
+        return rect().intersects(one->geometry());
+    };
+    QWidget* const from = focusWidget() != nullptr ? focusWidget() : this;
+    for (QWidget* one = step(from); one != from; one = step(one)) {
+        const bool takesTab = (one->focusPolicy() & Qt::TabFocus) == Qt::TabFocus &&
+                              one->focusProxy() == nullptr && one->window() == this && one->isVisible() &&
+                              one->isEnabled();
+        if (takesTab && one != this && isInSight(one)) {
+            one->setFocus(isNext ? Qt::TabFocusReason : Qt::BacktabFocusReason);
+            return true;
+        }
+    }
+    return false;
 }
 
 void MainWindow::moveFocus(int direction) {

@@ -80,6 +80,8 @@ public:
     void offerRecovered();
     /// Brings a dock to the front, by its object name.
     void showDock(const QString& dock);
+    /// A dock, bar or part of them by its object name, in the front; null where there is none.
+    [[nodiscard]] QWidget* showPart(const QString& name);
     /// Shows a place of the user guide, its first page for none; over a dialog that waits for an answer where
     /// there is one.
     void showHelp(const QString& place);
@@ -104,6 +106,8 @@ public slots:
     void followHelpLink(const QUrl& link);
 
 protected:
+    /// Tab and Shift+Tab pass by docks that lie behind others.
+    bool focusNextPrevChild(bool isNext) override;
     void dragEnterEvent(QDragEnterEvent* event) override;
     void dropEvent(QDropEvent* event) override;
     void showEvent(QShowEvent* event) override;

@@ -24,6 +24,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <set>
 
 namespace posewire::gui {
 namespace {
@@ -87,6 +88,36 @@ TEST_F(KeyboardTest, SpaceTogglesTheBoxOfTheCurrentRowInWhateverColumn) {
 TEST_F(KeyboardTest, SpacePausesWhereNothingElseTakesIt) {
     QTest::keyClick(&m_window, Qt::Key_Space);
     EXPECT_TRUE(isPaused());
+}
+
+TEST_F(KeyboardTest, TabGoesOnlyToWhatCanBeSeen) {
+    for (const QString& layout :
+         {QStringLiteral("Check"), QStringLiteral("Debug"), QStringLiteral("Inspect")}) {
+        m_window.useLayout(layout);
+        QTest::qWait(20);
+        for (const bool isForward : {true, false}) {
+            m_window.viewport().setFocus();
+            std::set<QWidget*> reached;
+            QWidget* before = m_window.focusWidget();
+            for (int i = 0; i < 400; ++i) {
+                QTest::keyClick(m_window.focusWidget(), isForward ? Qt::Key_Tab : Qt::Key_Backtab);
+                QWidget* now = m_window.focusWidget();
+                ASSERT_NE(now, nullptr);
+                EXPECT_NE(now, before) << "stuck at " << now->objectName().toStdString();
+                const QRect place(now->mapTo(&m_window, QPoint(0, 0)), now->size());
+                EXPECT_TRUE(m_window.rect().intersects(place))
+                    << layout.toStdString() << ": " << now->metaObject()->className() << " "
+                    << now->accessibleName().toStdString();
+                before = now;
+                reached.insert(now);
+                if (now == &m_window.viewport()) {
+                    break;
+                }
+            }
+            EXPECT_EQ(before, &m_window.viewport()) << "all around";
+            EXPECT_GT(reached.size(), 10U);
+        }
+    }
 }
 
 TEST_F(KeyboardTest, EveryEntryOfEveryMenuIsACommand) {
