@@ -227,6 +227,15 @@ std::optional<std::uint64_t> PacketModel::previousProblem(std::uint64_t before) 
     return isThere ? std::optional(m_problems[place - 1]) : std::nullopt;
 }
 
+bool PacketModel::isOf(const model::CharacterKey& key, std::uint64_t packet) const {
+    const model::PacketDigest* digest = m_view.digests().find(packet);
+    const bool mayBe = digest != nullptr && digest->type != 0 && digest->character == key.character;
+    const auto read = mayBe ? m_view.packet(packet) : std::nullopt;
+    return read && std::ranges::any_of(m_view.lineage(key), [&read](const model::Character* one) {
+               return one->key.sender == read->sender;
+           });
+}
+
 int PacketModel::rowCount(const QModelIndex& parent) const {
     return parent.isValid() ? 0 : m_rows;
 }

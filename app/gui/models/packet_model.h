@@ -53,6 +53,8 @@ public:
     /// The nearest listed problem after or before a packet; nothing where there is none.
     [[nodiscard]] std::optional<std::uint64_t> nextProblem(std::uint64_t after) const;
     [[nodiscard]] std::optional<std::uint64_t> previousProblem(std::uint64_t before) const;
+    /// Whether what was sent for a character, under all ports that its sender had, has this packet.
+    [[nodiscard]] bool isOf(const model::CharacterKey& key, std::uint64_t packet) const;
     /// With a filter: the numbers of all rows.
     [[nodiscard]] const PacketNumbers& matches() const { return m_matches; }
 

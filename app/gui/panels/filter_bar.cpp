@@ -68,7 +68,7 @@ FilterBar::FilterBar(QWidget* parent)
             offerCompletions();
         }
     });
-    connect(m_line, &QLineEdit::returnPressed, this, &FilterBar::apply);
+    connect(m_line, &QLineEdit::returnPressed, this, &FilterBar::applyAndLeave);
     restyle();
     showSaved();
 }
@@ -210,7 +210,7 @@ void FilterBar::restyle() {
         fill = tinted(border);
     }
     m_line->setToolTip(
-        toolTipText(isApplied ? tr("Arrow down: earlier filters") : tr("Press Enter to filter")));
+        toolTipText(isApplied ? tr("Alt and arrow down: earlier filters") : tr("Press Enter to filter")));
     if (m_error) {
         m_line->setToolTip(toolTipText(QString::fromStdString(m_error->text)));
     }
@@ -231,6 +231,14 @@ void FilterBar::apply() {
     m_appliedText = text();
     restyle();
     emit applied(text());
+}
+
+/// One that is wrong is to be put right: the keyboard stays.
+void FilterBar::applyAndLeave() {
+    apply();
+    if (!m_error) {
+        emit left();
+    }
 }
 
 void FilterBar::remember(const QString& text) {

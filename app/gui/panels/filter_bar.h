@@ -24,7 +24,7 @@ namespace posewire::gui {
 class CommandBar;
 
 /// The line of the display filter: shows while it is written whether it is right, and where it is not; offers
-/// what may follow, what was used before (arrow down) and what was saved (the buttons).
+/// what may follow, what was used before (Alt and arrow down) and what was saved (the buttons).
 class FilterBar final : public QWidget {
     Q_OBJECT
 
@@ -88,6 +88,7 @@ private:
     void underline();
     void restyle();
     void apply();
+    void applyAndLeave();
     void remember(const QString& text);
     void offerCompletions();
     void offerHistory();

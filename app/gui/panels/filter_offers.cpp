@@ -124,7 +124,7 @@ bool FilterBar::offersTake(int key) {
     }
     if ((key == Qt::Key_Return || key == Qt::Key_Enter) && !m_hasChosen) {
         hideOffers();
-        apply();
+        applyAndLeave();
         return true;
     }
     m_hasChosen |= key == Qt::Key_Up || key == Qt::Key_Down;
@@ -136,12 +136,13 @@ bool FilterBar::eventFilter(QObject* watched, QEvent* event) {
         return offersTake(static_cast<QKeyEvent*>(event)->key());
     }
     if (watched == m_line && event->type() == QEvent::KeyPress && !m_completer->popup()->isVisible()) {
-        const int key = static_cast<QKeyEvent*>(event)->key();
-        if (key == Qt::Key_Down) {
+        const auto* press = static_cast<QKeyEvent*>(event);
+        const int key = press->key();
+        if (key == Qt::Key_Down && press->modifiers().testFlag(Qt::AltModifier)) {
             offerHistory();
             return true;
         }
-        if (key == Qt::Key_Escape) {
+        if (key == Qt::Key_Escape || key == Qt::Key_Down) {
             emit left();
             return true;
         }

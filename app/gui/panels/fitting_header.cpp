@@ -12,6 +12,13 @@
 
 namespace posewire::gui {
 
+namespace {
+
+/// The style sheet pads titles by 6 pixels at either side.
+constexpr int kTitleSpace = 14;
+
+} // namespace
+
 FittingHeader::FittingHeader(QAbstractItemView* table, QFont (*cellFont)(), int room, Kept kept)
     : QHeaderView(Qt::Horizontal, table), m_table(table), m_font(cellFont), m_room(room), m_kept(kept) {
     setStretchLastSection(false);
@@ -109,8 +116,7 @@ int FittingHeader::textWidth(const QString& text) const {
 
 int FittingHeader::sampleWidth(int column) const {
     const QString title = model()->headerData(column, Qt::Horizontal, Qt::DisplayRole).toString();
-    // The style sheet pads header sections by 6 pixels at either side.
-    const int titleWidth = isHidden() ? 0 : m_table->fontMetrics().horizontalAdvance(title) + 14;
+    const int titleWidth = isHidden() ? 0 : m_table->fontMetrics().horizontalAdvance(title) + kTitleSpace;
     return std::max(textWidth(m_samples[static_cast<std::size_t>(column)]), titleWidth);
 }
 
@@ -203,6 +209,19 @@ void FittingHeader::fitElastic(int spare) {
             spare -= fitting - usual;
         }
     }
+}
+
+int FittingHeader::titlesEnd() const {
+    const int last = logicalIndexAt(std::min(width(), length() - offset()) - 1);
+    if (last < 0) {
+        return 0;
+    }
+    const int left = sectionViewportPosition(last);
+    const bool isAtRight = model()->headerData(last, Qt::Horizontal, Qt::TextAlignmentRole).isValid();
+    const QString title = model()->headerData(last, Qt::Horizontal, Qt::DisplayRole).toString();
+    return isAtRight
+               ? left + sectionSize(last)
+               : left + std::min(sectionSize(last), fontMetrics().horizontalAdvance(title) + kTitleSpace);
 }
 
 int FittingHeader::columnBeside(int column, int direction) const {

@@ -56,6 +56,8 @@ public:
     void measure();
     /// Shares out the width of the table; widths that the operator dragged stay.
     void fit();
+    /// Where the words of the last title in sight end, in pixels from the left.
+    [[nodiscard]] int titlesEnd() const;
     /// The next column that is shown; the same one at the end.
     [[nodiscard]] int columnBeside(int column, int direction) const;
     /// Columns are not yet as wide as they will be.

@@ -191,9 +191,12 @@ void PacketView::placeButton() {
     }
     m_newest->setText(m_missed == 0 ? tr("↓ Follow") : tr("↓ %1 new").arg(grouped(m_missed)));
     m_newest->setToolTip(tr("Go to the newest packet and follow (Ctrl+End)"));
-    // In the line of column titles it covers no row.
     m_newest->resize(m_newest->sizeHint().width(), m_header->height() - 2);
-    m_newest->move(m_header->geometry().right() - m_newest->width(), m_header->y());
+    // In the line of column titles it covers no row; where it would cover a title, it lies on the last row.
+    const bool isInHeader = m_newest->width() < m_header->width() - m_header->titlesEnd();
+    const QRect below = viewport()->geometry();
+    m_newest->move(m_header->geometry().right() - m_newest->width(),
+                   isInHeader ? m_header->y() : below.bottom() - m_newest->height());
     m_newest->raise();
 }
 

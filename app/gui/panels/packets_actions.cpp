@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the operator can do in the list of packets, and the menus that offer it.
 #include "app/gui/models/packet_choice.h"
+#include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
 #include "app/gui/panels/filter_bar.h"
 #include "app/gui/panels/packets_panel.h"
@@ -94,10 +95,14 @@ struct PacketsPanel::Actions {
         {"back", kGo, QT_TRANSLATE_NOOP("Action", "&Back to before the jump"), "Alt+Left",
          Do::call<&PacketsPanel::goBack>},
         lineIn(kGo),
-        {"nextProblem", kGo, QT_TRANSLATE_NOOP("Action", "&Next problem"), "N",
-         Do::call<&PacketsPanel::goToProblem, kForward>},
-        {"previousProblem", kGo, QT_TRANSLATE_NOOP("Action", "&Previous problem"), "Shift+N",
-         Do::call<&PacketsPanel::goToProblem, kBackward>},
+        {"nextProblem", kGo, QT_TRANSLATE_NOOP("Action", "&Next problem of the selected character"), "N",
+         Do::call<&PacketsPanel::goToProblem, kForward, ProblemsOf::Selected>},
+        {"previousProblem", kGo, QT_TRANSLATE_NOOP("Action", "&Previous problem of the selected character"),
+         "Shift+N", Do::call<&PacketsPanel::goToProblem, kBackward, ProblemsOf::Selected>},
+        {"nextProblemOfAny", kGo, QT_TRANSLATE_NOOP("Action", "Next problem of any&body"), "Alt+N",
+         Do::call<&PacketsPanel::goToProblem, kForward, ProblemsOf::Anybody>},
+        {"previousProblemOfAny", kGo, QT_TRANSLATE_NOOP("Action", "Previous problem of an&ybody"),
+         "Alt+Shift+N", Do::call<&PacketsPanel::goToProblem, kBackward, ProblemsOf::Anybody>},
         lineIn(kGo),
         {"nextOfStream", kGo, QT_TRANSLATE_NOOP("Action", "Next packet of the &stream"), "Ctrl+.",
          Do::call<&PacketsPanel::goToSameStream, kForward>},
@@ -197,24 +202,30 @@ void PacketsPanel::goToNewest() {
     refresh();
 }
 
-void PacketsPanel::goToProblem(Direction direction) {
+void PacketsPanel::goToProblem(Direction direction, ProblemsOf of) {
+    const bool isForward = direction == Direction::Forward;
+    const auto& selected = m_view.selection().character;
+    const bool isOfOne = of == ProblemsOf::Selected && selected && !m_packets.isFiltered();
+    const auto isWanted = [&](std::uint64_t packet) { return !isOfOne || m_packets.isOf(*selected, packet); };
+    const auto step = [&](std::uint64_t from) {
+        return isForward ? m_packets.nextProblem(from) : m_packets.previousProblem(from);
+    };
     const model::PacketDigests& digests = m_view.digests();
     const auto from = m_view.selection().packet;
-    std::optional<std::uint64_t> found;
-    if (direction == Direction::Backward) {
-        found = m_packets.previousProblem(from.value_or(digests.end()));
-    } else {
-        const model::PacketDigest* first = from ? nullptr : digests.find(digests.begin());
-        const bool isAtBegin =
-            first != nullptr && first->isProblem() && m_packets.rowOf(digests.begin()) >= 0;
-        found = isAtBegin ? digests.begin() : m_packets.nextProblem(from.value_or(digests.begin()));
+    const model::PacketDigest* first = from || !isForward ? nullptr : digests.find(digests.begin());
+    const bool isAtBegin = first != nullptr && first->isProblem() && m_packets.rowOf(digests.begin()) >= 0;
+    std::optional<std::uint64_t> found =
+        isAtBegin ? digests.begin() : step(from.value_or(isForward ? digests.begin() : digests.end()));
+    for (WalkBounds bounds; found && !isWanted(*found);) {
+        found = bounds.look() ? step(*found) : std::nullopt;
     }
     if (found) {
         showPacket(*found);
-    } else {
-        say(direction == Direction::Forward ? tr("No problem after this packet.")
-                                            : tr("No problem before this packet."));
+        return;
     }
+    const QString whose = isOfOne ? tr(" of %1").arg(characterName(m_view, *selected)) : QString();
+    say(isForward ? tr("No problem%1 after this packet.").arg(whose)
+                  : tr("No problem%1 before this packet.").arg(whose));
 }
 
 void PacketsPanel::goToSameStream(Direction direction) {

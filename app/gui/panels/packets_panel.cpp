@@ -62,10 +62,10 @@ void PacketsPanel::connectParts() {
     });
     connect(m_filter, &FilterBar::cancelRequested, this, &PacketsPanel::cancelFilter);
     connect(m_filter, &FilterBar::backRequested, this, &PacketsPanel::goBack);
-    connect(m_filter, &FilterBar::left, this, [this] { m_list->setFocus(); });
+    connect(m_filter, &FilterBar::left, this, &PacketsPanel::focusList);
     connect(m_clear, &QPushButton::clicked, this, &PacketsPanel::clearFilter);
     connect(m_find, &FindBar::findRequested, this, &PacketsPanel::search);
-    connect(m_find, &FindBar::closed, this, [this] { m_list->setFocus(); });
+    connect(m_find, &FindBar::closed, this, &PacketsPanel::focusList);
     m_poll.setInterval(kPollMs);
     connect(&m_poll, &QTimer::timeout, this, &PacketsPanel::takeFound);
 }
@@ -174,6 +174,12 @@ void PacketsPanel::cancelFilter() {
 void PacketsPanel::clearFilter() {
     m_commands.setDisplayFilter({});
     refresh();
+    focusList();
+}
+
+/// A list that gets the focus takes a row, which nobody chose.
+void PacketsPanel::focusList() {
+    const QScopedValueRollback guard(m_isFollowing, true);
     m_list->setFocus();
 }
 
@@ -182,10 +188,7 @@ void PacketsPanel::goBack() {
         say(tr("There is nothing to go back to: no jump led here."));
         return;
     }
-    {
-        const QScopedValueRollback guard(m_isFollowing, true); // a list that gets the focus takes a row
-        m_list->setFocus();
-    }
+    focusList();
     m_commands.goBack();
     refresh();
     m_list->setFollowing(!m_view.selection().packet);

@@ -48,6 +48,7 @@ public:
 private:
     struct Actions;
     enum class RowFormat { Text, Csv };
+    enum class ProblemsOf { Selected, Anybody }; ///< the selected character, where there is one
 
     void connectParts();
     void fitColumns();
@@ -58,6 +59,7 @@ private:
     void showEmptyState();
     void cancelFilter();
     void clearFilter();
+    void focusList();
     /// To the filter and the selection before the newest jump.
     void goBack();
     void selectRow(const QModelIndex& index);
@@ -70,7 +72,8 @@ private:
     void goToFirst();
     /// To the newest packet, and on with the list from then on.
     void goToNewest();
-    void goToProblem(Direction direction);
+    /// Of those that the filter lists; without a filter `of` decides.
+    void goToProblem(Direction direction, ProblemsOf of);
     void goToSameStream(Direction direction);
     void goToMark(Direction direction);
     /// Looks for the text of the find bar in the bytes of the listed packets, on a thread of its own, and

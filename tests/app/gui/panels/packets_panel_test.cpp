@@ -16,6 +16,7 @@
 #include <QPushButton>
 #include <QTest>
 
+#include <algorithm>
 #include <memory>
 
 namespace posewire::gui {
@@ -452,6 +453,102 @@ TEST_F(PacketsPanelTest, NotesHaveRoomBeforeNamesAndFiguresDo) {
     }
     m_panel.resize(300, 300);
     EXPECT_EQ(list().horizontalScrollBar()->maximum(), 0) << "in the least room, all gives way a little";
+}
+
+TEST_F(PacketsPanelTest, TheButtonThatFollowsCoversNoTitle) {
+    poses(0, 200);
+    list().verticalScrollBar()->setValue(10);
+    poses(200, 1300);
+    auto* newest = list().findChild<QPushButton*>("newestPacket");
+    for (const int width : {300, 420, 520, 640, 900, 1400}) {
+        m_panel.resize(width, 300);
+        refresh();
+        ASSERT_TRUE(newest->isVisible());
+        const FittingHeader& header = list().header();
+        int shown = 0;
+        for (int column = 0; column < header.count(); ++column) {
+            const QString title = m_panel.packets().headerData(column, Qt::Horizontal, 0).toString();
+            const int space = header.fontMetrics().averageCharWidth();
+            const bool isNumber =
+                m_panel.packets().headerData(column, Qt::Horizontal, Qt::TextAlignmentRole).isValid();
+            const int text = std::min(header.sectionSize(column) - 2 * space,
+                                      header.fontMetrics().horizontalAdvance(title));
+            const int left = header.sectionViewportPosition(column) +
+                             (isNumber ? header.sectionSize(column) - space - text : space);
+            const QRect words(header.x() + left, header.y(), text, header.height());
+            const bool isSeen = !header.isSectionHidden(column) && words.right() <= header.geometry().right();
+            shown += isSeen ? 1 : 0;
+            EXPECT_FALSE(isSeen && newest->geometry().intersects(words)) << title.toStdString() << width;
+        }
+        EXPECT_GT(shown, 1);
+        EXPECT_TRUE(list().rect().contains(newest->geometry())) << width;
+    }
+}
+
+TEST_F(PacketsPanelTest, GoesToProblemsOfTheSelectedCharacterAlone) {
+    for (std::uint32_t sample = 0; sample < 60; ++sample) {
+        for (std::uint8_t character = 0; character < 2; ++character) {
+            const bool isLost = sample == (character == 0 ? 20U : 40U);
+            wire::Datagram datagram;
+            datagram.body = smallPose();
+            datagram.header.sampleCounter = sample;
+            datagram.header.character = character;
+            wire::completeHeader(datagram, wire::HeaderEra::Counted);
+            if (!isLost) {
+                m_stage.send(datagram, Stage::kStart + sample * 10ms);
+            }
+        }
+    }
+    m_stage.now += 1s;
+    refresh();
+    m_stage.session.setSelection({m_stage.sender(), m_stage.key(1), -1});
+    trigger("nextProblem");
+    ASSERT_TRUE(selected());
+    EXPECT_EQ(m_stage.session.digests().at(*selected()).character, 1);
+    const std::uint64_t only = *selected();
+    trigger("nextProblem");
+    EXPECT_EQ(selected(), only);
+    const QString name = QString::fromStdString(m_stage.session.displayName(m_stage.key(1)).shown());
+    EXPECT_EQ(m_panel.message(), "No problem of " + name + " after this packet.");
+    m_stage.session.setSelection({});
+    trigger("nextProblem");
+    EXPECT_EQ(m_stage.session.digests().at(*selected()).character, 0) << "of all";
+}
+
+TEST_F(PacketsPanelTest, EnterInTheFilterLineGoesToTheListWithoutTakingARow) {
+    poses(0, 50);
+    m_panel.activateWindow();
+    ASSERT_TRUE(QTest::qWaitForWindowActive(&m_panel));
+    auto* line = bar().findChild<QLineEdit*>("displayFilter");
+    bar().focusLine();
+    line->setText("type == 02");
+    QTest::keyClick(line, Qt::Key_Return);
+    EXPECT_TRUE(list().hasFocus());
+    EXPECT_EQ(m_stage.session.displayFilter(), "type == 02");
+    EXPECT_EQ(selected(), std::nullopt);
+    EXPECT_TRUE(list().isFollowing());
+    bar().focusLine();
+    line->setText("type ==");
+    QTest::keyClick(line, Qt::Key_Return);
+    EXPECT_TRUE(line->hasFocus()) << "it is to be put right";
+}
+
+TEST_F(PacketsPanelTest, DownGoesFromTheFilterLineToTheListAndAltDownOpensEarlierFilters) {
+    poses(0, 50);
+    m_panel.activateWindow();
+    ASSERT_TRUE(QTest::qWaitForWindowActive(&m_panel));
+    auto* line = bar().findChild<QLineEdit*>("displayFilter");
+    bar().focusLine();
+    line->setText("type == 02");
+    QTest::keyClick(line, Qt::Key_Return);
+    bar().focusLine();
+    QTest::keyClick(line, Qt::Key_Down);
+    EXPECT_EQ(QApplication::activePopupWidget(), nullptr);
+    EXPECT_TRUE(list().hasFocus());
+    bar().focusLine();
+    QTest::keyClick(line, Qt::Key_Down, Qt::AltModifier);
+    ASSERT_NE(QApplication::activePopupWidget(), nullptr);
+    QTest::keyClick(QApplication::activePopupWidget(), Qt::Key_Escape);
 }
 
 } // namespace
