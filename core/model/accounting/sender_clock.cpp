@@ -18,8 +18,10 @@ constexpr std::int64_t kMostParts = 128;
 /// Fewer parts than these show no skew.
 constexpr std::size_t kLeastParts = 8;
 
-/// Clocks of ordinary computers differ by up to 100 ppm: a skew that is less sure says nothing of them.
+/// Clocks of ordinary computers differ by up to 100 ppm: a skew that is less sure says nothing of them, but
+/// of a time code that runs at a speed of its own.
 constexpr double kMostErrorPpm = 50;
+constexpr double kMostErrorShare = 0.05;
 
 constexpr std::int32_t kDayMs = 86'400'000;
 /// What came around midnight came within so much.
@@ -125,7 +127,7 @@ ClockSkew ClockFit::skew() const {
     const double slope = -product / square;
     const double unexplained = std::max(0.0, sums.squaresMs - sums.ms * sums.ms / count + slope * product);
     const double error = std::sqrt(unexplained / (count - 2) / square);
-    if (error * 1e3 > kMostErrorPpm) {
+    if (error > std::max(kMostErrorPpm * 1e-3, kMostErrorShare * std::abs(slope))) {
         return {};
     }
     return std::abs(slope) > error ? ClockSkew{slope * 1e3, slope * lastSeconds, error * 1e3}

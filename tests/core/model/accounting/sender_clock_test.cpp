@@ -208,6 +208,8 @@ TEST(ClockFit, SaysNothingWhileItsErrorIsMoreThanClocksDiffer) {
         EXPECT_EQ(skew.skewPpm, 0) << ppm;
         EXPECT_EQ(skew.driftMs, 0) << ppm;
     }
+    // Whoever plays at half the speed is told so all the same.
+    EXPECT_NEAR(fittedThroughUnrest(-500'000).skewPpm, -500'000, 25'000);
 }
 
 TEST(TimeCodeStep, IsThatOfTheClockAtMidnightToo) {
