@@ -169,7 +169,8 @@ void Ingest::take(const log::Packet& packet) {
     if (m_digests.end() == 0) {
         m_firstStamp = packet.stamp;
     }
-    if (m_digests.end() != 0) {
+    // Who drops packets is held up: silence meanwhile is no evidence.
+    if (m_digests.end() != 0 && packet.kernelDropsBefore == 0) {
         passTime(packet.stamp);
     }
     m_observed = packet.stamp;
