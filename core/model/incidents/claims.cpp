@@ -41,6 +41,16 @@ void IncidentFollower::supersede(const CharacterKey& key, const CharacterKey& by
     m_characters[by].tookOver = TakeOver{key, stamp};
 }
 
+void IncidentFollower::expect(const CharacterKey& key) {
+    const auto found = m_characters.find(key);
+    if (found == m_characters.end()) {
+        return;
+    }
+    for (const Stream* stream : found->second.streams) {
+        found->second.lastSampled = std::max(found->second.lastSampled, stream->accounting.lastStamp());
+    }
+}
+
 /// One that took over is a restart of its sender, once the one before has really fallen silent.
 void IncidentFollower::checkTakenOver(const CharacterKey& key, Character& character, log::Stamp stamp) {
     if (!character.tookOver || character.lastSampled == log::Stamp() ||

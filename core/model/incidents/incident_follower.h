@@ -59,6 +59,8 @@ public:
     /// Another sender sends a character now: that this one is silent is no fault. If it is, that is a
     /// restart.
     void supersede(const CharacterKey& key, const CharacterKey& by, log::Stamp stamp);
+    /// Whoever took it over is forgotten: if it is silent, that is a fault again.
+    void expect(const CharacterKey& key);
 
     /// Time passes without packets: reports only who is silent.
     void advance(log::Stamp stamp);

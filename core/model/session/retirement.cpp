@@ -158,11 +158,23 @@ bool Ingest::isForgettable(log::SenderId sender) const {
 }
 
 bool Ingest::forget(log::SenderId sender) {
-    const bool isGoing = isForgettable(sender);
-    if (isGoing) {
-        retire({sender});
+    if (!isForgettable(sender)) {
+        return false;
     }
-    return isGoing;
+    // With those that it took over from: nobody asked for them back.
+    std::unordered_set<log::SenderId> going{sender};
+    for (const Character* character : find(sender)->characters) {
+        const bool isLast = heirOf(*character) == nullptr;
+        const Character* one = isLast ? character : nullptr;
+        while (one != nullptr) {
+            one = one->before ? find(*one->before) : nullptr;
+            if (one != nullptr && hasEnded(*find(one->key.sender))) {
+                going.insert(one->key.sender);
+            }
+        }
+    }
+    retire(going);
+    return true;
 }
 
 bool Ingest::hasEnded(const Sender& sender) const {
@@ -186,6 +198,9 @@ void Ingest::bequeath(const Character& character) {
         before->after = heir != nullptr ? std::optional(heir->key) : std::nullopt;
     }
     if (heir == nullptr) {
+        if (before != nullptr) {
+            m_incidents->expect(before->key);
+        }
         return;
     }
     heir->before = character.before;

@@ -81,6 +81,7 @@ protected:
         }
         return keys;
     }
+    std::uint32_t m_other = 0;
     const std::string m_first = "10.0.0.5:1000";
     const std::string m_second = "10.0.0.5:1001";
     const std::string m_third = "10.0.0.5:1002";
@@ -157,6 +158,42 @@ TEST_F(RestartTest, ForgetsWhoIsSilentForLong) {
     EXPECT_TRUE(shown().empty());
     posesFrom(m_first, 100, 101);
     EXPECT_EQ(shown().size(), 1U) << "it is back";
+}
+
+TEST_F(RestartTest, IsForgottenWithAllThatCameBefore) {
+    posesFrom(m_first, 100);
+    m_at += 1s;
+    posesFrom(m_second, 100);
+    m_at += 1s;
+    posesFrom(m_third, 100);
+    m_session.follow(m_at + 2s);
+    EXPECT_TRUE(m_session.forget(sender(m_third)));
+    EXPECT_TRUE(shown().empty()) << "what it had taken over does not come back";
+    EXPECT_TRUE(m_session.senders().empty());
+    m_session.follow(m_at + 20s);
+    EXPECT_EQ(m_session.verdicts().all.state, TakeVerdict::State::None);
+}
+
+TEST_F(RestartTest, IsSilentWhereWhatItHadTakenOverMustStay) {
+    const auto posesOfOther = [this](log::Duration time) { // of the first sender, which goes on
+        for (const log::Stamp end = m_at + time; m_at < end; m_at += 10ms) {
+            wire::Datagram datagram{{}, standingAt(0), {}};
+            datagram.header.sampleCounter = ++m_other;
+            datagram.header.character = 1;
+            wire::completeHeader(datagram, wire::HeaderEra::Counted);
+            sendBytes(*wire::encode(datagram), m_at, m_first);
+        }
+    };
+    posesFrom(m_first, 100);
+    posesOfOther(1s);
+    posesFrom(m_second, 100);
+    posesOfOther(3s);
+    follow();
+    EXPECT_TRUE(m_session.forget(sender(m_second)));
+    posesOfOther(20s);
+    follow();
+    EXPECT_EQ(m_session.verdict(keyOf(m_first)).state, TakeVerdict::State::Bad) << "nobody sends it";
+    EXPECT_EQ(m_session.verdict({sender(m_first), 1}).state, TakeVerdict::State::Good);
 }
 
 TEST_F(RestartTest, IsNoTroubleOfTheSenderThatEnded) {
