@@ -280,6 +280,17 @@ std::vector<NullPoseFinding> findContradictions(const NullPoseEvidence& evidence
     return findings;
 }
 
+std::string gravestError(const NullPoseRecord& record) {
+    Findings findings;
+    if (record.pose != nullptr) {
+        findLeftOut(*record.pose, findings);
+        findDuplicateNames(*record.pose, findings);
+        findInShape(record, findings);
+    }
+    const auto found = std::ranges::find(findings, Severity::Error, &NullPoseFinding::severity);
+    return found == findings.end() ? std::string() : found->what;
+}
+
 std::string findingsSummary(const std::vector<NullPoseFinding>& findings) {
     std::string text;
     for (const auto& [severity, noun] :

@@ -61,6 +61,10 @@ struct NullPoseEvidence {
 /// Every contradiction, gravest first.
 [[nodiscard]] std::vector<NullPoseFinding> findContradictions(const NullPoseEvidence& evidence);
 
+/// The gravest error in a null pose itself, whatever came or did not come beside it; empty where there is
+/// none.
+[[nodiscard]] std::string gravestError(const NullPoseRecord& record);
+
 /// "2 errors, 1 warning"; empty where there are neither.
 [[nodiscard]] std::string findingsSummary(const std::vector<NullPoseFinding>& findings);
 

@@ -314,8 +314,10 @@ void IncidentFollower::takeChange(IncidentKind kind, const CharacterKey& key, co
     m_incidents.report(one);
 }
 
-void IncidentFollower::takeContradiction(log::SenderId sender, log::Stamp stamp, const std::string& text) {
+void IncidentFollower::takeContradiction(log::SenderId sender, std::optional<std::uint8_t> character,
+                                         log::Stamp stamp, const std::string& text) {
     Occurrence one = Occurrence::at(IncidentKind::Scale, sender, stamp, m_lastPacket);
+    one.character = character;
     one.detail = text;
     const Incident* known = m_incidents.currentLike(one);
     if (!text.empty() && (known == nullptr || known->detail != text)) {

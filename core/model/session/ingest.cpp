@@ -4,6 +4,7 @@
 #include "core/model/accounting/attribution.h"
 #include "core/model/body/character_pose.h"
 #include "core/model/body/null_pose.h"
+#include "core/model/body/null_pose_findings.h"
 #include "core/model/incidents/incident_follower.h"
 #include "core/model/text.h"
 #include "core/wire/type_table.h"
@@ -152,7 +153,8 @@ void Ingest::lookForContradictions() {
     for (const Sender& sender : m_senders) {
         if (sender.isPerforming()) {
             const auto found = hasEnded(sender) ? std::vector<Contradiction>() : sender.contradictions();
-            m_incidents->takeContradiction(sender.id, m_observed, found.empty() ? "" : found.front().text);
+            m_incidents->takeContradiction(sender.id, std::nullopt, m_observed,
+                                           found.empty() ? "" : found.front().text);
         }
     }
 }
@@ -360,6 +362,13 @@ void Ingest::takeNullPose(const wire::NullPose& part, const Observation& seen) {
     const std::size_t before = history.memoryBytes();
     if (history.add(part, seen.header->datagramCounter, packet.number, packet.stamp)) {
         m_incidents->takeChange(IncidentKind::ScaleChange, seen.character->key, packet, {});
+    }
+    if (const NullPoseRecord record = history.record(packet.number);
+        record.pose != nullptr && record.pose->isComplete() &&
+        record.changed != seen.character->judgedNullPose) {
+        seen.character->judgedNullPose = record.changed;
+        m_incidents->takeContradiction(packet.sender, seen.character->key.character, packet.stamp,
+                                       gravestError(record));
     }
     if (m_nullPoseKeeping.grew(before, history.memoryBytes())) {
         std::vector<NullPoseHistory*> all;

@@ -77,6 +77,7 @@ struct Character {
     std::vector<const Stream*> streams{}; ///< in order of first appearance
     std::size_t ordinal = 0;              ///< for default colours alone; that of `before`, where there is one
     Metadata metadata;
+    log::Stamp judgedNullPose{}; ///< when the null pose first came that was last looked at for contradictions
     BodyMeasure measuredBody; ///< for as long as no scale message has come
     log::Stamp lastStamp{};
     bool isConfirmed = true; ///< else its datagrams are counted, and it is on no list of performers

@@ -3,6 +3,7 @@
 
 #include "core/model/body/null_pose_findings.h"
 #include "core/model/body/points.h"
+#include "core/model/session/verdict.h"
 
 #include <limits>
 #include <string>
@@ -203,6 +204,29 @@ TEST_F(ScaleFindings, SayThatOnlyTheDeprecatedTypeWasSent) {
     EXPECT_EQ(found[0].fault, NullPoseFault::NeverSent);
     EXPECT_EQ(found[0].severity, Severity::Note) << "a warning where nothing was sent at all";
     EXPECT_TRUE(found[0].what.starts_with("Only type 10 was sent")) << found[0].what;
+}
+
+TEST_F(EvidenceTest, IsAnIncidentOfItsCharacterWhereItContradictsItself) {
+    wire::NullPose wrong = bodyOf(1);
+    wrong.segments[17].name = "Pelvis";
+    const auto poses = [this](std::uint32_t first, std::uint32_t last) {
+        for (std::uint32_t sample = first; sample <= last; ++sample) {
+            sendFrom("127.0.0.1:40001", standingAt(0), sample, at(1s + sample * 10ms));
+        }
+        follow();
+    };
+    sendFrom("127.0.0.1:40001", wrong, 0, at(1s));
+    poses(1, 300);
+    const Incident& incident = m_session.incidents().all().back();
+    EXPECT_EQ(incident.kind, IncidentKind::Scale);
+    EXPECT_EQ(incident.character(), 0);
+    EXPECT_EQ(incident.text(), findContradictions(evidence()).front().what) << "as the dock has it";
+    EXPECT_EQ(m_session.verdict(key()).state, TakeVerdict::State::Warning);
+    sendFrom("127.0.0.1:40001", bodyOf(1), 0, at(4s + 5ms));
+    poses(301, 320);
+    EXPECT_TRUE(m_session.verdict(key()).isOver) << m_session.verdict(key()).text;
+    poses(321, 2'000);
+    EXPECT_EQ(m_session.verdict(key()).state, TakeVerdict::State::Good) << m_session.verdict(key()).text;
 }
 
 } // namespace
