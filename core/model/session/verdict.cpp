@@ -57,8 +57,6 @@ public:
         }
     }
 
-    /// It is of all time.
-    [[nodiscard]] bool isOfAll() const { return !m_range; }
     /// "2.1 %", or "37 samples" with a noun: as much as the columns of losses beside the verdict have of that
     /// cause. Empty for what is no loss.
     [[nodiscard]] std::string amountOf(const ListedIncident& one, std::string_view noun) {
@@ -111,9 +109,9 @@ TakeVerdict fromIncidents(const SessionView& session, const std::vector<ListedIn
     verdict.isOver = worst.state == State::Over;
     const std::string answer = isBad ? "Not good" : "Not quite good";
     const std::string lasts = verdict.isOver ? ", over" : ", going on";
-    const std::string lately = losses.isOfAll() ? std::string() : losses.amountOf(worst, "sample");
+    const std::string lost = losses.amountOf(worst, "sample");
     const std::string what =
-        (together.size() > 1 ? outageHeadlineOf(session, together) : headlineOf(session, worst, lately)) +
+        (together.size() > 1 ? outageHeadlineOf(session, together) : headlineOf(session, worst, lost)) +
         whenOf(session, worst);
     verdict.text = answer + ": " + what + lasts;
     verdict.narrow = answer + lasts + ": " + what;

@@ -385,6 +385,11 @@ TEST_F(VerdictTest, ItsFigureIsOfTheTimeThatItIsOf) {
     const TakeVerdict whole = verdictOf(m_session, {});
     EXPECT_NE(whole.text.find("11 % lost on "), std::string::npos) << "of a report: " << whole.text;
     EXPECT_EQ(of(IncidentKind::Loss).size(), 1U);
+    poses(3'001, 9'000);
+    follow();
+    const TakeVerdict later = verdictOf(m_session, {});
+    EXPECT_NE(later.text.find(later.what + " on "), std::string::npos)
+        << later.what << " of all the time in the board, but: " << later.text;
 }
 
 TEST_F(VerdictTest, IsOfOneCharacterWhereItIsAskedFor) {
