@@ -30,6 +30,7 @@ void IncidentFollower::supersede(const CharacterKey& key, const CharacterKey& by
     found->second.lastSampled = {};
     for (Stream* stream : found->second.streams) { // nothing is expected of them
         stream->excusedUntil = log::Stamp::max();
+        stream->isStalled = false;
     }
     for (const Incident* lasting : m_incidents.currentOf(key.sender)) {
         if (lasting->group() == IncidentGroup::Limit) {
@@ -47,7 +48,7 @@ void IncidentFollower::expect(const CharacterKey& key) {
         return;
     }
     for (const Stream* stream : found->second.streams) {
-        found->second.lastSampled = std::max(found->second.lastSampled, stream->accounting.lastStamp());
+        expect(key, found->second, stream->accounting.lastStamp());
     }
 }
 

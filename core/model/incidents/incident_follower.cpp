@@ -129,7 +129,16 @@ void IncidentFollower::retire(log::SenderId sender) {
     m_incidents.retire(sender);
     m_sources.erase(sender);
     m_outages.erase(sender);
+    std::erase_if(m_expected, [sender](const auto* entry) { return entry->first.sender == sender; });
     std::erase_if(m_characters, [sender](const auto& entry) { return entry.first.sender == sender; });
+}
+
+/// From now on: it sent a sample then.
+void IncidentFollower::expect(const CharacterKey& key, Character& character, log::Stamp sampled) {
+    if (!std::exchange(character.isExpected, true)) {
+        m_expected.push_back(&*m_characters.find(key));
+    }
+    character.lastSampled = std::max(character.lastSampled, sampled);
 }
 
 void IncidentFollower::takeDatagram(const log::Packet& packet, const wire::Header& header, Stream& stream,
@@ -168,7 +177,7 @@ void IncidentFollower::noteSampled(const log::Packet& packet, const wire::Header
             each->excusedUntil = {};
         }
     }
-    character.lastSampled = std::max(character.lastSampled, packet.stamp);
+    expect(key, character, packet.stamp);
     character.lastPacket = packet.number;
     noteClaim(packet, header, host);
 }
@@ -360,7 +369,12 @@ void IncidentFollower::checkSilence(const CharacterKey& key, Character& characte
 
 void IncidentFollower::check(log::Stamp stamp) {
     m_incidents.advance(stamp);
-    for (auto& [key, character] : m_characters) {
+    std::erase_if(m_expected, [](auto* entry) {
+        entry->second.isExpected = entry->second.lastSampled != log::Stamp();
+        return !entry->second.isExpected;
+    });
+    for (auto* entry : m_expected) {
+        auto& [key, character] = *entry;
         const log::Duration silent = silenceOf(character, stamp);
         checkStalled(character, stamp);
         checkTakenOver(key, character, stamp);
@@ -390,8 +404,9 @@ void IncidentFollower::checkStalled(Character& character, log::Stamp stamp) {
 
 /// Streams that ended while others of their characters go on: that is no loss.
 void IncidentFollower::checkEnded(log::Stamp stamp) {
-    for (auto& [key, character] : m_characters) {
-        if (character.outage != 0 || character.lastSampled == log::Stamp() || character.streams.size() < 2) {
+    for (auto* entry : m_expected) {
+        auto& [key, character] = *entry;
+        if (character.outage != 0 || character.streams.size() < 2) {
             continue;
         }
         for (Stream* stream : character.streams) {

@@ -101,6 +101,7 @@ private:
     struct Character {
         std::vector<Stream*> streams; ///< those that count samples
         log::Stamp lastSampled{};     ///< 0: nothing is expected
+        bool isExpected = false;      ///< it is among those of which something is
         std::uint64_t lastPacket = 0;
         std::uint64_t outage = 0; ///< its number while nothing comes
         bool isLong = false;      ///< the outage
@@ -126,6 +127,7 @@ private:
     void checkSilence(const CharacterKey& key, Character& character, log::Stamp stamp);
     static void checkStalled(Character& character, log::Stamp stamp);
     void checkEnded(log::Stamp stamp);
+    void expect(const CharacterKey& key, Character& character, log::Stamp sampled);
     void fallSilent(const CharacterKey& key, Character& character, log::Stamp stamp);
     void resume(const CharacterKey& key, Character& character, log::Stamp stamp);
     void noteSampled(const log::Packet& packet, const wire::Header& header, Stream& stream, std::size_t host);
@@ -148,6 +150,7 @@ private:
     std::map<log::SenderId, Source> m_sources;
     std::map<log::SenderId, std::uint64_t> m_outages; ///< the newest of each sender
     std::map<CharacterKey, Character> m_characters;
+    std::vector<std::pair<const CharacterKey, Character>*> m_expected; ///< those of which something is
     /// By character and type, each sender once, the newest last.
     std::map<std::pair<std::uint8_t, std::uint8_t>, std::vector<Claim>> m_claims;
     std::map<std::uint8_t, std::vector<Claim>> m_claimsOfHosts; ///< by character, each host once
