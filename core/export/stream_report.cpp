@@ -209,15 +209,19 @@ std::vector<Finding> findingsOn(const model::SessionView& session,
                                 const StreamReportOptions& options) {
     std::vector<Finding> findings;
     model::StreamFigures sum;
+    model::StreamFigures ofSamples;
     for (const model::StreamFigures& stream : streams) {
         sum.add(stream);
+        if (stream.isSampled()) {
+            ofSamples.add(stream);
+        }
     }
     if (sum.count(Datagrams) == 0) {
         findings.push_back({IncidentSeverity::Error, "No MXTP datagram was received."});
     } else {
         findings.push_back(verdictFinding(session, options.range));
-        findings.push_back(lossFinding(sum));
-        addCauses(findings, sum);
+        findings.push_back(lossFinding(ofSamples));
+        addCauses(findings, ofSamples);
         addMessages(findings, streams);
         addOrder(findings, sum);
         addRestarts(findings, streams);

@@ -44,9 +44,9 @@ PropertyValue lostByCause(const Source& from) {
         model::addLosses(lost, more.byCause);
         pending += more.pending;
     }
-    const QString toolTip =
-        tr("Samples lost, by whose loss it was as far as there is evidence: the network, the sender, this "
-           "computer, or unknown. The packet after a gap says why.");
+    const QString toolTip = tr("Samples lost and messages incomplete, by whose loss it was as far as there "
+                               "is evidence: the network, the sender, this "
+                               "computer, or unknown. The packet after a gap says why.");
     QStringList parts; // those that are nothing only take room
     const auto add = [&](const QString& text, model::LossCause cause) {
         if (const std::uint64_t count = lost[static_cast<std::size_t>(cause)]; count != 0) {

@@ -28,17 +28,21 @@ std::string withDetail(std::string text, const Incident& incident) {
     return incident.detail.empty() ? text : std::move(text) + ' ' + incident.detail;
 }
 
+/// "12 samples lost".
+std::string missingText(const Incident& incident, std::uint64_t count) {
+    return counted(count, incident.noun()) + ' ' + std::string(incident.fate());
+}
+
 std::string lossText(const Incident& incident) {
-    return withDetail(counted(incident.samples, "sample") + " lost in " + counted(incident.count, "gap") +
-                          causeText(incident) + '.',
-                      incident);
+    const std::string gaps = incident.isOfMessages() ? "" : " in " + counted(incident.count, "gap");
+    return withDetail(missingText(incident, incident.samples) + gaps + causeText(incident) + '.', incident);
 }
 
 std::string localText(const Incident& incident) {
     const std::uint64_t dropped = wholeOf(incident.value);
     std::string text = dropped != 0 ? "This computer dropped " + counted(dropped, "datagram")
                                     : "This computer did not look at everything in time";
-    text += incident.samples != 0 ? ": " + counted(incident.samples, "sample") + " lost." : ".";
+    text += incident.samples != 0 ? ": " + missingText(incident, incident.samples) + '.' : ".";
     return withDetail(std::move(text), incident);
 }
 
@@ -129,6 +133,12 @@ std::optional<std::uint8_t> Incident::character() const {
 
 std::optional<std::uint8_t> Incident::type() const {
     return onlyOne(parts, kTypeOf);
+}
+
+bool Incident::isOfMessages() const {
+    return !parts.empty() && std::ranges::all_of(parts, [](const Part& part) {
+        return part.type && !countsSamples(*part.type);
+    });
 }
 
 std::vector<std::uint8_t> Incident::characters() const {
@@ -236,8 +246,8 @@ std::string Incident::text(const Part& part) const {
     }
     const bool isLoss =
         kind == IncidentKind::Loss || kind == IncidentKind::Local || kind == IncidentKind::Outage;
-    std::string text = isLoss && !isSilence ? counted(part.samples, "sample") + " lost" : own.text();
-    if (isLoss && part.count != 0 && kind != IncidentKind::Outage) {
+    std::string text = isLoss && !isSilence ? missingText(own, part.samples) : own.text();
+    if (isLoss && part.count != 0 && kind != IncidentKind::Outage && !own.isOfMessages()) {
         text += ", " + counted(part.count, "gap");
     }
     text.erase(text.find_last_not_of('.') + 1);

@@ -116,6 +116,12 @@ struct Incident {
     /// Each once, in growing order.
     [[nodiscard]] std::vector<std::uint8_t> characters() const;
     [[nodiscard]] std::vector<std::uint8_t> types() const;
+    /// All of it is of types that are sent again and again: what is missing are parts of messages.
+    [[nodiscard]] bool isOfMessages() const;
+    /// "sample", or "message".
+    [[nodiscard]] std::string_view noun() const { return isOfMessages() ? "message" : "sample"; }
+    /// What became of it: "lost"; "incomplete" of messages.
+    [[nodiscard]] std::string_view fate() const { return isOfMessages() ? "incomplete" : "lost"; }
     /// What of it was to one character; as a whole where it is of no character.
     [[nodiscard]] Incident of(std::uint8_t character) const;
     /// Whether a character is touched, or all of its sender; of what lasts, whether it still is.

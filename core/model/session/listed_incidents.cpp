@@ -149,7 +149,7 @@ std::string amountOf(const SessionView& session, const Incident& incident, std::
                                                     incident.lastStamp + std::chrono::seconds(1));
         }
     }
-    return lossAmount(incident.samples, sum.expected(), noun);
+    return lossAmount(incident.samples, incident.isOfMessages() ? 0 : sum.expected(), noun);
 }
 
 std::string causeOf(const Incident& incident) {
@@ -159,8 +159,8 @@ std::string causeOf(const Incident& incident) {
 }
 
 std::string lossHeadline(const SessionView& session, const Incident& incident, const std::string& lost) {
-    return (lost.empty() ? amountOf(session, incident, "sample") : lost) + " lost on " +
-           whom(session, incident) + causeOf(incident);
+    return (lost.empty() ? amountOf(session, incident, incident.noun()) : lost) + ' ' +
+           std::string(incident.fate()) + " on " + whom(session, incident) + causeOf(incident);
 }
 
 /// Of an outage: "no data for 1.2 s".
@@ -325,7 +325,7 @@ std::string briefOf(const SessionView& session, const ListedIncident& listed) {
     switch (incident.kind) {
     case IncidentKind::Loss:
     case IncidentKind::Local:
-        return incident.samples != 0 ? amountOf(session, incident, {}) + " lost"
+        return incident.samples != 0 ? amountOf(session, incident, {}) + ' ' + std::string(incident.fate())
                                      : grouped(static_cast<std::uint64_t>(incident.value)) + " dropped here";
     case IncidentKind::Outage:
         return silenceOf(session, listed);

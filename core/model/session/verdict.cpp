@@ -70,7 +70,8 @@ public:
             sum += countsOf(incident.sender, part);
         }
         const std::uint64_t samples = sum.lost[static_cast<std::size_t>(*incident.cause)];
-        return samples == 0 ? std::string() : lossAmount(samples, sum.expected, noun);
+        const std::uint64_t expected = incident.isOfMessages() ? 0 : sum.expected;
+        return samples == 0 ? std::string() : lossAmount(samples, expected, noun);
     }
 
     /// Whether a stream of it is above its limit: that of another may have been.
@@ -109,14 +110,15 @@ TakeVerdict fromIncidents(const SessionView& session, const std::vector<ListedIn
     verdict.isOver = worst.state == State::Over;
     const std::string answer = isBad ? "Not good" : "Not quite good";
     const std::string lasts = verdict.isOver ? ", over" : ", going on";
-    const std::string lost = losses.amountOf(worst, "sample");
+    const std::string lost = losses.amountOf(worst, worst.incident.noun());
     const std::string what =
         (together.size() > 1 ? outageHeadlineOf(session, together) : headlineOf(session, worst, lost)) +
         whenOf(session, worst);
     verdict.text = answer + ": " + what + lasts;
     verdict.narrow = answer + lasts + ": " + what;
     const std::string amount = losses.amountOf(worst, {});
-    verdict.what = amount.empty() ? briefOf(session, worst) : amount + " lost";
+    verdict.what =
+        amount.empty() ? briefOf(session, worst) : amount + ' ' + std::string(worst.incident.fate());
     const std::string cause = amount.empty() ? causeOf(worst)
                               : worst.incident.cause == LossCause::Unknown
                                   ? ", cause unknown"
