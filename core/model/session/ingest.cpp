@@ -4,7 +4,6 @@
 #include "core/model/accounting/attribution.h"
 #include "core/model/body/character_pose.h"
 #include "core/model/body/null_pose.h"
-#include "core/model/body/null_pose_findings.h"
 #include "core/model/incidents/incident_follower.h"
 #include "core/model/text.h"
 #include "core/wire/type_table.h"
@@ -30,8 +29,6 @@ constexpr log::Duration kShortSilence = std::chrono::seconds(5);
 constexpr log::Duration kLongSilence = std::chrono::minutes(1);
 /// So many datagrams of each character of a sender make it unlikely that another one appears.
 constexpr std::size_t kEstablishedEach = 32;
-/// Whether senders contradict themselves is looked at this often.
-constexpr log::Duration kContradictions = std::chrono::milliseconds(500);
 
 /// What is large is rare, or strange: whoever looks at it decodes it again.
 bool keepsNewest(const log::Packet& packet, const wire::Header& header) {
@@ -143,20 +140,6 @@ std::size_t Ingest::takeNew(log::Stamp now, std::size_t most) {
     m_index.dropBefore(m_begin);
     m_digests.dropBefore(m_begin);
     return count;
-}
-
-void Ingest::lookForContradictions() {
-    if (m_observed < m_nextContradictions) {
-        return;
-    }
-    m_nextContradictions = m_observed + kContradictions;
-    for (const Sender& sender : m_senders) {
-        if (sender.isPerforming()) {
-            const auto found = hasEnded(sender) ? std::vector<Contradiction>() : sender.contradictions();
-            m_incidents->takeContradiction(sender.id, std::nullopt, m_observed,
-                                           found.empty() ? "" : found.front().text);
-        }
-    }
 }
 
 /// What was lost of the packets that nobody looked at is this computer's loss.
@@ -363,13 +346,7 @@ void Ingest::takeNullPose(const wire::NullPose& part, const Observation& seen) {
     if (history.add(part, seen.header->datagramCounter, packet.number, packet.stamp)) {
         m_incidents->takeChange(IncidentKind::ScaleChange, seen.character->key, packet, {});
     }
-    if (const NullPoseRecord record = history.record(packet.number);
-        record.pose != nullptr && record.pose->isComplete() &&
-        record.changed != seen.character->judgedNullPose) {
-        seen.character->judgedNullPose = record.changed;
-        m_incidents->takeContradiction(packet.sender, seen.character->key.character, packet.stamp,
-                                       gravestError(record));
-    }
+    lookAtNullPose(history.record(packet.number), *seen.character, packet);
     if (m_nullPoseKeeping.grew(before, history.memoryBytes())) {
         std::vector<NullPoseHistory*> all;
         for (const auto& [key, each] : m_nullPoses) {
@@ -461,14 +438,6 @@ Character* Ingest::predecessorOf(const Character& character) {
         namesakes.pop_front();
     }
     return newest;
-}
-
-void Ingest::setOverride(log::SenderId sender, const SenderOverride& overrides) {
-    if (Sender* known = m_senders.find(sender)) {
-        known->overrides = overrides;
-        m_nextContradictions = {};
-        lookForContradictions();
-    }
 }
 
 const NullPoseHistory* Ingest::nullPoses(const CharacterKey& key) const {

@@ -33,6 +33,7 @@ class Attribution;
 struct Occurrence;
 class IncidentFollower;
 class NullPoseHistory;
+struct NullPoseRecord;
 struct Thresholds;
 
 /// Sums over senders.
@@ -205,6 +206,7 @@ private:
     void takeContent(const Observation& seen);
 
     void lookForContradictions();
+    void lookAtNullPose(const NullPoseRecord& record, Character& character, const log::Packet& packet);
     void takeMetadata(const wire::MetaData& message, const Observation& seen);
     void takeNullPose(const wire::NullPose& part, const Observation& seen);
     // Null where there are too many already.
