@@ -21,27 +21,33 @@ namespace posewire::gui {
 
 namespace {
 
+using namespace std::chrono_literals;
+
 constexpr double kLeastMark = 2.5; ///< pixels: what was lost is seen, however little
 
 /// The shortest round step that is at least as long.
 log::Duration roundStep(log::Duration least) {
-    using namespace std::chrono_literals;
-    constexpr std::array<log::Duration, 31> kSteps{
-        1us,   2us,   5us, 10us, 20us, 50us, 100us, 200us, 500us, 1ms,  2ms,  5ms,   10ms,  20ms, 50ms, 100ms,
-        200ms, 500ms, 1s,  2s,   5s,   10s,  15s,   30s,   1min,  2min, 5min, 10min, 30min, 1h,   3h};
+    constexpr std::array<log::Duration, 33> kSteps{1us,   2us,   5us, 10us, 20us, 50us, 100us, 200us, 500us,
+                                                   1ms,   2ms,   5ms, 10ms, 20ms, 50ms, 100ms, 200ms, 500ms,
+                                                   1s,    2s,    5s,  10s,  15s,  30s,  1min,  2min,  5min,
+                                                   10min, 30min, 1h,  3h,   6h,   12h};
     const auto step = std::ranges::lower_bound(kSteps, least);
     return step == kSteps.end() ? log::Duration(24h) : *step;
 }
 
 /// As exact as the step needs.
 QString tickText(log::WallTime time, log::Duration step) {
-    using namespace std::chrono_literals;
     const QString whole = timeOfDay(time);
     if (step >= 1s) {
         return whole.chopped(4);
     }
     const auto micros = std::chrono::floor<std::chrono::microseconds>(time).time_since_epoch() % 1ms;
     return step >= 1ms ? whole : whole + QStringLiteral("%1").arg(micros / 1us, 3, 10, QLatin1Char('0'));
+}
+
+QString inSight(log::Duration length) {
+    const double seconds = log::secondsOf(length);
+    return seconds < 0.1 ? fixed(seconds * 1'000, 1) + QStringLiteral(" ms") : duration(seconds);
 }
 
 /// Marks of the worst lie on top of others.
@@ -112,9 +118,12 @@ void TimelineView::paintRuler(QPainter& painter) const {
     painter.drawLine(namesWidth(), 0, namesWidth(), viewport()->height());
     painter.setFont(tabularFont());
     const QFontMetrics metrics = painter.fontMetrics();
-    const int textWidth = metrics.horizontalAdvance(QStringLiteral("00:00:00.000   "));
     const auto length = m_window.to - m_window.from;
-    const log::Duration step = roundStep(length * textWidth / stripWidth());
+    const auto stepFor = [&](const QString& text) {
+        return roundStep(length * metrics.horizontalAdvance(text) / stripWidth());
+    };
+    const log::Duration coarse = stepFor(QStringLiteral("00:00:00.000   "));
+    const log::Duration step = coarse < 1ms ? stepFor(QStringLiteral("00:00:00.000000   ")) : coarse;
     const int lane = fontMetrics().height();
     painter.setClipRect(namesWidth(), 0, stripWidth(), viewport()->height());
     // Ticks stand at round times of day, which is the local one.
@@ -136,8 +145,7 @@ void TimelineView::paintRuler(QPainter& painter) const {
     painter.setPen(theme().dim);
     const int margin = CellDelegate::margin(fontMetrics());
     painter.drawText(QRect(margin, 0, namesWidth() - margin, ruler.height()),
-                     Qt::AlignVCenter | Qt::AlignLeft,
-                     tr("%1 in sight").arg(duration(log::secondsOf(length))));
+                     Qt::AlignVCenter | Qt::AlignLeft, tr("%1 in sight").arg(inSight(length)));
 }
 
 void TimelineView::paintIncidents(QPainter& painter) const {
