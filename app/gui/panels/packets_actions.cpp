@@ -371,15 +371,23 @@ void PacketsPanel::copyBytes(ByteFormat format) {
                         : tr("Packets copied: %1").arg(grouped(packets.size())));
 }
 
+std::vector<std::uint64_t> PacketsPanel::meantPackets() const {
+    std::vector<std::uint64_t> packets = selectedPackets();
+    if (packets.empty() && m_view.end() != m_view.begin()) {
+        packets.push_back(newestVisiblePacket(m_view));
+    }
+    return packets;
+}
+
 bool PacketsPanel::areMarked() const {
-    const auto packets = selectedPackets();
+    const auto packets = meantPackets();
     const auto& marks = m_view.annotations().marks;
     return !packets.empty() &&
            std::ranges::all_of(packets, [&](std::uint64_t number) { return marks.contains(number); });
 }
 
 void PacketsPanel::toggleMark() {
-    const auto packets = selectedPackets();
+    const auto packets = meantPackets();
     if (packets.empty()) {
         say(tr("No packet is selected."));
         return;
@@ -388,24 +396,30 @@ void PacketsPanel::toggleMark() {
     for (const std::uint64_t number : packets) {
         m_commands.setMarked(number, isMarked);
     }
+    if (selectedPackets().empty()) {
+        const QString number = grouped(packets.front());
+        say(isMarked ? tr("Packet %1 is marked.").arg(number)
+                     : tr("Packet %1 is not marked any more.").arg(number));
+    }
     refresh();
 }
 
 void PacketsPanel::editComment() {
-    const auto packet = m_view.selection().packet;
-    if (!packet) {
+    const std::vector<std::uint64_t> meant = meantPackets();
+    if (meant.empty()) {
         say(tr("No packet is selected."));
         return;
     }
+    const std::uint64_t packet = m_view.selection().packet.value_or(meant.front());
     const auto& comments = m_view.annotations().comments;
-    const auto before = comments.find(*packet);
+    const auto before = comments.find(packet);
     const auto comment = askForText(
-        {tr("Comment on packet %1").arg(grouped(*packet)), tr("&Comment (leave empty to remove it)"),
+        {tr("Comment on packet %1").arg(grouped(packet)), tr("&Comment (leave empty to remove it)"),
          QString(), tr("Save"),
          before == comments.end() ? QString() : QString::fromStdString(before->second)},
         [](const QString&) { return QString(); }, window());
     if (comment) {
-        m_commands.setComment(*packet, *comment);
+        m_commands.setComment(packet, *comment);
         refresh();
     }
 }

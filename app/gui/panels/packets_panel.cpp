@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/panels/packets_panel.h"
 
+#include "app/gui/models/display_filter.h"
 #include "app/gui/models/text.h"
 #include "app/gui/panels/filter_bar.h"
 #include "app/gui/panels/fitting_header.h"
 
 #include <QPushButton>
 #include <QScopedValueRollback>
+
+#include <utility>
 
 namespace posewire::gui {
 
@@ -127,6 +130,19 @@ void PacketsPanel::followCursor() {
     }
 }
 
+void PacketsPanel::followRange() {
+    const auto chosen = m_view.rangeChoice().fixed;
+    const auto packet = m_view.selection().packet;
+    if (std::exchange(m_chosenRange, chosen) != chosen) {
+        m_range = chosen;
+    } else if (m_range && packet && packet != m_selectedPacket) {
+        const auto selected = m_view.packet(*packet);
+        const bool isInside = selected && selected->stamp >= m_range->from && selected->stamp < m_range->to;
+        m_range = isInside ? m_range : std::nullopt;
+    }
+    m_selectedPacket = packet;
+}
+
 /// The session's filter may have been set by another dock.
 void PacketsPanel::followFilter() {
     const model::Jump* jump = m_view.filterJump();
@@ -136,13 +152,18 @@ void PacketsPanel::followFilter() {
     // What a sender's positions come in turns out, or is declared, while it sends.
     const auto units = m_comparesLengths ? unusualPositionUnits(m_view) : PositionUnits();
     const log::Stamp first = m_view.firstStamp(); // from which times count: of the first packet, once there
-    if (text == m_filterText && units == m_filterUnits && first == m_filterFirst) {
+    followRange();
+    if (text == m_filterText && units == m_filterUnits && first == m_filterFirst &&
+        m_range == m_filterRange) {
         return;
     }
     m_filterText = text;
+    m_filterRange = m_range;
     m_filterFirst = first;
     m_filter->setApplied(text);
-    auto compiled = filter::Filter::compile(text.trimmed().toStdString());
+    const QString condition =
+        m_range ? joinedFilter(text, rangeFilter(m_view, *m_range), FilterJoin::And) : text.trimmed();
+    auto compiled = filter::Filter::compile(condition.toStdString());
     if (!compiled) {
         return; // the line says what is wrong; what is listed stays
     }
@@ -219,11 +240,13 @@ void PacketsPanel::selectRow(const QModelIndex& index) {
 void PacketsPanel::showEmptyState() {
     const bool isEmpty = m_packets.rowCount() == 0;
     const bool isFilteredOut = isEmpty && m_packets.isFiltered() && m_view.end() != m_view.begin();
+    const bool isCleared = m_filterText.trimmed().isEmpty();
     m_list->setEmptyText(
         !isFilteredOut ? tr("No packets yet. Every packet that arrives is listed here, readable or not.")
         : m_filter->isBusy() ? tr("Filtering …")
+        : isCleared          ? tr("No packet is in the selected range")
                              : tr("No packet matches the filter\n\n"));
-    m_clear->setVisible(isFilteredOut && !m_filter->isBusy());
+    m_clear->setVisible(isFilteredOut && !m_filter->isBusy() && !isCleared);
     if (m_clear->isVisible()) {
         m_clear->resize(m_clear->sizeHint());
         const QRect area = m_list->viewport()->geometry();
@@ -240,6 +263,9 @@ QString PacketsPanel::summary() const {
     const auto rows = static_cast<std::uint64_t>(m_packets.rowCount());
     QString count =
         m_packets.isFiltered() ? tr("%1 of %2 shown").arg(grouped(rows), grouped(all)) : grouped(rows);
+    if (m_filterRange) {
+        count += tr(", of the selected range");
+    }
     if (m_packets.isFiltered() && m_unfiltered != 0) {
         count += tr(" · %1 not looked at in time").arg(grouped(m_unfiltered));
     }

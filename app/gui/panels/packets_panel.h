@@ -53,6 +53,8 @@ private:
     void connectParts();
     void fitColumns();
     void followFilter();
+    /// The list holds to a range from when it is selected until a packet beyond it is.
+    void followRange();
     void takeMatches();
     void followCursor();
     void followSelection();
@@ -84,6 +86,8 @@ private:
     // What the operator can do with the selected packets. The line below the list says what was done, or why
     // not.
     [[nodiscard]] std::vector<std::uint64_t> selectedPackets() const;
+    /// What is marked or commented on: those, or the newest shown where none is selected.
+    [[nodiscard]] std::vector<std::uint64_t> meantPackets() const;
     void copyRows(RowFormat format);
     void copyCell();
     void copyBytes(ByteFormat format);
@@ -98,12 +102,16 @@ private:
 
     PacketModel m_packets;
     std::unique_ptr<PacketFilterRun> m_run;
-    std::optional<std::uint64_t> m_stoppedAt; ///< the packet at which the cursor is paused
-    std::uint64_t m_filtered = 0;             ///< packets that the run was through with, when last asked
-    std::uint64_t m_backlog = 0;              ///< packets that were there when the filter was set
-    std::uint64_t m_unfiltered = 0;           ///< packets that the filter was too late for
-    QString m_filterText;                     ///< as it was last taken from the session
-    bool m_comparesLengths = false;           ///< the filter that runs
+    std::optional<std::uint64_t> m_stoppedAt;      ///< the packet at which the cursor is paused
+    std::uint64_t m_filtered = 0;                  ///< packets that the run was through with, when last asked
+    std::uint64_t m_backlog = 0;                   ///< packets that were there when the filter was set
+    std::uint64_t m_unfiltered = 0;                ///< packets that the filter was too late for
+    QString m_filterText;                          ///< as it was last taken from the session
+    std::optional<model::TimeRange> m_chosenRange; ///< likewise
+    std::optional<model::TimeRange> m_range;       ///< that the list holds to
+    std::optional<std::uint64_t> m_selectedPacket; ///< when the range was last followed
+    std::optional<model::TimeRange> m_filterRange; ///< that the filter runs with
+    bool m_comparesLengths = false;                ///< the filter that runs
     log::Stamp m_filterFirst{};
     PositionUnits m_filterUnits; ///< that it runs with
     FilterBar* m_filter;

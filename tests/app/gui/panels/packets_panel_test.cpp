@@ -398,6 +398,42 @@ TEST_F(PacketsPanelTest, CopiesTheSelectedPacketInEachFormat) {
     EXPECT_EQ(m_panel.message(), "Packets copied: 1");
 }
 
+TEST_F(PacketsPanelTest, MarksTheMomentWhereNoPacketIsSelected) {
+    trigger("mark");
+    EXPECT_FALSE(m_panel.message().isEmpty());
+    poses(0, 50);
+    trigger("mark");
+    poses(50, 60);
+    trigger("mark");
+    EXPECT_EQ(m_stage.session.annotations().marks, (std::set<std::uint64_t>{49, 59}));
+    EXPECT_EQ(m_panel.message(), QStringLiteral("Packet 59 is marked."));
+    EXPECT_EQ(selected(), std::nullopt) << "the list still follows";
+}
+
+TEST_F(PacketsPanelTest, HoldsToTheSelectedRangeUntilAPacketElsewhereIsShown) {
+    poses(0, 200); // 10 ms apart
+    const auto choose = [this](log::Duration from, log::Duration to) {
+        m_stage.commands.selectRange({.fixed = model::TimeRange{Stage::kStart + from, Stage::kStart + to}});
+        refresh();
+        const_cast<PacketFilterRun*>(m_panel.filterRun())->wait();
+        refresh();
+    };
+    choose(500ms, 700ms);
+    EXPECT_EQ(m_panel.packets().rowCount(), 20);
+    EXPECT_EQ(m_panel.packets().packetAt(0), 50U);
+    EXPECT_EQ(m_panel.summary(), QStringLiteral("following · 20 of 200 shown, of the selected range"));
+    filterBy(QStringLiteral("sample < 55 || sample > 150"));
+    EXPECT_EQ(m_panel.packets().rowCount(), 5);
+    filterBy({});
+    m_panel.goTo(QStringLiteral("150"));
+    EXPECT_EQ(m_panel.packets().rowCount(), 200);
+    choose(100ms, 200ms);
+    EXPECT_EQ(m_panel.packets().rowCount(), 10);
+    m_stage.commands.selectRange({});
+    refresh();
+    EXPECT_EQ(m_panel.packets().rowCount(), 200);
+}
+
 TEST_F(PacketsPanelTest, GoesThroughStreamsAndMarksInBothDirections) {
     poses(0, 20);
     EXPECT_EQ(m_panel.goTo("10"), "");
