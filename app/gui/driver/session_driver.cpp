@@ -98,13 +98,23 @@ SessionDriver::SessionDriver(const log::Clock& clock, QString cacheFolder, QObje
     m_timer.setTimerType(Qt::PreciseTimer);
     m_timer.setSingleShot(true);
     connect(&m_timer, &QTimer::timeout, this, [this] {
-        const log::Moment begin = m_clock.monotonic();
+        m_tickBegin = m_clock.monotonic();
         tick();
         // A tick that takes long is followed by a rest as long: the window never takes more than half a
         // processor.
-        const auto took = std::chrono::duration_cast<std::chrono::milliseconds>(m_clock.monotonic() - begin);
+        const auto took =
+            std::chrono::duration_cast<std::chrono::milliseconds>(m_clock.monotonic() - m_tickBegin);
         m_timer.start(std::clamp(std::max(kTick - took, took), std::chrono::milliseconds(1), kSlowestTick));
     });
+}
+
+void SessionDriver::hasten() {
+    const auto passed =
+        std::chrono::duration_cast<std::chrono::milliseconds>(m_clock.monotonic() - m_tickBegin);
+    const auto left = std::max(kTick - passed, std::chrono::milliseconds(0));
+    if (m_timer.isActive() && left < m_timer.remainingTimeAsDuration()) {
+        m_timer.start(left);
+    }
 }
 
 std::shared_ptr<log::Scratch> SessionDriver::newScratch() const {

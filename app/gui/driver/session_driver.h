@@ -225,7 +225,10 @@ private:
         (shown().*setter)(arguments...);
         m_isChanged = true;
         m_tableTick = {};
+        hasten();
     }
+    /// What the operator asked for does not wait out the rest after a long tick.
+    void hasten();
     /// The same with the moment that is shown.
     void setCursor(const model::Cursor& cursor);
     void stopAt(std::uint64_t packet);
@@ -268,6 +271,7 @@ private:
     bool m_isLooping = false;
     std::jthread m_demo;
     QTimer m_timer;
+    log::Moment m_tickBegin{}; ///< of the newest that the timer called
     model::HeldUp m_heldUp;
     HealthMeter m_meter;
     std::uint64_t m_pictures = 0;
