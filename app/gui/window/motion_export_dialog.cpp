@@ -210,6 +210,8 @@ void MotionExportDialog::watch() {
 void MotionExportDialog::showState(const QString& text) {
     m_state->setText(text);
     m_button->setText(m_watch->isActive() ? tr("Ca&ncel") : tr("&Save as…"));
+    // A layout keeps no room for lines that are broken.
+    resize(width(), std::max(height(), layout()->totalHeightForWidth(width())));
 }
 
 } // namespace posewire::gui

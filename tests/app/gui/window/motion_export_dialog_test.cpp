@@ -78,6 +78,18 @@ TEST_F(MotionExportDialogTest, SaysWhyAFileCannotBeWritten) {
     EXPECT_TRUE(says("none/take.csv"));
 }
 
+TEST_F(MotionExportDialogTest, GrowsSoThatAllThatItSaysIsSeen) {
+    m_dialog->show();
+    const QString name = QStringLiteral("a take with a name that is about as long as names of takes are.csv");
+    EXPECT_FALSE(saved(name).isEmpty());
+    const auto labels = m_dialog->findChildren<QLabel*>();
+    const auto said = std::ranges::find_if(labels, [&](QLabel* one) { return one->text().contains(name); });
+    ASSERT_NE(said, labels.end());
+    EXPECT_TRUE(QTest::qWaitFor(
+        [&] { return (*said)->height() >= (*said)->heightForWidth((*said)->width()); }, 1'000));
+    EXPECT_GE((*said)->y(), m_dialog->findChild<QListWidget*>()->geometry().bottom());
+}
+
 TEST_F(MotionExportDialogTest, WhatIsClosedBeforeItIsDoneLeavesNothing) {
     choose("glb");
     m_dialog->save(m_folder.filePath("take.glb"));
