@@ -66,7 +66,7 @@ TEST_F(VerdictBarTest, IsAboutTheWireAlsoWhileTheDisplayIsPaused) {
     refresh();
     EXPECT_THAT(headline(), StartsWith("Good for the take"));
     m_stage.session.setCursor({model::Cursor::Mode::Paused, m_stage.session.end() - 1});
-    m_stage.now += 1s; // the sender dies
+    m_stage.now += 1'025ms; // the sender dies
     m_stage.follow();
     refresh();
     EXPECT_THAT(headline(), StartsWith("Not good: no data from"));
