@@ -22,6 +22,8 @@ constexpr std::size_t kLeastParts = 8;
 /// of a time code that runs at a speed of its own.
 constexpr double kMostErrorPpm = 50;
 constexpr double kMostErrorShare = 0.05;
+/// A skew that is less than so many of its errors is not seen.
+constexpr double kLeastErrors = 2;
 
 constexpr std::int32_t kDayMs = 86'400'000;
 /// What came around midnight came within so much.
@@ -130,8 +132,8 @@ ClockSkew ClockFit::skew() const {
     if (error > std::max(kMostErrorPpm * 1e-3, kMostErrorShare * std::abs(slope))) {
         return {};
     }
-    return std::abs(slope) > error ? ClockSkew{slope * 1e3, slope * lastSeconds, error * 1e3}
-                                   : ClockSkew{0, 0, error * 1e3};
+    return std::abs(slope) > kLeastErrors * error ? ClockSkew{slope * 1e3, slope * lastSeconds, error * 1e3}
+                                                  : ClockSkew{0, 0, error * 1e3};
 }
 
 } // namespace posewire::model

@@ -93,7 +93,7 @@ struct InterArrival {
 
 /// How much faster the sender's clock goes than ours, in parts per million, and what that made. Both are 0
 /// where it is not known: where only the sample counter shows the sender's time, and as long as delays on the
-/// way hide it; and where it is less than its own error, so that none is seen.
+/// way hide it; and where it is less than twice its own error, so that none is seen.
 struct ClockSkew {
     double skewPpm = 0;
     double driftMs = 0;
