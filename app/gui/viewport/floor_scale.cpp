@@ -61,21 +61,32 @@ std::vector<QRectF> roomsOf(const SceneFrame& frame) {
     return rooms;
 }
 
-void addNumber(const glm::vec3& place, const QString& text, std::span<const QRectF> rooms,
-               SceneFrame& frame) {
-    const auto screen = frame.camera.project(place, frameAspect(frame));
-    const auto isCovered = [&](const QRectF& room) {
-        return room.contains(static_cast<double>(screen->x), static_cast<double>(screen->y));
-    };
-    if (screen && std::ranges::none_of(rooms, isCovered)) {
-        frame.texts.push_back({place, text, theme().dim, true});
+/// A number on the floor, and where it appears, in logical pixels.
+struct FloorNumber {
+    SceneText text;
+    QPointF screen;
+    float away; ///< from the eye
+};
+
+void addCandidate(SceneText text, std::span<const QRectF> rooms, const SceneFrame& frame,
+                  std::vector<FloorNumber>& numbers) {
+    const auto place = frame.camera.project(text.position, frameAspect(frame));
+    const QPointF at =
+        place ? QPointF(static_cast<double>(place->x), static_cast<double>(place->y)) : QPointF();
+    if (!place || std::ranges::any_of(rooms, [&](const QRectF& room) { return room.contains(at); })) {
+        return;
     }
+    const double half = 0.5 / static_cast<double>(frame.pixelRatio);
+    const float away = glm::distance(text.position, frame.camera.eye());
+    numbers.push_back({std::move(text), {at.x() * frame.width * half, at.y() * frame.height * half}, away});
 }
 
-/// "x 1 m" where the axis crosses the lines of the grid.
+/// "x 1 m" where the axis crosses the lines of the grid; toward the horizon only as many as stand apart.
 void addFloorNumbers(SceneFrame& frame) {
+    constexpr double kAbove = 18; // logical pixels
     const std::vector<QRectF> rooms = roomsOf(frame);
     const double step = std::max(1.0, scaleStep(metresPerPixel(frame), kNumbersApart));
+    std::vector<FloorNumber> numbers;
     for (const auto& [name, axis] : {std::pair{tr("x"), 0}, std::pair{tr("y"), 1}}) {
         for (int i = -kMostNumbers; i <= kMostNumbers; ++i) {
             glm::vec3 place(0.0F);
@@ -83,8 +94,21 @@ void addFloorNumbers(SceneFrame& frame) {
             const bool isNear =
                 glm::distance(place, frame.camera.target) < kFarthestNumber * frame.camera.distance;
             if (i != 0 && isNear) {
-                addNumber(place, name + QLatin1Char(' ') + metres(i * step, step), rooms, frame);
+                const QString words = name + QLatin1Char(' ') + metres(i * step, step);
+                addCandidate({place, words, theme().dim, true}, rooms, frame, numbers);
             }
+        }
+    }
+    std::ranges::stable_sort(numbers, {}, &FloorNumber::away);
+    std::vector<QPointF> taken;
+    for (FloorNumber& number : numbers) {
+        const auto isTooNear = [&number](const QPointF& other) {
+            return std::abs(number.screen.x() - other.x()) < kNumbersApart &&
+                   std::abs(number.screen.y() - other.y()) < kAbove;
+        };
+        if (std::ranges::none_of(taken, isTooNear)) {
+            taken.push_back(number.screen);
+            frame.texts.push_back(std::move(number.text));
         }
     }
 }

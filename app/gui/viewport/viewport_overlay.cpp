@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/viewport/viewport_overlay.h"
 
+#include "app/gui/theme/event_watch.h"
 #include "app/gui/theme/help_link.h"
 #include "app/gui/theme/widgets.h"
 #include "app/gui/viewport/overlays/overlays.h"
@@ -74,6 +75,8 @@ int weightOf(const ViewportLabel& label) {
 }
 
 class ViewportButtons final : public QWidget {
+    static constexpr int kApart = 8; // pixels
+
 public:
     explicit ViewportButtons(ViewportWidget* viewport)
         : QWidget(viewport),
@@ -81,10 +84,11 @@ public:
           m_overlays(framedButton(tr("Overlays ▾"), tr("What is drawn over the figures"), this)),
           m_frame(
               framedButton(tr("Frame  F"), tr("Show all characters, and keep them in the picture"), this)),
-          m_projection(framedButton({}, tr("Perspective or orthographic"), this)) {
+          m_projection(framedButton({}, tr("Perspective or orthographic"), this)),
+          m_more(framedButton(QStringLiteral("»"), tr("More"), this)) {
         setObjectName(kButtons);
-        auto* row = spacedRow({12, 12, 12, 12}, 8, this);
-        for (QToolButton* each : {m_axes, m_overlays, m_frame, m_projection}) {
+        auto* row = spacedRow({12, 12, 12, 12}, kApart, this);
+        for (QToolButton* each : {m_axes, m_overlays, m_frame, m_projection, m_more}) {
             each->setFocusPolicy(Qt::TabFocus);
             row->addWidget(each);
         }
@@ -101,8 +105,14 @@ public:
         m_overlays->setPopupMode(QToolButton::InstantPopup);
         connect(m_frame, &QToolButton::clicked, viewport, &ViewportWidget::frameAll);
         connect(m_projection, &QToolButton::clicked, viewport, &ViewportWidget::toggleProjection);
+        m_more->setObjectName(QStringLiteral("moreOfViewport"));
+        m_more->setAccessibleName(tr("More"));
+        m_more->setMenu(new QMenu(m_more));
+        m_more->setPopupMode(QToolButton::InstantPopup);
+        connect(m_more->menu(), &QMenu::aboutToShow, this, &ViewportButtons::listMore);
         connect(viewport, &ViewportWidget::optionsChanged, this,
                 [this, viewport] { showOptions(*viewport); });
+        new EventWatch(viewport, QEvent::Resize, [this, viewport] { fitInto(viewport->width()); });
         showOptions(*viewport);
     }
 
@@ -140,13 +150,44 @@ private:
         m_projection->setAccessibleName(viewport.projection() == render::Projection::Perspective
                                             ? tr("Projection: perspective")
                                             : tr("Projection: orthographic"));
+        fitInto(viewport.width());
+    }
+    /// The last ones go into a menu where there is no room for all.
+    void fitInto(int width) {
+        const std::array buttons{m_axes, m_overlays, m_frame, m_projection};
+        const QMargins margins = layout()->contentsMargins();
+        const auto widthOf = [](const QToolButton* button) { return button->sizeHint().width() + kApart; };
+        int room = width - margins.left() - margins.right() + kApart;
+        for (const QToolButton* button : buttons) {
+            room -= widthOf(button);
+        }
+        m_more->setVisible(room < 0);
+        room -= room < 0 ? widthOf(m_more) : 0;
+        for (auto button = buttons.rbegin(); button != buttons.rend(); ++button) {
+            (*button)->setVisible(room >= 0);
+            room += room < 0 ? widthOf(*button) : 0;
+        }
         adjustSize();
+    }
+    void listMore() {
+        m_more->menu()->clear();
+        for (QToolButton* button : {m_axes, m_overlays, m_frame, m_projection}) {
+            if (button->isVisible()) {
+                continue;
+            }
+            if (button->menu() != nullptr) {
+                m_more->menu()->addMenu(button->menu())->setText(button->text().chopped(2));
+            } else {
+                m_more->menu()->addAction(button->accessibleName(), button, &QToolButton::click);
+            }
+        }
     }
 
     QToolButton* m_axes;
     QToolButton* m_overlays;
     QToolButton* m_frame;
     QToolButton* m_projection;
+    QToolButton* m_more;
 };
 
 } // namespace

@@ -68,5 +68,26 @@ TEST(FloorScale, KeepsOutOfFigures) {
     EXPECT_NE(find(frame, QStringLiteral("x 3 m")), nullptr);
 }
 
+TEST(FloorScale, NumbersKeepApartAlsoTowardTheHorizon) {
+    for (const float pitch : {0.03F, 0.1F, 0.3F}) {
+        render::Camera camera;
+        camera.pitch = pitch;
+        camera.distance = 8;
+        const SceneFrame frame = frameOf(camera);
+        std::vector<glm::vec2> places;
+        for (const SceneText& text : frame.texts) {
+            const auto place = camera.project(text.position, 1.5F);
+            ASSERT_TRUE(place);
+            const glm::vec2 pixel(600 * place->x, 400 * place->y);
+            for (const glm::vec2& other : places) {
+                EXPECT_TRUE(std::abs(pixel.x - other.x) >= 48 || std::abs(pixel.y - other.y) >= 16)
+                    << text.text.toStdString() << " at " << pitch;
+            }
+            places.push_back(pixel);
+        }
+        EXPECT_GT(places.size(), 1U) << pitch;
+    }
+}
+
 } // namespace
 } // namespace posewire::gui

@@ -11,6 +11,7 @@
 #include <QMouseEvent>
 #include <QSignalSpy>
 #include <QTest>
+#include <QToolButton>
 
 #include <gtest/gtest.h>
 
@@ -288,6 +289,34 @@ TEST(ViewportLabels, ShowHowACharacterDoesHoweverLongItsName) {
         }
     }
     EXPECT_GT(found, 10);
+}
+
+TEST_F(Viewport, ButtonsWithoutRoomAreInAMenu) {
+    addViewportButtons(viewport);
+    auto* buttons = viewport.findChild<QWidget*>("viewportButtons");
+    ASSERT_NE(buttons, nullptr);
+    buttons->show();
+    const auto shown = [&] {
+        int count = 0;
+        for (const QToolButton* one : buttons->findChildren<QToolButton*>()) {
+            count += one->isVisible() ? 1 : 0;
+            EXPECT_TRUE(!one->isVisible() ||
+                        viewport.rect().contains(QRect(one->mapTo(&viewport, QPoint(0, 0)), one->size())))
+                << one->text().toStdString() << " at " << viewport.width();
+        }
+        return count;
+    };
+    viewport.resize(900, 400);
+    QTest::qWait(1);
+    EXPECT_EQ(shown(), 4);
+    for (const int width : {420, 300, 220}) {
+        viewport.resize(width, 400);
+        QTest::qWait(1);
+        EXPECT_LE(shown(), 4);
+        const auto* more = buttons->findChild<QToolButton*>("moreOfViewport");
+        ASSERT_NE(more, nullptr);
+        EXPECT_TRUE(more->isVisible()) << width;
+    }
 }
 
 } // namespace
