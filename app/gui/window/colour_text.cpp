@@ -54,7 +54,7 @@ void ColourText::paintEvent(QPaintEvent* /*event*/) {
         painter.drawText(rect(), Qt::AlignCenter, text());
         return;
     }
-    const int margin = fontMetrics().height() / 4 + 1;
+    const int margin = marginsOf(fontMetrics()) / 2;
     const QRect room = rect().adjusted(margin, 0, -margin, 0);
     painter.drawText(room, Qt::AlignLeft | Qt::AlignVCenter,
                      fontMetrics().elidedText(text(), Qt::ElideRight, room.width() + 1));

@@ -22,6 +22,9 @@ public:
     [[nodiscard]] Health level() const { return m_level; }
     void setClickable(bool isClickable);
 
+    /// Pixels beside the text of a plain one, on both sides together.
+    [[nodiscard]] static int marginsOf(const QFontMetrics& metrics) { return 2 * (metrics.height() / 4 + 1); }
+
     [[nodiscard]] QSize sizeHint() const override;
     [[nodiscard]] QSize minimumSizeHint() const override { return sizeHint(); }
 

@@ -20,7 +20,7 @@ namespace {
 QWidget* firstStop(QWidget* part) {
     const QList<QWidget*> children = part->findChildren<QWidget*>();
     const auto found = std::ranges::find_if(children, [](const QWidget* child) {
-        return child->isVisible() && (child->focusPolicy() & Qt::TabFocus) != 0;
+        return child->isVisible() && child->isEnabled() && (child->focusPolicy() & Qt::TabFocus) != 0;
     });
     return found == children.end() ? part : *found;
 }

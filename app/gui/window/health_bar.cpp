@@ -139,40 +139,50 @@ void HealthBar::refreshCharacters() {
     }
 }
 
-/// As wide as the longest that was said so far, up to what is usual: it only grows, so that nothing moves to
-/// and fro.
-int HealthBar::stateWidth(const QFontMetrics& metrics) {
-    const int most = metrics.horizontalAdvance(QStringLiteral("■  10.0 % lost, network, over"));
-    int width = std::max(m_stateWidth, metrics.horizontalAdvance(QStringLiteral("■  99 lost, network")));
+/// As wide as the longest of each that was said so far, up to what is usual: they only grow, so that nothing
+/// moves to and fro.
+void HealthBar::measure(const QFontMetrics& metrics) {
+    const auto grow = [&metrics](int& width, const QString& text, const QString& most) {
+        width = std::clamp(metrics.horizontalAdvance(text), width,
+                           std::max(width, metrics.horizontalAdvance(most)));
+    };
+    grow(m_stateWidth, QStringLiteral("99 lost, network"), QStringLiteral("10.0 % lost, network, over"));
+    grow(m_whatWidth, QStringLiteral("10.0 % lost"), QStringLiteral("10.0 % lost, over"));
     for (const model::CharacterKey& key : m_shown) {
-        const PropertyValue state = verdictState(m_session.verdict(key));
-        width = std::max(width, metrics.horizontalAdvance(QStringLiteral("■  ") + state.text));
+        const model::TakeVerdict& verdict = m_session.verdict(key);
+        grow(m_stateWidth, fromUtf8(verdict.brief), QStringLiteral("10.0 % lost, network, over"));
+        grow(m_whatWidth, fromUtf8(verdict.what), QStringLiteral("10.0 % lost, over"));
+        grow(m_nameWidth, shown(m_session.displayName(key)), QStringLiteral("Performer with a name"));
     }
-    m_stateWidth = std::min(width, most);
-    return m_stateWidth;
 }
 
-/// Shows as many entries as have room, and says how many have none. All are of one width, whatever they say,
-/// so that no word moves its neighbour; names have what is left of the room.
+/// Shows as many entries as have room, and says how many have none; whose loss it is is left out before
+/// anybody is. All are of one width, whatever they say, so that no word moves its neighbour; names have what
+/// is left of the room.
 void HealthBar::fitEntries() {
     const QFontMetrics metrics = m_more->fontMetrics();
-    const int stateWidth = this->stateWidth(metrics);
-    const int leastName = metrics.horizontalAdvance(QStringLiteral("Performer 1"));
-    const int mostName = metrics.horizontalAdvance(QStringLiteral("Performer with a name"));
+    measure(metrics);
     const int spacing = m_entriesLayout->spacing();
-    const int least = stateWidth + leastName + spacing;
+    const int beside = metrics.horizontalAdvance(QStringLiteral("■    ")) + ColourText::marginsOf(metrics);
+    const int leastName = std::min(m_nameWidth, metrics.horizontalAdvance(QStringLiteral("Performer 1")));
     const int room = m_entriesArea->width() + spacing;
     const int reserve = metrics.horizontalAdvance(QStringLiteral("+ 0 000 more")) + 2 * spacing;
     const auto all = m_shown.size();
-    const bool isAll = static_cast<int>(all) * least <= room;
+    const auto areAllIn = [&](int name, int state) {
+        return static_cast<int>(all) * (beside + name + state + spacing) <= room;
+    };
+    const bool isBrief = !areAllIn(m_nameWidth, m_stateWidth);
+    const int stateWidth = isBrief ? m_whatWidth : m_stateWidth;
+    const int least = beside + leastName + stateWidth + spacing;
+    const bool isAll = areAllIn(leastName, stateWidth);
     const int left = isAll ? room : room - reserve;
     const std::size_t fitting = isAll ? all : std::min<std::size_t>(all, std::max(0, left / least));
     const int spare = left / std::max(1, static_cast<int>(fitting)) - least;
-    const int nameWidth = std::clamp(leastName + spare, leastName, mostName);
+    const int nameWidth = std::clamp(leastName + spare, leastName, std::max(leastName, m_nameWidth));
     for (std::size_t i = 0; i < m_entries.size(); ++i) {
         m_entries[i]->setVisible(i < fitting);
         if (i < fitting) {
-            showEntry(i, nameWidth, stateWidth);
+            showEntry(i, {nameWidth, beside + nameWidth + stateWidth, isBrief});
         }
     }
     m_more->setVisible(fitting < all);
@@ -182,13 +192,15 @@ void HealthBar::fitEntries() {
     m_more->setContent(worst == Health::Good ? Health::Unknown : worst, leftOut(all, fitting));
 }
 
-void HealthBar::showEntry(std::size_t index, int nameWidth, int stateWidth) {
-    const PropertyValue state = verdictState(m_session.verdict(m_shown[index]));
+void HealthBar::showEntry(std::size_t index, const EntryRoom& room) {
+    const model::TakeVerdict& verdict = m_session.verdict(m_shown[index]);
+    const PropertyValue state = verdictState(verdict);
     const QString name = shown(m_session.displayName(m_shown[index]));
     ColourText* entry = m_entries[index];
-    entry->setFixedWidth(nameWidth + stateWidth);
-    entry->setContent(state.health, entry->fontMetrics().elidedText(name, Qt::ElideRight, nameWidth) +
-                                        QLatin1Char(' ') + state.text);
+    entry->setFixedWidth(room.all);
+    entry->setContent(state.health, entry->fontMetrics().elidedText(name, Qt::ElideRight, room.name) +
+                                        QLatin1Char(' ') +
+                                        (room.isBrief ? fromUtf8(verdict.what) : state.text));
     entry->setToolTip(toolTipText(state.toolTip));
 }
 

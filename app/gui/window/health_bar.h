@@ -43,9 +43,13 @@ private:
     void showList();
     void refreshCharacters();
     void fitEntries();
-    [[nodiscard]] int stateWidth(const QFontMetrics& metrics);
-    /// Widths in pixels, of the name and of the rest.
-    void showEntry(std::size_t index, int nameWidth, int stateWidth);
+    void measure(const QFontMetrics& metrics);
+    struct EntryRoom {
+        int name; ///< pixels
+        int all;
+        bool isBrief; ///< without whose loss it is
+    };
+    void showEntry(std::size_t index, const EntryRoom& room);
     void addEntry();
 
     model::SessionView& m_session;
@@ -53,7 +57,9 @@ private:
     QHBoxLayout* m_entriesLayout;
     QWidget* m_entriesArea;
     std::vector<ColourText*> m_entries;       ///< as many as there ever were characters to show
-    int m_stateWidth = 0;                     ///< pixels, of what was said so far
+    int m_nameWidth = 0;                      ///< pixels, of what was said so far
+    int m_stateWidth = 0;                     ///< likewise
+    int m_whatWidth = 0;                      ///< likewise, without whose loss it is
     std::vector<model::CharacterKey> m_shown; ///< all, the worst first; the first entries show them
     ColourText* m_more;                       ///< how many there is no room for
     QPointer<HealthList> m_list;              ///< while it is open

@@ -213,10 +213,13 @@ TEST_F(HealthBarTest, ShowsTheWorstFirstAndAllInAList) {
     ASSERT_EQ(table->model()->rowCount(), 20);
     emit table->clicked(table->model()->index(19, 0));
     EXPECT_EQ(m_stage.session.selection().character, m_stage.key(19));
-    m_stage.now += 3s; // other words
+    m_stage.now += 3s; // other, longer words
     m_stage.follow();
     m_bar.refresh({});
-    EXPECT_EQ(m_bar.firstEntry()->width(), width);
+    const int wider = m_bar.firstEntry()->width();
+    EXPECT_GE(wider, width);
+    perform(420, 480); // and shorter ones again
+    EXPECT_EQ(m_bar.firstEntry()->width(), wider);
 }
 
 TEST_F(HealthBarTest, ANarrowBarCountsTheCharactersAndNothingOverlaps) {
@@ -259,6 +262,36 @@ TEST(ReportSavingTest, WritesAPageOrSaysWhyNot) {
     EXPECT_TRUE(writeStreamReport(stage.session, model::TimeRange{Stage::kStart, stage.now},
                                   folder.filePath("none/report.html"))
                     .contains("cannot be written"));
+}
+
+TEST(HealthBarRoom, FourCharactersInTroubleAreWholeAndOnlyNamesAreCut) {
+    Stage stage;
+    performer::Performer four(sending(4, {2, 12}, 60.0));
+    stage.perform(four, 0, 240, [](std::uint64_t frame) { return frame % 60 != 30; });
+    stage.follow();
+    HealthBar bar(stage.session, stage.commands);
+    bar.show();
+    for (const int width : {980, 1'280, 1'900}) {
+        bar.resize(width, 30);
+        bar.refresh({});
+        QTest::qWait(1);
+        bar.refresh({});
+        int shown = 0;
+        int end = 0;
+        for (const auto* entry : bar.findChildren<ColourText*>()) {
+            const bool isOfCharacter = entry->isVisible() && entry->text().contains("lost");
+            shown += isOfCharacter ? 1 : 0;
+            if (isOfCharacter) {
+                const int margin = entry->fontMetrics().height() / 4 + 1;
+                EXPECT_LE(entry->fontMetrics().horizontalAdvance(entry->text()), entry->width() - 2 * margin)
+                    << width << " " << entry->text().toStdString();
+                EXPECT_GE(entry->x(), end) << width;
+                end = entry->geometry().right();
+            }
+        }
+        EXPECT_EQ(shown, width >= 1'280 ? 4 : shown) << width;
+        EXPECT_GE(shown, 1) << width;
+    }
 }
 
 } // namespace

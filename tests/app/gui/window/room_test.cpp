@@ -140,5 +140,36 @@ TEST_F(RoomTest, EveryLayoutFitsWithARecordingOpen) {
     expectRoomInEveryLayout();
 }
 
+/// By itself, at the width that layouts give it at 1280 × 720.
+TEST_F(RoomTest, EveryDockShowsItsTitleAndItsFirstRowsAt1280By720) {
+    constexpr QSize kRoom(1280, 720);
+    receive();
+    m_window.resize(kRoom);
+    for (const QString& layout : layoutNames()) {
+        m_window.useLayout(layout);
+        QTest::qWait(20);
+        for (auto* dock : m_window.findChildren<QDockWidget*>(Qt::FindDirectChildrenOnly)) {
+            SCOPED_TRACE((layout + ' ' + dock->objectName()).toStdString());
+            m_window.showDock(dock->objectName());
+            QTest::qWait(5);
+            m_driver.tick();
+            emit m_driver.tableTick();
+            QTest::qWait(5);
+            EXPECT_EQ(m_window.size(), kRoom);
+            EXPECT_LE(m_window.minimumSizeHint().width(), kRoom.width()) << offenders();
+            const QRect place = dock->geometry();
+            EXPECT_TRUE(m_window.rect().contains(place));
+            for (const TableView* table : dock->findChildren<TableView*>()) {
+                if (table->isVisible() && table->model()->rowCount() != 0) {
+                    EXPECT_GE(table->viewport()->height(), table->fontMetrics().height())
+                        << table->accessibleName().toStdString();
+                    EXPECT_EQ(table->horizontalScrollBar()->maximum(), 0)
+                        << table->accessibleName().toStdString();
+                }
+            }
+        }
+    }
+}
+
 } // namespace
 } // namespace posewire::gui
