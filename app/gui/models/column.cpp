@@ -34,17 +34,26 @@ QString cellText(const QModelIndex& index) {
 PropertyModel::PropertyModel(std::vector<Property> properties, QObject* parent)
     : TableModel(columns(), parent) {
     setRows(std::move(properties));
+    refresh();
+}
+
+void PropertyModel::refresh() {
+    std::vector<Property> properties = rows();
+    for (Property& property : properties) {
+        property.value = property.read();
+    }
+    setRows(std::move(properties));
 }
 
 std::vector<TableColumn<Property>> PropertyModel::columns() const {
     auto value = valueColumn(TableColumn<Property>{.title = tr("Value"), .isNumber = true},
-                             [](const Property& row) { return row.read(); });
+                             [](const Property& row) { return row.value; });
     value.colour = [this, own = value.colour](const Property& row) {
         return m_isPast && m_isPast() ? QVariant(theme().dim) : own(row);
     };
     return {TableColumn<Property>::words(tr("Property"), {}, &Property::label)
                 .dimmed()
-                .withToolTip([](const Property& row) { return row.read().toolTip; }),
+                .withToolTip([](const Property& row) { return row.value.toolTip; }),
             std::move(value)};
 }
 

@@ -220,10 +220,12 @@ private:
     std::vector<Row> m_rows;
 };
 
-/// A row with a fixed label and a value that is read whenever it is painted.
+/// A row with a fixed label and a value that is read anew with each refresh, so that all of a moment are of
+/// that moment.
 struct Property {
     QString label;
     std::function<PropertyValue()> read;
+    PropertyValue value{}; ///< as it was read last
 };
 
 /// Properties that are read from `source`, which must outlive them.
@@ -243,8 +245,8 @@ class PropertyModel : public TableModel<Property> {
 public:
     explicit PropertyModel(std::vector<Property> properties, QObject* parent = nullptr);
 
-    /// Announces that all values may have changed.
-    void refresh() { announceChange(); }
+    /// Reads all values.
+    void refresh();
     /// From now on values are dim while that says that they are not how it is now.
     void dimWhile(std::function<bool()> isPast) { m_isPast = std::move(isPast); }
 

@@ -100,5 +100,17 @@ TEST_F(ColumnModelTest, CellsWithoutATooltipOfTheirOwnCanExplainTheirColumn) {
     EXPECT_EQ(cellData(columns[1], Fruit{}, Qt::ToolTipRole), "How many");
 }
 
+TEST(PropertyModel, ShowsEveryValueAsOfTheNewestRefresh) {
+    int samples = 1;
+    PropertyModel facts({{"Lost", [&samples] { return PropertyValue{QString::number(samples)}; }},
+                         {"Lost again", [&samples] { return PropertyValue{QString::number(samples)}; }}});
+    facts.refresh();
+    samples = 2; // more comes before all is painted
+    EXPECT_EQ(facts.index(0, 1).data().toString(), "1");
+    EXPECT_EQ(facts.index(1, 1).data().toString(), "1");
+    facts.refresh();
+    EXPECT_EQ(facts.index(1, 1).data().toString(), "2");
+}
+
 } // namespace
 } // namespace posewire::gui

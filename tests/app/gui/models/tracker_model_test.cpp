@@ -117,6 +117,7 @@ TEST_F(TrackerModelTest, DimsTheFactsOfWhatIsNoLongerSentAndSaysHowOldTheyAre) {
     EXPECT_NE(facts.index(0, 1).data(Qt::ForegroundRole), QVariant(theme().dim));
     m_stage.now += 3s;
     refresh();
+    facts.refresh();
     for (int row = 0; row <= last; ++row) {
         EXPECT_EQ(facts.index(row, 1).data(Qt::ForegroundRole), QVariant(theme().dim)) << row;
     }
