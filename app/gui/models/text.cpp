@@ -9,16 +9,25 @@
 
 namespace posewire::gui {
 
+namespace {
+
+/// The pictures of line end and tabulator, which hardly any font has, as arrows, which most have.
+QString withArrows(QString text) {
+    return text.replace(QChar(0x240a), QChar(0x21b5)).replace(QChar(0x2409), QChar(0x21e5));
+}
+
+} // namespace
+
 QString fromUtf8(std::string_view text) {
     return QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size()));
 }
 
 QString shown(const model::ForeignText& text) {
-    return fromUtf8(text.shown());
+    return withArrows(fromUtf8(text.shown()));
 }
 
 QString shownText(std::string_view bytes) {
-    return fromUtf8(model::shownText(bytes));
+    return withArrows(fromUtf8(model::shownText(bytes)));
 }
 
 QString readable(std::span<const std::byte> bytes) {

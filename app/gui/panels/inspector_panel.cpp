@@ -56,7 +56,8 @@ InspectorPanel::InspectorPanel(model::SessionView& view, Commands& commands, QWi
       m_splitter(new QSplitter(Qt::Vertical, this)),
       m_fields(new FieldView(m_model, commands, this)),
       m_bytes(new ByteView(this)),
-      m_detail(richLabel(this)) {
+      m_detail(richLabel(this)),
+      m_detailLine(new Line(this)) {
     layOut();
     connectParts();
     showEmpty();
@@ -86,7 +87,7 @@ void InspectorPanel::layOut() {
     m_splitter->setStretchFactor(0, 3);
     m_splitter->setStretchFactor(1, 2);
     m_splitter->setHandleWidth(1);
-    layout->addWidget(new Line(this));
+    layout->addWidget(m_detailLine);
     m_detail->setAlignment(Qt::AlignLeft | Qt::AlignTop);
     m_detail->setFixedHeight(fontMetrics().lineSpacing() * kDetailLines + margin);
     m_detail->setMinimumWidth(1);
@@ -151,12 +152,24 @@ void InspectorPanel::showEmpty() {
         m_problemLine->hide();
         m_detail->clear();
     }
+    showParts();
+}
+
+/// Without a packet there is nothing but what is said about that.
+void InspectorPanel::showParts() {
+    m_bytes->setVisible(m_isShown);
+    m_detail->setVisible(m_isShown);
+    m_detailLine->setVisible(m_isShown);
+    for (QToolButton* button : {m_previous, m_next, m_hold, m_compare}) {
+        button->setEnabled(m_isShown);
+    }
 }
 
 void InspectorPanel::inspect(const log::Packet& packet) {
     m_document = std::make_shared<FieldDocument>(packet, unitOf(m_view, packet));
     m_sequence = sequenceFindings(m_view, packet.number);
     m_isShown = true;
+    showParts();
     m_fields->change([this] {
         m_model.setDocument(m_document);
         showComparison();

@@ -59,6 +59,7 @@ private:
     void describeCurrent();
     void showFound(const model::FoundBytes& found);
     void followSelection(bool isNewPacket);
+    void showParts();
 
     void hover(std::int32_t node);
     void select(std::int32_t node);
@@ -91,6 +92,7 @@ private:
     FieldView* m_fields;
     ByteView* m_bytes;
     QLabel* m_detail;
+    Line* m_detailLine;
 };
 
 } // namespace posewire::gui

@@ -5,6 +5,7 @@
 
 #include <QScrollBar>
 #include <QTest>
+#include <QToolButton>
 
 namespace posewire::gui {
 namespace {
@@ -140,6 +141,32 @@ TEST_F(InspectorPanelTest, ShowsBytesOfASegmentAlsoWhereNoFieldDiffers) {
     EXPECT_EQ(bytes().selected(), bytesOf(9));
     m_panel.compare(InspectorPanel::Comparison::None);
     EXPECT_EQ(model.document().node(fields().currentNode()).offset, bytesOf(9).begin);
+}
+
+TEST_F(InspectorPanelTest, WithoutAPacketThereIsOneEmptyPlaceAndNothingToPress) {
+    Stage empty;
+    InspectorPanel panel(empty.session, empty.commands, nullptr);
+    panel.resize(420, 500);
+    panel.show();
+    panel.refresh();
+    EXPECT_FALSE(panel.findChild<ByteView*>()->isVisible());
+    for (const QToolButton* button : panel.findChildren<QToolButton*>()) {
+        EXPECT_FALSE(button->isEnabled()) << button->accessibleName().toStdString();
+    }
+    EXPECT_TRUE(bytes().isVisible());
+}
+
+TEST_F(InspectorPanelTest, LineEndsInATextAreNoBoxes) {
+    m_stage.sendMetadata("name:Mira\ncolor:2f72c4\n", m_stage.now + 1ms);
+    m_stage.commands.selectPacket(m_stage.session.end() - 1);
+    m_stage.follow();
+    m_stage.commands.selectPacket(m_stage.session.end() - 1);
+    refresh();
+    QString all = fields().allText();
+    EXPECT_TRUE(all.contains(QStringLiteral("Mira"))) << all.toStdString();
+    for (const QChar letter : std::as_const(all)) {
+        EXPECT_TRUE(letter.unicode() < 0x2400 || letter.unicode() > 0x2426) << all.toStdString();
+    }
 }
 
 } // namespace
