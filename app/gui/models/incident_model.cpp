@@ -109,6 +109,10 @@ IncidentColumn severityColumn() {
                : line.state == State::Provisional ? tr("provisional")
                                                   : severityWord(line.incident().severity());
     };
+    column.more = [](const IncidentLine& line, int role) {
+        const bool isWanted = role == kShortTextRole && !line.isPart && line.state != State::Provisional;
+        return isWanted ? QVariant(healthSymbol(healthOf(line.incident().severity()))) : QVariant();
+    };
     return column;
 }
 

@@ -69,6 +69,19 @@ RunningWords runningWords(const QTreeView& view, const QModelIndex& index, int s
     return words;
 }
 
+/// What words in the cell before leave of its room: a value without room runs on over that.
+int roomBefore(const QTreeView& view, const QModelIndex& index, int space) {
+    const QModelIndex before = shownBeside(view, index, -1);
+    const bool isWords = before.isValid() && !CellDelegate::isNumber(before) &&
+                         !before.data(Qt::CheckStateRole).isValid() && !before.data(kDotRole).isValid();
+    if (!isWords) {
+        return 0;
+    }
+    const QString text = before.data().toString() + before.data(kSuffixRole).toString();
+    const int own = view.fontMetrics().horizontalAdvance(text) + 3 * space;
+    return std::max(0, view.visualRect(before).width() - own);
+}
+
 void paintMarks(QPainter& painter, const QRectF& rect, const QList<float>& marks) {
     constexpr double kWide = 1.5;
     const double step = rect.width() / (kPlaces - 1);
@@ -116,7 +129,8 @@ void paintSeries(QPainter& painter, const QRectF& rect, const QList<float>& seri
 /// number ends.
 int paintShare(QPainter& painter, const QRect& rect, const QString& number, const QString& share,
                bool isSelected) {
-    const int numberWidth = painter.fontMetrics().horizontalAdvance(number);
+    const int numberWidth = std::max(painter.fontMetrics().horizontalAdvance(number),
+                                     painter.fontMetrics().horizontalAdvance(QStringLiteral("9 999")));
     const QFont font = painter.font();
     QFont small = font;
     small.setPixelSize(std::max(8, QFontInfo(font).pixelSize() * 7 / 8));
@@ -278,6 +292,11 @@ void CellDelegate::paint(QPainter* painter, const QStyleOptionViewItem& given,
             option.text = words.index.data().toString();
             paintText(*painter, words.rect.adjusted(space, 0, -space, 0), option, words.index);
         } else {
+            const int missing = painter->fontMetrics().horizontalAdvance(option.text) - rect.width();
+            if (view != nullptr && isNumber(index) && missing > 0) {
+                rect.setLeft(rect.left() - std::min(missing + 1, roomBefore(*view, index, space)));
+                painter->setClipRect(rect.adjusted(0, 0, space, 0));
+            }
             paintText(*painter, rect, option, index);
         }
     }

@@ -41,17 +41,32 @@ FaultsPanel::FaultsPanel(model::SessionView& view, Commands& commands, QWidget* 
     m_table->setRootIsDecorated(true);
     m_table->setSelectionBehavior(QAbstractItemView::SelectItems);
     m_table->setAllColumnsShowFocus(false);
-    const QString count = QStringLiteral("999 9.9 %");
-    m_table->setColumnSamples(
-        {QString(), count, count, count, count, QStringLiteral("▲ ") + count, QStringLiteral("99 999 999")},
-        QStringLiteral("   ● Mira L"));
-    m_table->setOptionalColumns(FaultModel::kLost);
-    m_table->columns().setUsual({FaultModel::kName, FaultModel::kThisComputer, FaultModel::kNetwork,
-                                 FaultModel::kSender, FaultModel::kUnknown, FaultModel::kLost});
+    fitColumns();
     m_table->setEmptyText(tr("No stream received yet.\nWhat each character lost, and whose fault it was, is "
                              "counted here: this computer, the network, the sender, or not known."));
     connectParts();
     refresh();
+}
+
+void FaultsPanel::fitColumns() {
+    const QString count = QStringLiteral("9 999 <0.1 %");
+    m_table->setColumnSamples(
+        {QString(), count, count, count, count, QStringLiteral("▲ ") + count, QStringLiteral("99 999 999")},
+        QStringLiteral("    ● All characters"));
+    // Shares give way to names; whose fault it was stays longest, but for causes that are seldom the answer.
+    const QString number = QStringLiteral("9 999");
+    for (const int column : {FaultModel::kThisComputer, FaultModel::kUnknown, FaultModel::kSender,
+                             FaultModel::kNetwork, FaultModel::kLost}) {
+        const QString title = m_faults.headerData(column, Qt::Horizontal, Qt::DisplayRole).toString();
+        const QString least = column == FaultModel::kLost    ? QStringLiteral("▲ ") + number
+                              : title.size() > number.size() ? title
+                                                             : number;
+        m_table->columns().addElastic(column, least, count, least);
+    }
+    m_table->columns().setGivingWay(
+        {FaultModel::kExpected, FaultModel::kLost, FaultModel::kUnknown, FaultModel::kThisComputer});
+    m_table->columns().setUsual({FaultModel::kName, FaultModel::kThisComputer, FaultModel::kNetwork,
+                                 FaultModel::kSender, FaultModel::kUnknown, FaultModel::kLost});
 }
 
 void FaultsPanel::connectParts() {

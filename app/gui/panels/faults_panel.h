@@ -33,6 +33,7 @@ protected:
 
 private:
     void connectParts();
+    void fitColumns();
     void addActions(QMenu& menu, const QModelIndex& index);
     void select(const QModelIndex& index);
     void keepPlace();

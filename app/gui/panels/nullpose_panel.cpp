@@ -117,12 +117,14 @@ void NullPosePanel::makeTables() {
     m_segmentTable->setColumnSamples(
         {QStringLiteral("99"), QString(), number, number, number, distance, distance},
         QStringLiteral("Right Upper Arm"));
-    m_segmentTable->setOptionalColumns(NullPoseSegmentModel::kFromBefore);
+    m_segmentTable->columns().setGivingWay(
+        {NullPoseSegmentModel::kFromReference, NullPoseSegmentModel::kFromBefore, NullPoseSegmentModel::kId});
     m_pointTable->setModel(&m_points);
     m_pointTable->setColumnSamples({QStringLiteral("99.99"), QString(), number, number, number,
                                     QStringLiteral("0x00000000"), QStringLiteral("31, 30")},
                                    QStringLiteral("jRightUpperArm"));
-    m_pointTable->setOptionalColumns(NullPosePointModel::kFlags);
+    m_pointTable->columns().setGivingWay(
+        {NullPosePointModel::kBits, NullPosePointModel::kFlags, NullPosePointModel::kId});
     m_lengthTable->setModel(&m_lengths);
     m_lengthTable->setColumnSamples(
         {QString(), QStringLiteral("9999.9"), QStringLiteral("9999.9"), QStringLiteral("▲ −999.9")});

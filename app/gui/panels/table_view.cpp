@@ -17,9 +17,25 @@ void drawEmptyText(QWidget& view, const QString& text) {
     QPainter painter(&view);
     painter.setPen(theme().dim);
     const int space = 2 * CellDelegate::margin(view.fontMetrics());
-    const QRectF room = view.rect().adjusted(space, space, -space, -space);
-    const qreal unused = room.width() - balancedWidth(painter.fontMetrics(), text, room.width());
-    painter.drawText(room.adjusted(unused / 2, 0, -unused / 2, 0), Qt::AlignCenter | Qt::TextWordWrap, text);
+    const QRectF room = view.rect().adjusted(space, 0, -space, 0);
+    const QString fitting = fittingLines(painter.fontMetrics(), text, room.size());
+    const qreal unused = room.width() - balancedWidth(painter.fontMetrics(), fitting, room.width());
+    painter.drawText(room.adjusted(unused / 2, 0, -unused / 2, 0), Qt::AlignCenter | Qt::TextWordWrap,
+                     fitting);
+}
+
+QString fittingLines(const QFontMetrics& metrics, const QString& text, const QSizeF& room) {
+    const auto isFitting = [&](const QString& part) {
+        const QRectF wide(0, 0, room.width(), 1e6);
+        return metrics.boundingRect(wide.toRect(), Qt::AlignCenter | Qt::TextWordWrap, part).height() <=
+               room.height();
+    };
+    QString fitting = text.trimmed();
+    while (!isFitting(fitting) && fitting.contains(QLatin1Char('\n'))) {
+        fitting.truncate(fitting.lastIndexOf(QLatin1Char('\n')));
+    }
+    return isFitting(fitting) ? (fitting == text.trimmed() ? text : fitting)
+                              : metrics.elidedText(fitting, Qt::ElideRight, static_cast<int>(room.width()));
 }
 
 TableView::TableView(const QString& name, QWidget* parent)

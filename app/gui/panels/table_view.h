@@ -12,6 +12,8 @@ namespace posewire::gui {
 
 /// What to do where a list is empty, in the middle of its viewport.
 void drawEmptyText(QWidget& view, const QString& text);
+/// The lines of it from the first on that have room, wrapped; the first one cut where even that has none.
+[[nodiscard]] QString fittingLines(const QFontMetrics& metrics, const QString& text, const QSizeF& room);
 
 /// The one way in which docks show a model: rows of the theme's height, cells by CellDelegate, columns as
 /// wide as a sample of their content, a sentence where there are no rows, copying by keyboard and

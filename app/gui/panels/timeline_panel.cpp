@@ -7,8 +7,8 @@
 #include "app/gui/theme/widgets.h"
 #include "core/model/body/character_pose.h"
 
+#include <QAction>
 #include <QHBoxLayout>
-#include <QToolButton>
 #include <QVBoxLayout>
 
 namespace posewire::gui {
@@ -17,6 +17,7 @@ TimelinePanel::TimelinePanel(model::SessionView& view, Commands& commands, QWidg
     : Panel(view, commands, parent),
       m_timeline(new TimelineView(view, commands, this)),
       m_thumbnail(new TimelineThumbnail(view, *m_timeline, this)),
+      m_commandBar(new CommandBar(this)),
       m_moment(new ElidedLabel(Qt::AlignRight | Qt::AlignVCenter, this)) {
     const int margin = CellDelegate::margin(fontMetrics());
     auto* head = spacedRow({margin, margin / 2, margin, margin / 2}, margin / 2);
@@ -25,30 +26,31 @@ TimelinePanel::TimelinePanel(model::SessionView& view, Commands& commands, QWidg
     column->addWidget(new Line(this));
     column->addWidget(m_timeline, 1);
     column->addWidget(m_thumbnail);
-    m_live = add(QStringLiteral("timelineLive"), tr("Live"), tr("Follow the stream again (End)"));
-    auto* all = add(QStringLiteral("timelineAll"), tr("All"), tr("Show all there is (0)"));
-    m_range = add(QStringLiteral("timelineRange"), tr("Selection"), tr("Show the selected range"));
-    auto* out = add(QStringLiteral("timelineOut"), QStringLiteral("−"), tr("Zoom out (−)"));
-    auto* in = add(QStringLiteral("timelineIn"), QStringLiteral("+"), tr("Zoom in (+)"));
-    for (QToolButton* button : {m_live, all, m_range, out, in}) {
-        head->addWidget(button);
-    }
+    m_live = m_commandBar->addCommand(QStringLiteral("timelineLive"), tr("Live"),
+                                      tr("Follow the stream again (End)"));
+    QAction* all =
+        m_commandBar->addCommand(QStringLiteral("timelineAll"), tr("All"), tr("Show all there is (0)"));
+    QAction* out =
+        m_commandBar->addCommand(QStringLiteral("timelineOut"), QStringLiteral("−"), tr("Zoom out (−)"));
+    QAction* in =
+        m_commandBar->addCommand(QStringLiteral("timelineIn"), QStringLiteral("+"), tr("Zoom in (+)"));
+    m_range = m_commandBar->addCommand(QStringLiteral("timelineRange"), tr("Selection"),
+                                       tr("Show the selected range"));
+    head->addWidget(m_commandBar);
     head->addWidget(m_moment, 1);
-    in->setAccessibleName(tr("Zoom in"));
-    out->setAccessibleName(tr("Zoom out"));
     m_moment->setToolTip(
         tr("The moment that is shown: by this computer's clock, since the first packet, and by the "
            "time code of the selected character"));
     m_moment->setObjectName(QStringLiteral("moment"));
     m_timeline->setObjectName(QStringLiteral("timelineView"));
-    connect(m_live, &QToolButton::clicked, this, [this] { m_commands.goLive(); });
-    connect(all, &QToolButton::clicked, this, &TimelinePanel::showAll);
-    connect(m_range, &QToolButton::clicked, this, &TimelinePanel::showRange);
+    connect(m_live, &QAction::triggered, this, [this] { m_commands.goLive(); });
+    connect(all, &QAction::triggered, this, &TimelinePanel::showAll);
+    connect(m_range, &QAction::triggered, this, &TimelinePanel::showRange);
     m_thumbnail->hide();
     connect(m_timeline, &TimelineView::windowChanged, m_thumbnail,
             [this] { m_thumbnail->setVisible(!m_timeline->isAllShown()); });
-    connect(out, &QToolButton::clicked, this, &TimelinePanel::zoomOut);
-    connect(in, &QToolButton::clicked, this, &TimelinePanel::zoomIn);
+    connect(out, &QAction::triggered, this, &TimelinePanel::zoomOut);
+    connect(in, &QAction::triggered, this, &TimelinePanel::zoomIn);
 }
 
 std::span<const ActionInfo> TimelinePanel::actionTable() {
@@ -67,13 +69,6 @@ std::span<const ActionInfo> TimelinePanel::actionTable() {
          Do::call<&TimelinePanel::toggleStreams>},
     };
     return kActions;
-}
-
-QToolButton* TimelinePanel::add(const QString& name, const QString& text, const QString& toolTip) {
-    QToolButton* button = framedButton(text, toolTip, this);
-    button->setObjectName(name);
-    button->setFocusPolicy(Qt::StrongFocus);
-    return button;
 }
 
 void TimelinePanel::refresh() {

@@ -5,10 +5,11 @@
 #include "app/gui/panels/timeline_thumbnail.h"
 #include "app/gui/panels/timeline_view.h"
 
-class QToolButton;
+class QAction;
 
 namespace posewire::gui {
 
+class CommandBar;
 class ElidedLabel;
 
 /// Dock `timeline`: the whole history, in which the display is moved through time and ranges are selected.
@@ -30,15 +31,15 @@ public:
     void toggleStreams() { m_timeline->toggleStreams(); }
 
 private:
-    QToolButton* add(const QString& name, const QString& text, const QString& toolTip);
     /// Time of day, since the first packet, and by the sender's time code.
     [[nodiscard]] QString momentText() const;
 
     TimelineView* m_timeline;
     TimelineThumbnail* m_thumbnail;
+    CommandBar* m_commandBar;
     ElidedLabel* m_moment;
-    QToolButton* m_live;
-    QToolButton* m_range;
+    QAction* m_live;
+    QAction* m_range;
 };
 
 } // namespace posewire::gui

@@ -4,6 +4,7 @@
 #include "tests/app/gui/models/stage.h"
 
 #include <QHeaderView>
+#include <QScrollBar>
 #include <QTest>
 #include <QToolButton>
 
@@ -120,6 +121,29 @@ TEST_F(FaultsPanelTest, WhatIsOpenStaysOpenWhenRowsCome) {
     EXPECT_EQ(m_table->model()->rowCount(), 3);
     EXPECT_TRUE(m_table->isExpanded(character()));
     EXPECT_EQ(m_table->currentIndex(), character(FaultModel::kNetwork));
+}
+
+TEST_F(FaultsPanelTest, ANarrowDockShowsNamesWholeAndScrollsNotSideways) {
+    perform(0, 400);
+    m_panel.resize(490, 260);
+    refresh();
+    const auto isShown = [this](int column) { return !m_table->header()->isSectionHidden(column); };
+    const int name = m_table->fontMetrics().horizontalAdvance("    ● All characters");
+    EXPECT_GE(m_table->columnWidth(0), name);
+    for (const int column : {FaultModel::kThisComputer, FaultModel::kNetwork, FaultModel::kSender,
+                             FaultModel::kUnknown, FaultModel::kLost}) {
+        EXPECT_TRUE(isShown(column)) << column;
+        const QString title = m_table->model()->headerData(column, Qt::Horizontal).toString();
+        EXPECT_GE(m_table->columnWidth(column), m_table->fontMetrics().horizontalAdvance(title) + 8)
+            << title.toStdString();
+    }
+    for (const int width : {280, 313, 400, 490, 900}) {
+        m_panel.resize(width, 260);
+        refresh();
+        QTest::qWait(1); // sizes settle
+        EXPECT_EQ(m_table->horizontalScrollBar()->maximum(), 0) << width;
+        EXPECT_TRUE(isShown(FaultModel::kNetwork) && isShown(FaultModel::kSender)) << width;
+    }
 }
 
 } // namespace

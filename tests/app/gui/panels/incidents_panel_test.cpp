@@ -215,6 +215,19 @@ TEST_F(IncidentsPanelTest, EveryControlIsReachedByTheKeyboardAndNamed) {
     }
 }
 
+TEST_F(IncidentsPanelTest, ANarrowDockScrollsNotSidewaysAndSaysWhatHappened) {
+    for (const int width : {250, 310, 420}) {
+        m_panel.resize(width, 220);
+        m_panel.refresh();
+        QTest::qWait(1); // sizes settle
+        EXPECT_EQ(m_table->horizontalScrollBar()->maximum(), 0) << width;
+        EXPECT_FALSE(m_table->isColumnHidden(IncidentModel::kText));
+        EXPECT_GE(m_table->columnWidth(IncidentModel::kText),
+                  m_table->fontMetrics().horizontalAdvance("3 samples lost"))
+            << width;
+    }
+}
+
 } // namespace
 
 } // namespace posewire::gui

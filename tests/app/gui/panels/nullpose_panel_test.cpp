@@ -6,6 +6,8 @@
 #include <QAction>
 #include <QFile>
 #include <QMenu>
+#include <QScrollBar>
+#include <QTabWidget>
 #include <QTemporaryDir>
 #include <QTest>
 
@@ -197,6 +199,22 @@ TEST_F(NullPosePanelTest, PaintsPosesOfAnySize) {
         });
         open();
         EXPECT_FALSE(figure()->grab().isNull());
+    }
+}
+
+TEST_F(NullPosePanelTest, ANarrowDockShowsEveryCoordinateWhole) {
+    send();
+    open({345, 330});
+    for (const char* name : {"Segments", "Points"}) {
+        TableView* view = table(name);
+        auto* tabs = m_panel->findChild<QTabWidget*>();
+        tabs->setCurrentWidget(view);
+        refresh();
+        ASSERT_GT(view->verticalScrollBar()->maximum(), 0);
+        EXPECT_EQ(view->horizontalScrollBar()->maximum(), 0) << name;
+        const QRect last = view->visualRect(view->model()->index(0, NullPoseSegmentModel::kZ));
+        EXPECT_LE(last.right(), view->viewport()->rect().right()) << name;
+        EXPECT_GE(last.width(), QFontMetrics(tabularFont()).horizontalAdvance("−9.9999")) << name;
     }
 }
 

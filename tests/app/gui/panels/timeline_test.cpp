@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/panels/timeline_panel.h"
 #include "app/gui/panels/timeline_thumbnail.h"
 #include "app/gui/panels/timeline_view.h"
 #include "app/gui/theme/theme.h"
 #include "tests/app/gui/models/stage.h"
 
 #include <QTest>
+#include <QToolButton>
 #include <QWheelEvent>
 
 #include <gtest/gtest.h>
@@ -317,6 +319,26 @@ TEST_F(TimelineTest, TheThumbnailMarksLosses) {
     EXPECT_TRUE(hasLoss(0.39, 0.62)) << "as exact as the accounting's buckets";
     EXPECT_FALSE(hasLoss(0, 0.39));
     EXPECT_FALSE(hasLoss(0.62, 1));
+}
+
+TEST(TimelinePanelTest, ButtonsWithoutRoomGoIntoAMenu) {
+    Stage stage;
+    performer::Performer performer(sending(1, {2}));
+    stage.perform(performer, 0, 100);
+    stage.follow();
+    TimelinePanel panel(stage.session, stage.commands, nullptr);
+    panel.show();
+    EXPECT_LE(panel.minimumSizeHint().width(), 200);
+    for (const int width : {220, 300, 420, 800}) {
+        panel.resize(width, 200);
+        panel.refresh();
+        QTest::qWait(1);
+        for (const QToolButton* one : panel.findChildren<QToolButton*>()) {
+            EXPECT_TRUE(!one->isVisible() ||
+                        panel.rect().contains(QRect(one->mapTo(&panel, QPoint(0, 0)), one->size())))
+                << one->text().toStdString() << " at " << width;
+        }
+    }
 }
 
 } // namespace
