@@ -245,6 +245,10 @@ void TimePlot::Parts::fitLabels(const Chart& chart) {
     axis->ticker()->setTickStepStrategy(QCPAxisTicker::tssMeetTickCount);
     axis->ticker()->setTickCount(std::clamp(chart.axes->height() / (2 * line), 1, kMost));
     axis->setTickLabels(chart.axes->height() >= 2 * line);
+    // As many moments as stand beside each other.
+    constexpr int kMostMoments = 5;
+    const int wide = QFontMetrics(axis->tickLabelFont()).horizontalAdvance(QStringLiteral("-10.0"));
+    time(chart)->ticker()->setTickCount(std::clamp(chart.axes->width() / (3 * wide), 1, kMostMoments));
 }
 
 void TimePlot::replot() {

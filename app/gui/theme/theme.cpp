@@ -162,6 +162,13 @@ QToolButton[flat="true"]:focus { border-color: @accent; }
 QToolButton[flat="true"]:checked { background: @selection; color: @text; border-color: @accent; }
 QLineEdit, QAbstractSpinBox, QPlainTextEdit, QTextEdit, QTextBrowser { background: @panel; border: 1px solid @line;
   border-radius: 5px; padding: 3px 6px; selection-background-color: @selection; selection-color: @text; }
+QAbstractSpinBox::up-button, QAbstractSpinBox::down-button { background: transparent; border: none; width: 16px; }
+QAbstractSpinBox::up-arrow, QAbstractSpinBox::down-arrow { width: 0; height: 0; border-left: 4px solid @panel;
+  border-right: 4px solid @panel; }
+QAbstractSpinBox::up-arrow { border-bottom: 5px solid @dim; }
+QAbstractSpinBox::down-arrow { border-top: 5px solid @dim; }
+QAbstractSpinBox::up-arrow:hover { border-bottom-color: @text; }
+QAbstractSpinBox::down-arrow:hover { border-top-color: @text; }
 QAbstractSpinBox:focus, QPlainTextEdit:focus, QTextEdit:focus, QTextBrowser:focus { border-color: @accent; }
 
 QTabBar::tab { background: @header; color: @dim; border: none; border-right: 1px solid @line;
