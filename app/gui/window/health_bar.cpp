@@ -163,20 +163,22 @@ void HealthBar::fitEntries() {
     const QFontMetrics metrics = m_more->fontMetrics();
     measure(metrics);
     const int spacing = m_entriesLayout->spacing();
-    const int beside = metrics.horizontalAdvance(QStringLiteral("■    ")) + ColourText::marginsOf(metrics);
+    const int beside = metrics.horizontalAdvance(QStringLiteral("■   ")) + ColourText::marginsOf(metrics);
     const int leastName = std::min(m_nameWidth, metrics.horizontalAdvance(QStringLiteral("Performer 1")));
     const int room = m_entriesArea->width() + spacing;
-    const int reserve = metrics.horizontalAdvance(QStringLiteral("+ 0 000 more")) + 2 * spacing;
+    const int reserve = metrics.horizontalAdvance(QStringLiteral("■ + 00 more")) + 2 * spacing;
     const auto all = m_shown.size();
-    const auto areAllIn = [&](int name, int state) {
-        return static_cast<int>(all) * (beside + name + state + spacing) <= room;
+    const auto widthOf = [&](int name, int state) { return beside + name + state + spacing; };
+    const auto fittingWith = [&](int least) {
+        return static_cast<int>(all) * least <= room
+                   ? all
+                   : std::min<std::size_t>(all, std::max(0, (room - reserve) / least));
     };
-    const bool isBrief = !areAllIn(m_nameWidth, m_stateWidth);
+    const std::size_t fitting = fittingWith(widthOf(leastName, m_whatWidth));
+    const bool isBrief = fittingWith(widthOf(m_nameWidth, m_stateWidth)) < fitting;
     const int stateWidth = isBrief ? m_whatWidth : m_stateWidth;
-    const int least = beside + leastName + stateWidth + spacing;
-    const bool isAll = areAllIn(leastName, stateWidth);
-    const int left = isAll ? room : room - reserve;
-    const std::size_t fitting = isAll ? all : std::min<std::size_t>(all, std::max(0, left / least));
+    const int least = widthOf(leastName, stateWidth);
+    const int left = fitting == all ? room : room - reserve;
     const int spare = left / std::max(1, static_cast<int>(fitting)) - least;
     const int nameWidth = std::clamp(leastName + spare, leastName, std::max(leastName, m_nameWidth));
     for (std::size_t i = 0; i < m_entries.size(); ++i) {
