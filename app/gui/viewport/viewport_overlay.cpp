@@ -371,8 +371,11 @@ ViewportOverlay::CardLayout ViewportOverlay::layOutCard() const {
     const qreal cardWidth = std::min(most, std::max(titleRoom.width(), textRoom.width()) + 3.2 * unit);
     const qreal cardHeight = titleRoom.height() + textRoom.height() + button.height() + 3.2 * unit;
     CardLayout layout;
-    layout.card = {std::round((width() - cardWidth) / 2), std::round((height() - cardHeight) / 2), cardWidth,
-                   cardHeight};
+    // Below the buttons, where it would lie under them.
+    const auto* above = parentWidget()->findChild<QWidget*>(kButtons);
+    const qreal least = above == nullptr ? 0 : above->geometry().bottom() - 0.5 * unit;
+    const qreal top = std::min(std::max((height() - cardHeight) / 2, least), height() - cardHeight);
+    layout.card = {std::round((width() - cardWidth) / 2), std::round(top), cardWidth, cardHeight};
     layout.title = layout.card.adjusted(1.2 * unit, 0.9 * unit, -1.2 * unit, -0.9 * unit);
     layout.text = layout.title.adjusted(0, titleRoom.height() + 0.6 * unit, 0, 0);
     layout.button = QPointF(layout.card.center().x() - button.width() / 2,
