@@ -53,7 +53,7 @@ void FaultsPanel::fitColumns() {
     m_table->setColumnSamples(
         {QString(), count, count, count, count, QStringLiteral("▲ ") + count, QStringLiteral("99 999 999")},
         QStringLiteral("    ● All characters"));
-    // Shares give way to names; whose fault it was stays longest, but for causes that are seldom the answer.
+    // Shares give way to names; whose fault it was stays longest.
     const QString number = QStringLiteral("9 999");
     for (const int column : {FaultModel::kThisComputer, FaultModel::kUnknown, FaultModel::kSender,
                              FaultModel::kNetwork, FaultModel::kLost}) {
@@ -63,10 +63,28 @@ void FaultsPanel::fitColumns() {
                                                              : number;
         m_table->columns().addElastic(column, least, count, least);
     }
-    m_table->columns().setGivingWay(
-        {FaultModel::kExpected, FaultModel::kLost, FaultModel::kUnknown, FaultModel::kThisComputer});
+    m_givingWay = {FaultModel::kExpected, FaultModel::kLost};
+    m_table->columns().setGivingWay(m_givingWay);
     m_table->columns().setUsual({FaultModel::kName, FaultModel::kThisComputer, FaultModel::kNetwork,
                                  FaultModel::kSender, FaultModel::kUnknown, FaultModel::kLost});
+}
+
+/// In a narrow dock causes of nothing are left out before those of something, two at most.
+void FaultsPanel::chooseCauses() {
+    constexpr std::size_t kMostLeftOut = 2;
+    std::vector<int> givingWay{FaultModel::kExpected, FaultModel::kLost};
+    const QModelIndex all = m_faults.index(0, 0);
+    for (const int column : {FaultModel::kThisComputer, FaultModel::kUnknown, FaultModel::kSender}) {
+        const auto cause = static_cast<std::size_t>(column - FaultModel::kThisComputer);
+        const bool isNothing = all.isValid() && m_faults.row(all).counts.lost[cause] == 0;
+        if (isNothing && givingWay.size() < 2 + kMostLeftOut) {
+            givingWay.push_back(column);
+        }
+    }
+    if (givingWay != m_givingWay) {
+        m_givingWay = std::move(givingWay);
+        m_table->columns().setGivingWay(m_givingWay);
+    }
 }
 
 void FaultsPanel::connectParts() {
@@ -82,6 +100,7 @@ void FaultsPanel::connectParts() {
 void FaultsPanel::refresh() {
     m_choice->refresh();
     m_faults.refresh();
+    chooseCauses();
     const QString span = spanText(m_view);
     m_span->setText(tr("Samples lost"), span.isEmpty() ? QString() : QStringLiteral(" · ") + span);
     m_span->setAccessibleName(m_span->text());

@@ -34,6 +34,7 @@ protected:
 private:
     void connectParts();
     void fitColumns();
+    void chooseCauses();
     void addActions(QMenu& menu, const QModelIndex& index);
     void select(const QModelIndex& index);
     void keepPlace();
@@ -44,6 +45,7 @@ private:
     SpanBar* m_choice;
     TableView* m_table;
     PassingMessage* m_message;
+    std::vector<int> m_givingWay; ///< columns, the first one first
     // While the model is reset:
     std::vector<FaultRow> m_opened;
     std::optional<FaultRow> m_current;

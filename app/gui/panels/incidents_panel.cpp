@@ -119,15 +119,15 @@ IncidentsPanel::IncidentsPanel(model::SessionView& view, Commands& commands, QWi
                                QStringLiteral("this computer"), QStringLiteral("provisional"),
                                QStringLiteral("99 999"), QStringLiteral("metadata change"),
                                QStringLiteral("Content")},
-                              QStringLiteral("11509 samples lost"));
+                              QStringLiteral("1509 samples lost"));
     m_table->setRootIsDecorated(true);
     // Whose fault it was stays longest beside what happened, which tells the rest.
     m_table->columns().setGivingWay({IncidentModel::kGroup, IncidentModel::kKind, IncidentModel::kCount,
                                      IncidentModel::kLost, IncidentModel::kTime, IncidentModel::kLasted,
                                      IncidentModel::kCause});
-    m_table->columns().addElastic(IncidentModel::kSeverity, QStringLiteral("    ▲"),
+    m_table->columns().addElastic(IncidentModel::kSeverity, QStringLiteral("Severity"),
                                   QStringLiteral("    ▲ warning"));
-    m_table->columns().addElastic(IncidentModel::kWho, QStringLiteral("20 cha"),
+    m_table->columns().addElastic(IncidentModel::kWho, QStringLiteral("20 c"),
                                   QStringLiteral("Mira Lindqvist · 02 Pose, quaternion"));
     connectParts();
     showEmptyState();

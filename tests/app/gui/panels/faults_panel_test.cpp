@@ -146,5 +146,15 @@ TEST_F(FaultsPanelTest, ANarrowDockShowsNamesWholeAndScrollsNotSideways) {
     }
 }
 
+TEST_F(FaultsPanelTest, ANarrowDockLeavesOutNoCauseThatHasLosses) {
+    perform(0, 400);
+    m_panel.resize(300, 260);
+    refresh();
+    for (int column = FaultModel::kThisComputer; column <= FaultModel::kUnknown; ++column) {
+        const QString lost = m_table->model()->index(0, column).data().toString();
+        EXPECT_TRUE(lost == "0" || !m_table->isColumnHidden(column)) << column << lost.toStdString();
+    }
+}
+
 } // namespace
 } // namespace posewire::gui
