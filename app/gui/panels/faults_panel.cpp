@@ -87,6 +87,15 @@ void FaultsPanel::chooseCauses() {
     }
 }
 
+/// Names are whole before shares are shown, but for very long ones.
+void FaultsPanel::keepNames() {
+    constexpr qsizetype kLongest = 16;
+    for (int row = 0; row < m_faults.rowCount(); ++row) {
+        const QString name = m_faults.index(row, 0).data().toString().left(kLongest);
+        m_table->columns().keepOpenFor(QStringLiteral("    ● %1 · 9").arg(name));
+    }
+}
+
 void FaultsPanel::connectParts() {
     connect(m_table, &QAbstractItemView::activated, this,
             [this](const QModelIndex& cell) { showPackets(cell, PacketLook::InContext); });
@@ -101,6 +110,7 @@ void FaultsPanel::refresh() {
     m_choice->refresh();
     m_faults.refresh();
     chooseCauses();
+    keepNames();
     const QString span = spanText(m_view);
     m_span->setText(tr("Samples lost"), span.isEmpty() ? QString() : QStringLiteral(" · ") + span);
     m_span->setAccessibleName(m_span->text());

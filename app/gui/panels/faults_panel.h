@@ -35,6 +35,7 @@ private:
     void connectParts();
     void fitColumns();
     void chooseCauses();
+    void keepNames();
     void addActions(QMenu& menu, const QModelIndex& index);
     void select(const QModelIndex& index);
     void keepPlace();

@@ -82,6 +82,7 @@ TrackersPanel::TrackersPanel(model::SessionView& view, Commands& commands, QWidg
     m_table->setColumnSamples({QStringLiteral("Right Upper Arm"), number, number, number, number, QString()},
                               QStringLiteral("▲ magnetic"));
     m_table->setOptionalColumns(TrackerModel::kFree);
+    m_table->setMinimumWidth(fontMetrics().averageCharWidth() * 26); // beside plots: names and flags
     m_table->setEmptyText(tr("No tracker data on the air.\nIn MVN: Network Streamer > enable Motion Tracker "
                              "Kinematics (type 23)."));
     m_facts.dimWhile([this] { return m_trackers.isStale(); });
