@@ -16,6 +16,8 @@
 #include <QScopedValueRollback>
 #include <QScrollBar>
 
+#include <utility>
+
 namespace posewire::gui {
 
 namespace {
@@ -114,12 +116,7 @@ IncidentsPanel::IncidentsPanel(model::SessionView& view, Commands& commands, QWi
     m_message->setForegroundRole(QPalette::PlaceholderText);
     m_message->setContentsMargins(10, 3, 10, 4);
     m_table->setModel(&m_incidents);
-    m_table->setColumnSamples({QStringLiteral("    ▲ warning"), QStringLiteral("10:42:17.508"),
-                               QStringLiteral("Mira Lindqvist · 02"), QString(), QStringLiteral("99 999"),
-                               QStringLiteral("this computer"), QStringLiteral("provisional"),
-                               QStringLiteral("99 999"), QStringLiteral("metadata change"),
-                               QStringLiteral("Content")},
-                              QStringLiteral("1509 samples lost"));
+    fitColumns();
     m_table->setRootIsDecorated(true);
     // Whose fault it was stays longest beside what happened, which tells the rest.
     m_table->columns().setGivingWay({IncidentModel::kGroup, IncidentModel::kKind, IncidentModel::kCount,
@@ -131,6 +128,26 @@ IncidentsPanel::IncidentsPanel(model::SessionView& view, Commands& commands, QWi
                                   QStringLiteral("Mira Lindqvist · 02 Pose, quaternion"));
     connectParts();
     showEmptyState();
+}
+
+/// What happened has the room before other columns do, as long as there is enough for the few that stay.
+void IncidentsPanel::fitColumns() {
+    m_table->setColumnSamples({QStringLiteral("    ▲ warning"), QStringLiteral("10:42:17.508"),
+                               QStringLiteral("Mira Lindqvist · 02"), QString(), QStringLiteral("99 999"),
+                               QStringLiteral("this computer"), QStringLiteral("provisional"),
+                               QStringLiteral("99 999"), QStringLiteral("metadata change"),
+                               QStringLiteral("Content")},
+                              m_isNarrow ? QStringLiteral("1509 samples lost")
+                                         : QStringLiteral("11509 samples lost in 11293 gaps"));
+}
+
+void IncidentsPanel::resizeEvent(QResizeEvent* event) {
+    constexpr int kNarrow = 60; // characters
+    Panel::resizeEvent(event);
+    const bool isNarrow = width() < kNarrow * fontMetrics().averageCharWidth();
+    if (std::exchange(m_isNarrow, isNarrow) != isNarrow) {
+        fitColumns();
+    }
 }
 
 std::span<const ActionInfo> IncidentsPanel::actionTable() {

@@ -215,6 +215,16 @@ TEST_F(IncidentsPanelTest, EveryControlIsReachedByTheKeyboardAndNamed) {
     }
 }
 
+TEST_F(IncidentsPanelTest, WhatHappenedHasRoomBeforeOtherColumns) {
+    for (const int width : {480, 666, 900}) {
+        m_panel.resize(width, 220);
+        m_panel.refresh();
+        EXPECT_GE(m_table->columnWidth(IncidentModel::kText),
+                  m_table->fontMetrics().horizontalAdvance("11509 samples lost in 11293 gaps"))
+            << width;
+    }
+}
+
 TEST_F(IncidentsPanelTest, ANarrowDockScrollsNotSidewaysAndSaysWhatHappened) {
     for (const int width : {250, 310, 420}) {
         m_panel.resize(width, 220);
