@@ -114,6 +114,8 @@ protected:
     void closeEvent(QCloseEvent* event) override;
 
 private:
+    void noteRecent(const QString& path);
+    [[nodiscard]] QString placeOfRecordings() const;
     /// What a dock shows of one session.
     struct Page {
         QWidget* scroll = nullptr;

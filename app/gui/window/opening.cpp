@@ -27,6 +27,10 @@ namespace {
 
 constexpr int kLongestPath = 480; // logical pixels
 
+QString recordingFilters() {
+    return MainWindow::tr("Recordings (*.pcapng *.pcap);;All files (*)");
+}
+
 /// The file of this computer that is dragged; empty for none and for several.
 QString droppedFile(const QMimeData& data) {
     const QList<QUrl> urls = data.urls();
@@ -37,22 +41,36 @@ QString droppedFile(const QMimeData& data) {
 } // namespace
 
 void MainWindow::openFile() {
-    const QString path = QFileDialog::getOpenFileName(this, tr("Open a file of MXTP datagrams"));
+    const QString path =
+        QFileDialog::getOpenFileName(this, tr("Open a recording"), placeOfRecordings(), recordingFilters());
     if (!path.isEmpty()) {
         openPath(path);
     }
 }
 
 void MainWindow::openPath(const QString& path) {
+    noteRecent(path);
+    m_driver.openFile(path);
+}
+
+void MainWindow::noteRecent(const QString& path) {
     const QString whole = QDir().absoluteFilePath(path);
     m_settings.recentFiles.removeAll(whole);
     m_settings.recentFiles.prepend(whole);
     m_settings.recentFiles = m_settings.recentFiles.mid(0, Settings::kMostRecentFiles);
-    m_driver.openFile(path);
+}
+
+/// Where a recording is looked for: beside the newest, else where takes go.
+QString MainWindow::placeOfRecordings() const {
+    const QString newest = m_settings.recentFiles.isEmpty()
+                               ? QString()
+                               : QFileInfo(m_settings.recentFiles.first()).absolutePath();
+    return !newest.isEmpty() && QDir(newest).exists() ? newest : recordingFolder(m_settings.recording);
 }
 
 void MainWindow::chooseComparison() {
-    const QString path = QFileDialog::getOpenFileName(this, tr("Compare with a recording"));
+    const QString path = QFileDialog::getOpenFileName(this, tr("Compare with a recording"),
+                                                      placeOfRecordings(), recordingFilters());
     if (!path.isEmpty()) {
         compareWith(path);
     }
@@ -89,10 +107,17 @@ void MainWindow::listRecentFiles(QMenu& menu) {
 }
 
 void MainWindow::toggleRecording() {
+    const std::optional<TakeState> take = m_driver.take();
     if (const QString problem = m_driver.toggleRecording(m_settings.recording); !problem.isEmpty()) {
         MessageBox box(tr("Record"), problem, QMessageBox::Ok, this);
         offerHelp(box, placeOf(HelpTopic::RecordingFailed));
         box.exec();
+    } else if (take && !m_driver.isRecording()) {
+        noteRecent(take->path);
+        const QFileInfo file(take->path);
+        say(tr("Recorded %1 as \"%2\" in %3. It is under File > Open recent.")
+                .arg(duration(take->seconds), file.fileName(),
+                     QDir::toNativeSeparators(file.absolutePath())));
     }
 }
 

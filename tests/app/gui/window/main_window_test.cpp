@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/window/main_window.h"
+#include "tests/app/gui/window/main_window_fixture.h"
 
 #include "app/gui/dock_layout.h"
 #include "app/gui/inputs/inputs_page.h"
@@ -32,43 +32,8 @@
 #include <set>
 #include <utility>
 
-#include <sys/stat.h>
-
 namespace posewire::gui {
 namespace {
-
-class MainWindowTest : public testing::Test {
-protected:
-    std::unique_ptr<MainWindow> makeWindow(const Settings& settings = {}) {
-        auto window = std::make_unique<MainWindow>(driver, file, settings);
-        window->resize(1280, 800);
-        window->show();
-        QTest::qWait(1);
-        return window;
-    }
-    static QDockWidget* dock(MainWindow& window, const QString& name) {
-        return window.findChild<QDockWidget*>(name);
-    }
-
-    /// Both of them, the second before the first.
-    static std::pair<QDockWidget*, QDockWidget*> tabbed(MainWindow& window, const QString& behind,
-                                                        const QString& front) {
-        const std::pair docks{dock(window, behind), dock(window, front)};
-        docks.first->show();
-        docks.second->show();
-        window.tabifyDockWidget(docks.first, docks.second);
-        docks.second->raise();
-        QTest::qWait(1);
-        return docks;
-    }
-
-    static QAction* action(MainWindow& window, const QString& id) { return window.findChild<QAction*>(id); }
-
-    QTemporaryDir folder;
-    SettingsFile file{folder.filePath("settings.json")};
-    log::SystemClock clock;
-    SessionDriver driver{clock};
-};
 
 TEST_F(MainWindowTest, HasADockForEveryRowOfTheTable) {
     const auto window = makeWindow();
@@ -138,25 +103,6 @@ TEST_F(MainWindowTest, KeepsAtOnceThatARelayWasStopped) {
     ASSERT_EQ(kept.inputs.relays.size(), 1U) << problem.toStdString();
     EXPECT_FALSE(kept.inputs.relays[0].isOn);
     EXPECT_FALSE(kept.inputs.inputs.has_value()) << "nobody has chosen any";
-}
-
-TEST_F(MainWindowTest, EscapeStopsOpeningAFileAndIsForOthersElse) {
-    const auto window = makeWindow();
-    auto* stop = window->findChild<QToolButton*>("stopOpeningButton");
-    EXPECT_TRUE(stop->isHidden());
-    EXPECT_FALSE(action(*window, "stopOpening")->isEnabled());
-    const QString endless = folder.filePath("endless");
-    ASSERT_EQ(::mkfifo(QFile::encodeName(endless).constData(), 0600), 0);
-    driver.openFile(endless);
-    emit driver.tableTick();
-    EXPECT_FALSE(stop->isHidden());
-    QTest::keyClick(window.get(), Qt::Key_Escape);
-    EXPECT_FALSE(driver.isOpening());
-    EXPECT_TRUE(stop->isHidden());
-    EXPECT_TRUE(window->findChild<HealthBar*>("healthBar")
-                    ->findChild<QLabel*>("message")
-                    ->text()
-                    .startsWith("Opening endless was stopped"));
 }
 
 TEST_F(MainWindowTest, ShowsInTheSizeThatItWasGiven) {

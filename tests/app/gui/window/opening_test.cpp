@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/window/health_bar.h"
+#include "tests/app/gui/window/main_window_fixture.h"
+
+#include <QFile>
+#include <QFileInfo>
+#include <QLabel>
+#include <QToolButton>
+
+#include <sys/stat.h>
+
+/// Which files the window opens and records.
+namespace posewire::gui {
+namespace {
+
+TEST_F(MainWindowTest, EscapeStopsOpeningAFileAndIsForOthersElse) {
+    const auto window = makeWindow();
+    auto* stop = window->findChild<QToolButton*>("stopOpeningButton");
+    EXPECT_TRUE(stop->isHidden());
+    EXPECT_FALSE(action(*window, "stopOpening")->isEnabled());
+    const QString endless = folder.filePath("endless");
+    ASSERT_EQ(::mkfifo(QFile::encodeName(endless).constData(), 0600), 0);
+    driver.openFile(endless);
+    emit driver.tableTick();
+    EXPECT_FALSE(stop->isHidden());
+    QTest::keyClick(window.get(), Qt::Key_Escape);
+    EXPECT_FALSE(driver.isOpening());
+    EXPECT_TRUE(stop->isHidden());
+    EXPECT_TRUE(window->findChild<HealthBar*>("healthBar")
+                    ->findChild<QLabel*>("message")
+                    ->text()
+                    .startsWith("Opening endless was stopped"));
+}
+
+TEST_F(MainWindowTest, SaysWhereATakeIsAndOffersToOpenIt) {
+    Settings settings;
+    settings.recording.folder = folder.path();
+    const auto window = makeWindow(settings);
+    action(*window, "record")->trigger();
+    ASSERT_TRUE(driver.isRecording());
+    const QString path = driver.take()->path;
+    action(*window, "record")->trigger();
+    const QString said = window->findChild<HealthBar*>("healthBar")->findChild<QLabel*>("message")->text();
+    EXPECT_TRUE(said.contains(QFileInfo(path).fileName()) && said.contains(folder.path()))
+        << qPrintable(said);
+    window->close();
+    QString problem;
+    EXPECT_EQ(file.read(&problem).recentFiles, QStringList{path});
+}
+
+} // namespace
+} // namespace posewire::gui
