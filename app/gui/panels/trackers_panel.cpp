@@ -13,6 +13,8 @@ namespace posewire::gui {
 
 namespace {
 
+constexpr int kTableCharacters = 36; ///< names and flags
+
 /// Free acceleration x y z above, norm of the magnetic field below.
 TimePlot* makeTrackerPlot(QWidget* parent) {
     constexpr double kSecondsShown = log::secondsOf(TrackerHistory::kPlot);
@@ -82,7 +84,7 @@ TrackersPanel::TrackersPanel(model::SessionView& view, Commands& commands, QWidg
     m_table->setColumnSamples({QStringLiteral("Right Upper Arm"), number, number, number, number, QString()},
                               QStringLiteral("▲ magnetic"));
     m_table->setOptionalColumns(TrackerModel::kFree);
-    m_table->setMinimumWidth(fontMetrics().averageCharWidth() * 26); // beside plots: names and flags
+    m_table->setMinimumWidth(fontMetrics().averageCharWidth() * kTableCharacters);
     m_table->setEmptyText(tr("No tracker data on the air.\nIn MVN: Network Streamer > enable Motion Tracker "
                              "Kinematics (type 23)."));
     m_facts.dimWhile([this] { return m_trackers.isStale(); });
@@ -99,9 +101,10 @@ void TrackersPanel::refresh() {
     if (hasTracker && !m_isDivided) {
         m_isDivided = true;
         m_detail->show();
-        // Shares: below the table plots need the room; beside them the table shows its columns.
+        // Below the table plots need the room; beside it facts do, which have many digits.
         const bool isBeside = m_splitter->orientation() == Qt::Horizontal;
-        m_splitter->setSizes(isBeside ? QList<int>{1, 1} : QList<int>{1, 3});
+        const int least = m_table->minimumWidth();
+        m_splitter->setSizes(isBeside ? QList<int>{least, width() - least} : QList<int>{1, 3});
     }
     m_detail->setVisible(hasTracker);
     if (m_detail->isVisible()) {
@@ -140,7 +143,10 @@ QString TrackersPanel::summary() const {
 
 void TrackersPanel::resizeEvent(QResizeEvent* event) {
     Panel::resizeEvent(event);
-    const Qt::Orientation orientation = width() > height() * 3 / 2 ? Qt::Horizontal : Qt::Vertical;
+    constexpr int kBothCharacters = 75; // as wide as the table and the facts are
+    const bool isBeside =
+        width() > height() * 3 / 2 && width() >= kBothCharacters * fontMetrics().averageCharWidth();
+    const Qt::Orientation orientation = isBeside ? Qt::Horizontal : Qt::Vertical;
     if (orientation != m_splitter->orientation()) {
         m_splitter->setOrientation(orientation);
         m_isDivided = false;

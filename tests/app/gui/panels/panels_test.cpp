@@ -13,6 +13,7 @@
 #include <QTest>
 #include <QToolButton>
 
+#include <algorithm>
 #include <memory>
 #include <set>
 
@@ -119,6 +120,20 @@ TEST_F(PanelsTest, PlotsOfATrackerThatIsNoLongerSentAreDimmed) {
     for (const TableView* one : panel->findChildren<TableView*>()) {
         EXPECT_EQ(one->model()->index(0, 1).data(Qt::ForegroundRole), QVariant(theme().dim));
     }
+}
+
+TEST_F(PanelsTest, FactsOfATrackerAreWholeBesideItsTable) {
+    performer::Performer performer(sending(1, {2, 23}));
+    m_stage.perform(performer, 0, 240);
+    const auto panel = open<TrackersPanel>();
+    panel->resize(576, 230);
+    refresh(*panel);
+    QTest::qWait(1);
+    const auto tables = panel->findChildren<TableView*>();
+    const TableView* facts =
+        *std::ranges::find(tables, QString("Selected tracker"), &QWidget::accessibleName);
+    const QString vector = QStringLiteral("−39.24 −39.24 −39.24");
+    EXPECT_GE(facts->columnWidth(1), QFontMetrics(tabularFont()).horizontalAdvance(vector));
 }
 
 TEST_F(PanelsTest, ClickingACharacterSelectsItForAllPanels) {
