@@ -368,7 +368,8 @@ std::string eventSection(const model::SessionView& session, const ReportSteps& s
                    mark + escaped(model::nameOf(event->kind)), escaped(whose(session, *event)),
                    grouped(event->count), escaped(event->text())});
     });
-    return "<h2>Events</h2>\n" + listed("newest", std::min(all, kMostEvents), all, "event") + table.html();
+    return "<h2>Incidents</h2>\n" + listed("newest", std::min(all, kMostEvents), all, "incident") +
+           table.html();
 }
 
 } // namespace posewire::exporting

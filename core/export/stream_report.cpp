@@ -229,7 +229,7 @@ std::vector<Finding> findingsOn(const model::SessionView& session,
     addSession(findings, session);
     addSenders(findings, session);
     for (const std::string& line : options.exceeded) {
-        findings.push_back({IncidentSeverity::Error, line + '.'});
+        findings.push_back({IncidentSeverity::Error, line.ends_with('.') ? line : line + '.'});
     }
     return findings;
 }

@@ -15,19 +15,19 @@ std::string Gap::evidenceText() const {
     switch (evidence) {
     case Evidence::Dropped:
         return "This computer dropped " + counted(figure, "datagram") + " of the port between packets " +
-               std::to_string(fromPacket) + " and " + std::to_string(toPacket) + ".";
+               grouped(fromPacket) + " and " + grouped(toPacket) + ".";
     case Evidence::NotListening:
         return "This computer did not listen to the port for a while: its input was removed and added again.";
     case Evidence::Overtaken:
         return "This computer did not look at " + counted(figure, "packet") + " between packets " +
-               std::to_string(fromPacket) + " and " + std::to_string(toPacket) + " in time.";
+               grouped(fromPacket) + " and " + grouped(toPacket) + " in time.";
     case Evidence::Damaged:
-        return "Sample " + std::to_string(figure) + " arrived truncated or damaged.";
+        return "Sample " + grouped(figure) + " arrived truncated or damaged.";
     case Evidence::Partial:
-        return "Only a part of sample " + std::to_string(figure) + ", next to the gap, arrived.";
+        return "Only a part of sample " + grouped(figure) + ", next to the gap, arrived.";
     case Evidence::OtherStream:
         return "Type " + wire::typeDigits(otherType) + " of the same sender brought sample " +
-               std::to_string(figure) + ", which is missing here.";
+               grouped(figure) + ", which is missing here.";
     case Evidence::Reliable:
         return "TCP loses nothing: " + counted(lost, "sample was", "samples were") + " not sent.";
     case Evidence::Paused:

@@ -229,8 +229,8 @@ void findAboutNames(const NullPoseEvidence& evidence, Findings& findings) {
             {NullPoseFault::SegmentCount, count < layout->body ? Severity::Error : Severity::Warning, -1,
              "The scale message has " + counted(static_cast<std::size_t>(count), "segment") +
                  ", the poses have " + std::to_string(layout->count()) + " (" + std::to_string(layout->body) +
-                 " body, " + std::to_string(layout->props) + " props, " + std::to_string(layout->fingers) +
-                 " fingers).",
+                 " body, " + counted(static_cast<std::uint64_t>(layout->props), "prop") + ", " +
+                 std::to_string(layout->fingers) + " fingers).",
              count < kBodySegmentCount ? "The figure is drawn with the reference body instead of this one."
                                        : "The origins of some segments of the poses are not known."});
     }

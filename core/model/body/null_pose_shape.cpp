@@ -224,8 +224,10 @@ void findPointNames(const NullPose& pose, Findings& findings) {
     if (!other.empty()) {
         findings.push_back(
             {NullPoseFault::PointName, Severity::Note, -1,
-             counted(other.size(), "point name") + " other than in known recordings: " + listed(other) + ".",
-             "The list of points is another version's. Check the IDs before using points by ID."});
+             (other.size() == 1 ? "One point has an unfamiliar name: "
+                                : grouped(other.size()) + " points have unfamiliar names: ") +
+                 listed(other) + ".",
+             "The point list may be from another version. Check the IDs before using points by ID."});
     }
 }
 

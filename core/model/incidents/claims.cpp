@@ -65,7 +65,7 @@ void IncidentFollower::checkTakenOver(const CharacterKey& key, Character& charac
     }
     Occurrence one = Occurrence::at(IncidentKind::Restart, key.sender, tookOver.stamp, m_lastPacket);
     one.character = key.character;
-    one.detail = "Its sender sends from another port now.";
+    one.detail = "Now sent from another port.";
     m_incidents.report(one);
 }
 

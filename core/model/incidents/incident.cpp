@@ -59,8 +59,13 @@ std::string outageText(const Incident& incident) {
 }
 
 std::string limitText(const Incident& incident, const char* what, const char* unit, int decimals) {
-    return std::string(what) + ' ' + fixedText(incident.value, decimals) + ' ' + unit + ", limit " +
-           fixedText(incident.limit, decimals) + ' ' + unit + '.';
+    std::string limit = fixedText(incident.limit, decimals); // as somebody set it: "10", not "10.0"
+    if (limit.find('.') != std::string::npos) {
+        limit.erase(limit.find_last_not_of('0') + 1);
+        limit.erase(limit.find_last_not_of('.') + 1);
+    }
+    return std::string(what) + ' ' + fixedText(incident.value, decimals) + ' ' + unit + ", limit " + limit +
+           ' ' + unit + '.';
 }
 
 template <class Get>

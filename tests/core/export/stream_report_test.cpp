@@ -125,7 +125,7 @@ TEST_F(StreamReportTest, SaysOfEveryGapWhoseItWas) {
     EXPECT_THAT(html, HasSubstr("99–101"));
     EXPECT_THAT(html, HasSubstr("<td>this computer</td>"));
     EXPECT_THAT(html, HasSubstr("<td>unknown</td>"));
-    EXPECT_THAT(html, HasSubstr("<h2>Events</h2>"));
+    EXPECT_THAT(html, HasSubstr("<h2>Incidents</h2>"));
     EXPECT_THAT(html, HasSubstr("source up"));
     EXPECT_THAT(html, HasSubstr("1 sample was lost in this computer"));
     EXPECT_THAT(html, HasSubstr("1 sample was lost with no sign of where."));
@@ -171,8 +171,11 @@ TEST_F(StreamReportTest, NeedsNothingOutsideItself) {
 TEST_F(StreamReportTest, TellsOfLimitsAndSettings) {
     stream(10);
     const std::string html =
-        report({.exceeded = {"gap 12 ms is above the limit"}, .settings = {{"Loss", "none"}}});
+        report({.exceeded = {"gap 12 ms is above the limit", "Jonas: Jitter 12.8 ms, limit 10 ms."},
+                .settings = {{"Loss", "none"}}});
     EXPECT_THAT(html, HasSubstr("gap 12 ms is above the limit."));
+    EXPECT_THAT(html, HasSubstr("limit 10 ms."));
+    EXPECT_THAT(html, Not(HasSubstr("limit 10 ms..")));
     EXPECT_THAT(html, HasSubstr("<dt>Loss</dt><dd>none</dd>"));
 }
 

@@ -97,6 +97,13 @@ TEST_F(GapTest, IsTheSameAcrossTheWrapAroundOfTheCounter) {
     EXPECT_EQ(gap.evidenceText(), "Type 24 of the same sender brought sample 0, which is missing here.");
 }
 
+TEST_F(GapTest, NamesItsSampleInTheFormThatPeopleRead) {
+    Gap gap;
+    gap.evidence = Gap::Evidence::Damaged;
+    gap.figure = 3793;
+    EXPECT_EQ(gap.evidenceText(), "Sample 3\u202f793 arrived truncated or damaged.");
+}
+
 TEST_F(GapTest, IsAPauseFromAQuarterOfASecondWhereTheTimeCodeMovedWithIt) {
     EXPECT_EQ(causeOfSilence(400ms, 0ms), LossCause::Sender);
     EXPECT_EQ(causeOfSilence(248ms, 0ms), LossCause::Unknown) << "too short for a pause";

@@ -324,11 +324,11 @@ TEST(IncidentTexts, GiveLimitsTheirUnits) {
         event.limit = limit;
         return event.text();
     };
-    EXPECT_EQ(textOf(IncidentKind::LossLimit, 2.345, 1), "Loss 2.35 %, limit 1.00 %.");
-    EXPECT_EQ(textOf(IncidentKind::JitterLimit, 12.34, 10), "Jitter 12.3 ms, limit 10.0 ms.");
+    EXPECT_EQ(textOf(IncidentKind::LossLimit, 2.345, 1), "Loss 2.35 %, limit 1 %.");
+    EXPECT_EQ(textOf(IncidentKind::JitterLimit, 12.34, 10), "Jitter 12.3 ms, limit 10 ms.");
     EXPECT_EQ(textOf(IncidentKind::GapLimit, 512.4, 250), "Gap 512 ms, limit 250 ms.");
-    EXPECT_EQ(textOf(IncidentKind::AgeLimit, 3.04, 1), "Age 3.0 s, limit 1.0 s.");
-    EXPECT_EQ(textOf(IncidentKind::RateLimit, 50, 20), "Rate off by 50.0 %, limit 20.0 %.");
+    EXPECT_EQ(textOf(IncidentKind::AgeLimit, 3.04, 1), "Age 3.0 s, limit 1 s.");
+    EXPECT_EQ(textOf(IncidentKind::RateLimit, 50, 20), "Rate off by 50.0 %, limit 20 %.");
     EXPECT_EQ(textOf(IncidentKind::TimeCode, -3'600'000, 0), "The time code jumped by −3600000 ms.");
 }
 

@@ -278,7 +278,7 @@ TEST_F(IncidentsTest, TellARestartOnAnotherPortOnceTheOldOneIsSilent) {
     ASSERT_EQ(restarts.size(), 1U);
     EXPECT_EQ(restarts[0].sender, sender("127.0.0.1:40002"));
     EXPECT_EQ(restarts[0].firstStamp, from);
-    EXPECT_EQ(restarts[0].text(), "Its sender sends from another port now.");
+    EXPECT_EQ(restarts[0].text(), "Now sent from another port.");
     for (std::uint32_t sample = 1; sample <= 50; ++sample, m_at += 10ms) {
         pose(sample, "127.0.0.1:40003");
         pose(50 + sample, "127.0.0.1:40002"); // goes on
