@@ -104,8 +104,13 @@ void HelpWindow::layOut() {
     splitter->setStretchFactor(1, 1);
     splitter->setChildrenCollapsible(false);
     m_left->setMinimumWidth(metrics.averageCharWidth() * 22);
+    m_contents->ensurePolished();
+    const QAbstractItemView& titles = *m_contents;
+    const int contents = titles.sizeHintForColumn(0) + m_contents->verticalScrollBar()->sizeHint().width() +
+                         2 * metrics.averageCharWidth();
     m_view->setMinimumWidth(metrics.averageCharWidth() * 30);
-    splitter->setSizes({metrics.averageCharWidth() * 38, metrics.averageCharWidth() * 112});
+    splitter->setSizes(
+        {std::max(contents, metrics.averageCharWidth() * 38), metrics.averageCharWidth() * 112});
     m_view->document()->setDocumentMargin(metrics.height());
     auto* column = tightColumn(this);
     column->addLayout(bar);
@@ -157,10 +162,10 @@ void HelpWindow::keyPressEvent(QKeyEvent* event) {
 }
 
 void HelpWindow::open(const QString& place) {
-    visit(place);
     QWidget::show();
     raise();
     activateWindow();
+    visit(place); // where a heading is depends on the width of the page
     m_view->setFocus();
 }
 
@@ -203,7 +208,9 @@ void HelpWindow::show(const Visit& visit) {
         m_page = page->id;
         m_view->showText(page->markdown);
         m_view->highlight(searchedWords(m_search->text()));
-        setWindowTitle(tr("%1 – Posewire user guide").arg(page->title));
+        setWindowTitle(page->id == QLatin1String(HelpPages::kStart)
+                           ? page->title
+                           : tr("%1 – Posewire user guide").arg(page->title));
     }
     if (visit.scroll >= 0) {
         m_view->verticalScrollBar()->setValue(visit.scroll);
@@ -231,8 +238,13 @@ void HelpWindow::search(const QString& words) {
     m_isNewSearch = true;
     const QSignalBlocker quiet(m_hits);
     m_hits->clear();
+    const QFontMetrics metrics = m_hits->fontMetrics();
+    const int room = m_left->width() - m_hits->verticalScrollBar()->sizeHint().width() - metrics.height();
     for (const HelpHit& hit : hits) {
         auto* item = new QListWidgetItem(hit.page->title + u'\n' + hit.excerpt, m_hits);
+        // The list would take a line for each, and cut the excerpt off.
+        const QRect lines = metrics.boundingRect(QRect(0, 0, room, 0), Qt::TextWordWrap, item->text());
+        item->setSizeHint({0, lines.height() + metrics.height()});
         item->setData(kPageRole, hit.page->id);
         item->setData(Qt::AccessibleTextRole, hit.page->title);
         item->setData(Qt::AccessibleDescriptionRole, hit.excerpt);

@@ -45,6 +45,25 @@ TEST_F(HelpWindowTest, ShowsAPlaceOnAPage) {
     EXPECT_EQ(window.contents().currentItem()->text(0), "What a cause means");
 }
 
+TEST_F(HelpWindowTest, AWindowThatWasNotOpenShowsThePlaceToo) {
+    HelpWindow fresh(pages, nullptr);
+    fresh.resize(1000, 700);
+    fresh.open("messages#a-file-cannot-be-opened");
+    QTest::qWait(1);
+    EXPECT_EQ(fresh.view().cursorForPosition({200, 8}).block().text(), "A file cannot be opened");
+}
+
+TEST_F(HelpWindowTest, TheContentsHaveRoomForEveryTitle) {
+    HelpWindow fresh(pages, nullptr);
+    fresh.open("index");
+    QTest::qWait(1);
+    const QAbstractItemView& titles = fresh.contents();
+    EXPECT_GE(titles.viewport()->width(), titles.sizeHintForColumn(0));
+    EXPECT_EQ(fresh.windowTitle(), "Posewire user guide");
+    fresh.open("packets");
+    EXPECT_EQ(fresh.windowTitle(), "Packets – Posewire user guide");
+}
+
 TEST_F(HelpWindowTest, ShowsTheFirstPageForAPlaceThatIsNone) {
     window.open("packets");
     window.open("nonsense#here");
@@ -86,6 +105,9 @@ TEST_F(HelpWindowTest, ASearchListsPagesInsteadOfTheContentsAndMarksWhatItFound)
     EXPECT_TRUE(window.hits().isVisible());
     EXPECT_FALSE(window.contents().isVisible());
     ASSERT_GT(window.hits().count(), 0);
+    EXPECT_GT(window.hits().visualItemRect(window.hits().item(0)).height(),
+              2 * window.hits().fontMetrics().height())
+        << "the excerpt is shown";
     EXPECT_TRUE(window.hits().item(0)->text().startsWith("Inputs and the network on site\n"));
     QTest::keyClick(&window.searchEdit(), Qt::Key_Return);
     EXPECT_EQ(window.place(), "network");
