@@ -160,7 +160,7 @@ constexpr ActionInfo step(const char* id, const char* text, const char* shortcut
     return {id, kStep, text, shortcut, Do::call<stepSamples<steps>>};
 }
 
-constexpr const char* kFigures = QT_TRANSLATE_NOOP("Action", "&Time/&Figures of");
+constexpr const char* kFigures = QT_TRANSLATE_NOOP("Action", "&Time/Show &figures for");
 
 const ActionInfo kActions[] = {
     {"open", QT_TRANSLATE_NOOP("Action", "&File"), QT_TRANSLATE_NOOP("Action", "&Open…"), "Ctrl+O",
@@ -170,12 +170,14 @@ const ActionInfo kActions[] = {
      Do::call<&Window::clearRecentFiles>},
     {"closeFile", "&File", QT_TRANSLATE_NOOP("Action", "&Close recording"), "Ctrl+W",
      Do::call<&Window::closeFile>},
+    {"stopOpening", "&File", QT_TRANSLATE_NOOP("Action", "S&top opening"), "Esc",
+     Do::callIn<&Window::driver, &SessionDriver::cancelOpening>},
+    lineIn("&File"),
     {"compareWith", "&File", QT_TRANSLATE_NOOP("Action", "Compare &with a recording…"), "Ctrl+Shift+O",
      Do::callIn<&Window::driver, &SessionDriver::askForComparison>},
     {"endComparison", "&File", QT_TRANSLATE_NOOP("Action", "&End comparison"), "",
      Do::callIn<&Window::driver, &SessionDriver::endComparison>},
-    {"stopOpening", "&File", QT_TRANSLATE_NOOP("Action", "S&top opening"), "Esc",
-     Do::callIn<&Window::driver, &SessionDriver::cancelOpening>},
+    lineIn("&File"),
     {"saveScreenshot", "&File", QT_TRANSLATE_NOOP("Action", "&Save screenshot…"), "Ctrl+Shift+S",
      Do::call<saveScreenshot>},
     {"saveReport", "&File", QT_TRANSLATE_NOOP("Action", "Save stream re&port…"), "", Do::call<saveReport>},
@@ -189,11 +191,13 @@ const ActionInfo kActions[] = {
      Do::isIn<&Window::driver, &SessionDriver::isRecording>},
     {"recordingOptions", "&File", QT_TRANSLATE_NOOP("Action", "Recor&ding options…"), "",
      Do::call<&Window::editRecording>},
+    lineIn("&File"),
     {"replay", "&File", QT_TRANSLATE_NOOP("Action", "Repla&y to the network…"), "",
      Do::call<&Window::showReplay>},
     {"recovered", "&File", QT_TRANSLATE_NOOP("Action", "Reco&vered packets…"), "",
      Do::call<&Window::showRecovered>},
     {"history", "&File", QT_TRANSLATE_NOOP("Action", "&History…"), "", Do::call<&Window::editHistory>},
+    lineIn("&File"),
     {"quit", "&File", QT_TRANSLATE_NOOP("Action", "&Quit"), "Ctrl+Q", Do::call<&Window::close>},
 
     panelsIn(QT_TRANSLATE_NOOP("Action", "&Edit")),
@@ -275,7 +279,7 @@ const ActionInfo kActions[] = {
      Do::is<isNewestUsed<10>>},
     {"figuresMinute", kFigures, QT_TRANSLATE_NOOP("Action", "The last &minute"), "", Do::call<useNewest<60>>,
      Do::is<isNewestUsed<60>>},
-    {"figuresSinceReset", kFigures, QT_TRANSLATE_NOOP("Action", "Since the &reset"), "",
+    {"figuresSinceReset", kFigures, QT_TRANSLATE_NOOP("Action", "The time since the &reset"), "",
      Do::call<useSinceReset>, Do::is<isSinceResetUsed>},
     {"figuresOfAll", kFigures, QT_TRANSLATE_NOOP("Action", "&All"), "", Do::call<useNewest<0>>,
      Do::is<isNewestUsed<0>>},

@@ -3,6 +3,7 @@
 
 #include "app/gui/help/markdown_view.h"
 #include "app/gui/models/receiving_models.h"
+#include "app/gui/models/statistics_model.h"
 #include "app/gui/models/text.h"
 #include "app/gui/theme/plain_text.h"
 #include "app/gui/theme/theme.h"
@@ -130,11 +131,18 @@ QString shortcutsMarkdown() {
     return text;
 }
 
-/// What the figures of streams are, in the words of their tooltips.
+/// The columns of the statistics, in their order and in the words of their tooltips.
 QString figuresMarkdown() {
-    QString text = tr("| Figure | What it says |\n|---|---|\n");
-    for (const model::FigureRow& row : model::figureTable()) {
-        text += QStringLiteral("| %1 | %2 |\n").arg(tr(row.title), tr(row.help));
+    QString text = tr("| Column | What it says |\n|---|---|\n");
+    for (int column = kNameColumn + 1; column < kStatisticsColumns; ++column) {
+        if (const auto figure = figureIn(column)) {
+            const model::FigureRow& row = model::rowOf(*figure);
+            text += QStringLiteral("| %1 | %2 |\n").arg(tr(row.shortTitle()), tr(row.help));
+        } else {
+            text +=
+                tr("| Curve | Rate over the range, or over the last two minutes; marked where samples were "
+                   "lost |\n");
+        }
     }
     return text;
 }

@@ -4,6 +4,7 @@
 #include "app/gui/help/help_pages.h"
 #include "app/gui/help_topics.h"
 #include "app/gui/models/incident_words.h"
+#include "app/gui/models/statistics_model.h"
 #include "app/gui/options.h"
 #include "app/gui/panel.h"
 #include "app/gui/window/menus.h"
@@ -11,7 +12,9 @@
 #include "app/usage/usage.h"
 #include "core/export/protocol_reference.h"
 #include "core/filter/filter.h"
+#include "core/log/packet_log.h"
 #include "core/model/incidents/incident_kinds.h"
+#include "core/model/session/session.h"
 
 #include <QDir>
 #include <QFile>
@@ -216,6 +219,20 @@ TEST(Guide, EveryCommandLineThatItShowsIsOneOfThePrograms) {
         ++count;
     }
     EXPECT_GT(count, 10);
+}
+
+TEST(Guide, TheTableOfFiguresHasTheTitlesOfTheWindow) {
+    log::PacketLog log;
+    model::Session session(log);
+    const StatisticsModel statistics(session);
+    QStringList rows;
+    for (int column = kNameColumn + 1; column < kStatisticsColumns; ++column) {
+        const QString title = statistics.headerData(column, Qt::Horizontal, Qt::DisplayRole).toString();
+        rows += QStringLiteral("| %1 | ").arg(title);
+        EXPECT_TRUE(guide().find("statistics")->markdown.contains(u'\n' + rows.back()))
+            << title.toStdString();
+        EXPECT_EQ(rows.count(rows.back()), 1) << title.toStdString() << " stands twice";
+    }
 }
 
 TEST(Guide, HasNoPartLeftThatTheProgramWasToWrite) {
