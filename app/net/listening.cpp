@@ -134,12 +134,11 @@ NetError withHolder(NetError error, std::uint16_t port, bool isTcp) {
     }
     if (const auto holder = holderOfPort(port, isTcp)) {
         const std::string process = " (process " + std::to_string(holder->id) + ")";
-        // Closing it is not what its operator wants.
         const bool isOurs = holder->name == "posewire";
         error.text.replace(place, isOurs ? std::string::npos : kByAnother.size(),
                            isOurs
                                ? "by another Posewire" + process +
-                                     "; look there, or choose another port here and let the other relay to it"
+                                     "; close it, or use another port here and let that Posewire relay to it"
                                : "by " + holder->name + process);
     }
     return error;

@@ -137,7 +137,7 @@ public:
 
     void setEntry(const Entry& entry) {
         m_level = entry.level;
-        m_symbol->setText(m_level == Health::Unknown ? QStringLiteral("ⓘ") : healthSymbol(m_level));
+        m_symbol->setText(m_level == Health::Unknown ? QStringLiteral("●") : healthSymbol(m_level));
         m_text->setText(entry.text);
         m_remedy->setText(entry.remedy);
         m_place = entry.helpPlace;

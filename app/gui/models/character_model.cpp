@@ -267,9 +267,10 @@ std::vector<TableColumn<BoardRow>> CharacterModel::columns(model::SessionView& v
                 if (row.restarts == 0) {
                     return QVariant();
                 }
-                return role == kSuffixRole ? QVariant(QStringLiteral("· ") + restartWords(row.restarts))
-                       : role == kShortSuffixRole ? QVariant(QStringLiteral("↻%1").arg(grouped(row.restarts)))
-                                                  : QVariant();
+                return role == kSuffixRole ? QVariant(QStringLiteral("↻ ") + restartWords(row.restarts))
+                       : role == kShortSuffixRole
+                           ? QVariant(QStringLiteral("↻ %1 ×").arg(grouped(row.restarts)))
+                           : QVariant();
             })};
     addFigureColumns(columns);
     columns.push_back(Column::words(

@@ -152,7 +152,10 @@ PropertyValue segments(model::SessionView& view, const Key& key) {
         return {tr("no pose yet")};
     }
     const model::SegmentLayout& layout = pose->layout;
-    return {tr("%1 body · %2 props · %3 fingers").arg(layout.body).arg(layout.props).arg(layout.fingers),
+    return {(layout.props == 1 ? tr("%1 body · %2 prop · %3 fingers") : tr("%1 body · %2 props · %3 fingers"))
+                .arg(layout.body)
+                .arg(layout.props)
+                .arg(layout.fingers),
             Health::Unknown, tr("Items of a pose datagram, from the header's counts or their number")};
 }
 
@@ -165,7 +168,7 @@ PropertyValue nullPose(model::SessionView& view, const Key& key) {
     const QString expected =
         pose->partsExpected == 0 ? QStringLiteral("?") : QString::number(pose->partsExpected);
     const QString text =
-        tr("%1/%2 parts · %3 points").arg(pose->partsReceived).arg(expected).arg(pose->points.size());
+        tr("%1 of %2 parts · %3 points").arg(pose->partsReceived).arg(expected).arg(pose->points.size());
     return {
         text, pose->isComplete() ? Health::Good : Health::Warning,
         tr("Datagrams of the scale message (type 13) received of those sent, with %1 segments; last at %2")

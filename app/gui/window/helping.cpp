@@ -76,7 +76,7 @@ void MainWindow::showTour() {
             "figure that is not up to date dims, and then says for how long.")
              .arg(key("frame")),
          m_viewport},
-        {tr("How each of them does"),
+        {tr("How each performer is doing"),
          tr("The worst comes first. Click a name to read why. At the right: what this computer receives, how "
             "far back it can look, and what it dropped itself."),
          m_health},

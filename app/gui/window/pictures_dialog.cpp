@@ -49,7 +49,7 @@ PicturesDialog::PicturesDialog(SessionDriver& driver, const ViewportWidget& view
     constexpr int kUsualRate = 30;
     constexpr int kMostRate = 240;
     setWindowTitle(tr("Export pictures"));
-    m_what->addItems({tr("This moment"), tr("The time that the figures are of"), tr("All there is")});
+    m_what->addItems({tr("This moment"), tr("The range of the figures"), tr("All there is")});
     m_rate->setButtonSymbols(QAbstractSpinBox::NoButtons);
     m_rate->setRange(1, kMostRate);
     m_rate->setValue(kUsualRate);

@@ -11,7 +11,7 @@ class RangeBox final : public ComboBox {
 
 public:
     explicit RangeBox(QWidget* parent) : ComboBox(parent) {
-        addItems({tr("All there is"), tr("The time that the figures are of")});
+        addItems({tr("All there is"), tr("The range of the figures")});
     }
 
     [[nodiscard]] bool isRangeOnly() const { return currentIndex() == 1; }

@@ -40,7 +40,7 @@ RecordingDialog::RecordingDialog(const RecordingChoice& choice, QWidget* parent)
     m_pattern->setPlaceholderText(QLatin1String(RecordingChoice::kDefaultPattern));
     m_preRoll = addNumber(*form, tr("&Keep before"), tr(" s"), tr("nothing"), choice.preRollSeconds,
                           RecordingChoice::kMostPreRoll);
-    m_megabytes = addNumber(*form, tr("New file &each"), tr(" MB"), tr("one file, however large"),
+    m_megabytes = addNumber(*form, tr("New file &every"), tr(" MB"), tr("one file, however large"),
                             choice.fileMegabytes, RecordingChoice::kMostMegabytes);
     m_minutes = addNumber(*form, tr("New file &after"), tr(" min"), tr("one file, however long"),
                           choice.fileMinutes, RecordingChoice::kMostMinutes);

@@ -148,7 +148,7 @@ void TransportBar::showMode(Mode mode) {
     const std::array helps{tr("The display follows the stream."),
                            tr("The display follows the stream, but nothing is arriving."),
                            tr("The display is paused; receiving continues. Click to follow again (End)."),
-                           tr("The past is played; receiving continues. Click to follow again (End).")};
+                           tr("Playing the past; receiving continues. Click to follow again (End).")};
     m_live->setText(texts[static_cast<std::size_t>(mode)]);
     m_live->setAccessibleName(names[static_cast<std::size_t>(mode)]);
     m_live->setToolTip(toolTipText(helps[static_cast<std::size_t>(mode)]));

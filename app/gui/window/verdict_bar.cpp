@@ -229,7 +229,7 @@ void VerdictBar::showStrip(const ShownFile& file, bool hasInputs) {
                         QStringLiteral(" · ") + lines.join(QStringLiteral(" · ")));
     } else if (isPaused) {
         const double speed = m_live.cursor().speed;
-        m_what->setText((speed == 0 ? tr("▮▮ Display paused at %1") : tr("▶ The past is played, now %1"))
+        m_what->setText((speed == 0 ? tr("▮▮ Display paused at %1") : tr("▶ Playing the past: %1"))
                                 .arg(timeOfDay(m_live.wallOf(m_live.cursorStamp()))) +
                             compared,
                         tr(" · receiving goes on, and so does the verdict above"));

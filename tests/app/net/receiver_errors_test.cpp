@@ -115,7 +115,7 @@ TEST(PortHolder, NothingForAPortThatNobodyHolds) {
 }
 
 #ifdef __linux__
-TEST(PortHolder, ThatIsAnotherPosewireIsNotToBeClosed) {
+TEST(PortHolder, ThatIsAnotherPosewireCanRelay) {
     std::array<char, 16> name{};
     ::prctl(PR_GET_NAME, name.data());
     ::prctl(PR_SET_NAME, "posewire");
@@ -126,7 +126,7 @@ TEST(PortHolder, ThatIsAnotherPosewireIsNotToBeClosed) {
     EXPECT_EQ(second.error().text,
               "UDP port " + std::to_string(first.endpoint().port) +
                   " of 127.0.0.1 is in use by another Posewire (process " + std::to_string(::getpid()) +
-                  "); look there, or choose another port here and let the other relay to it");
+                  "); close it, or use another port here and let that Posewire relay to it");
 }
 #endif
 

@@ -142,7 +142,7 @@ TEST_F(CharacterModelTest, KeepsOneRowInItsPlaceThroughARestartOnAnotherPort) {
     EXPECT_EQ(text(0, Column::kNominal), "60") << "learnt anew";
     EXPECT_EQ(text(0, Column::kMeasured), "60.0");
     EXPECT_EQ(m_model.index(0, Column::kVerdict).data(kSuffixRole).toString(),
-              QStringLiteral("· restarted 1 ×"));
+              QStringLiteral("↻ restarted 1 ×"));
     EXPECT_TRUE(portHistory(m_stage.session, after).contains("192.168.10.21:52011 until "));
     EXPECT_TRUE(m_stage.session.endedSenders().empty()) << "its other character has no successor";
 }
