@@ -139,6 +139,15 @@ std::string whom(const SessionView& session, const Incident& incident) {
     return namesOrCount(session, keys);
 }
 
+/// A sentence as it goes on after a colon: "The null pose changed" as "the null pose changed".
+std::string continued(std::string text) {
+    const bool isWord = text.size() > 1 && text[1] >= 'a' && text[1] <= 'z';
+    if (isWord && text[0] >= 'A' && text[0] <= 'Z') {
+        text[0] = static_cast<char>(text[0] - 'A' + 'a');
+    }
+    return text;
+}
+
 /// Of all of it.
 std::string amountOf(const SessionView& session, const Incident& incident, std::string_view noun) {
     StreamCounts sum;
@@ -282,7 +291,7 @@ std::string headlineOf(const SessionView& session, const ListedIncident& listed,
     default: {
         std::string text = incident.text();
         text.erase(text.find_last_not_of('.') + 1);
-        return who + ": " + text;
+        return who + ": " + continued(std::move(text));
     }
     }
 }
@@ -356,9 +365,11 @@ std::string evidenceOf(const ListedIncident& listed) {
 
 std::string whenOf(const SessionView& session, const ListedIncident& listed) {
     const std::string from = clockText(session.wallOf(listed.incident.firstStamp));
-    return listed.state == State::Over
-               ? ", " + from + " to " + clockText(session.wallOf(listed.incident.lastStamp))
-               : ", since " + from;
+    if (listed.state != State::Over) {
+        return ", since " + from;
+    }
+    const std::string to = clockText(session.wallOf(listed.incident.lastStamp));
+    return from == to ? ", at " + from : ", " + from + " to " + to;
 }
 
 } // namespace posewire::model

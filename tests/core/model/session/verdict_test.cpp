@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/session/held_up.h"
+#include "core/model/session/listed_incidents.h"
 #include "core/model/session/verdict.h"
 
 #include "tests/core/model/session/verdict_fixture.h"
@@ -131,7 +132,7 @@ TEST_F(VerdictTest, IsNotGoodWhileATypeIsMissingThatOthersOfItsCharacterGoOnWith
 
     both(526, 800, false);
     now = verdict();
-    EXPECT_NE(now.text.find("Type 24 is not sent any more while others of the character go on"),
+    EXPECT_NE(now.text.find("type 24 is not sent any more while others of the character go on"),
               std::string::npos)
         << now.text;
     EXPECT_FALSE(now.isOver) << "it is still missing";
@@ -344,6 +345,23 @@ TEST_F(VerdictTest, MentionsWhatIsOverForTenSecondsAndThenIsGood) {
     now = verdict();
     EXPECT_EQ(now.state, State::Good);
     EXPECT_EQ(verdictOf(m_session, {}).state, State::Warning) << "of all there was";
+}
+
+TEST_F(VerdictTest, SaysWhenSomethingWasInOneTimeWhereItTookNoSecond) {
+    poses(1, 300);
+    EXPECT_EQ(verdict().state, State::Good);
+    ListedIncident one;
+    one.state = ListedIncident::State::Over;
+    one.incident.kind = IncidentKind::JitterLimit;
+    one.incident.sender = m_session.senders().front().id;
+    one.incident.value = 12.8;
+    one.incident.limit = 10;
+    one.incident.firstStamp = one.incident.lastStamp = m_session.now();
+    EXPECT_TRUE(headlineOf(m_session, one).ends_with(": jitter 12.8 ms, limit 10 ms"))
+        << headlineOf(m_session, one);
+    EXPECT_TRUE(whenOf(m_session, one).starts_with(", at ")) << whenOf(m_session, one);
+    one.incident.lastStamp += 2s;
+    EXPECT_NE(whenOf(m_session, one).find(" to "), std::string::npos) << whenOf(m_session, one);
 }
 
 /// What is spoken again, and what is not.
