@@ -172,6 +172,12 @@ std::string lossHeadline(const SessionView& session, const Incident& incident, c
            std::string(incident.fate()) + " on " + whom(session, incident) + causeOf(incident);
 }
 
+std::string conflictHeadline(const SessionView& session, const Incident& incident, const std::string& who,
+                             bool isOfMany) {
+    return who + (isOfMany ? " come" : " comes") + " from several senders at once, " +
+           session.addressOf(incident.sender).shown() + " and also " + incident.detail;
+}
+
 /// Of an outage: "no data for 1.2 s".
 std::string silenceOf(const SessionView& session, const ListedIncident& listed) {
     const log::Stamp end = listed.state == State::Over ? listed.incident.lastStamp
@@ -278,8 +284,7 @@ std::string headlineOf(const SessionView& session, const ListedIncident& listed,
     case IncidentKind::Restart:
         return who + " restarted";
     case IncidentKind::Conflict:
-        return who + " comes from several senders at once, " + session.addressOf(incident.sender).shown() +
-               " and also " + incident.detail;
+        return conflictHeadline(session, incident, who, false);
     case IncidentKind::Overtaken:
     case IncidentKind::RelayLoop:
     case IncidentKind::RecordingEnded:
@@ -296,11 +301,14 @@ std::string headlineOf(const SessionView& session, const ListedIncident& listed,
     }
 }
 
-std::string outageHeadlineOf(const SessionView& session, std::span<const ListedIncident> outages) {
+std::string headlineOf(const SessionView& session, std::span<const ListedIncident> together) {
+    std::vector<ListedIncident> inOrder(together.begin(), together.end());
+    std::ranges::sort(inOrder, {}, [](const ListedIncident& one) { return one.incident.number; });
+    const Incident& first = inOrder.front().incident;
     std::vector<std::string> names;
     bool isOneCause = true;
-    for (const ListedIncident& one : outages) {
-        isOneCause = isOneCause && one.incident.cause == outages.front().incident.cause;
+    for (const ListedIncident& one : inOrder) {
+        isOneCause = isOneCause && one.incident.cause == first.cause;
         for (const std::uint8_t character : one.incident.characters()) {
             const std::string name = session.displayName({one.incident.sender, character}).shown();
             if (std::ranges::find(names, name) == names.end()) {
@@ -311,9 +319,10 @@ std::string outageHeadlineOf(const SessionView& session, std::span<const ListedI
             names.push_back(session.addressOf(one.incident.sender).shown());
         }
     }
-    const bool hasCause = isOneCause && outages.front().incident.cause;
     const std::string who = names.size() > 2 ? counted(names.size(), "character") : listed(names);
-    return "no data from " + who + (hasCause ? causeOf(outages.front().incident) : std::string());
+    return first.kind == IncidentKind::Conflict
+               ? conflictHeadline(session, first, who, names.size() > 1)
+               : "no data from " + who + (isOneCause && first.cause ? causeOf(first) : std::string());
 }
 
 std::string causeOf(const ListedIncident& listed) {

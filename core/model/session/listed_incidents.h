@@ -49,9 +49,9 @@ struct ListedIncident {
 /// "Jonas", "Jonas and Mira", "4 characters".
 [[nodiscard]] std::string namesOrCount(const SessionView& session, std::span<const CharacterKey> characters);
 
-/// Of several outages that go on at once: all who are silent, and the cause where it is one.
-[[nodiscard]] std::string outageHeadlineOf(const SessionView& session,
-                                           std::span<const ListedIncident> outages);
+/// Of several outages that go on at once, or several characters that are sent twice: all of them, and the
+/// cause where it is one.
+[[nodiscard]] std::string headlineOf(const SessionView& session, std::span<const ListedIncident> together);
 
 /// What happened, without to whom and whose it was: "37 lost".
 [[nodiscard]] std::string briefOf(const SessionView& session, const ListedIncident& listed);

@@ -100,7 +100,7 @@ private:
     std::optional<Losses> m_losses;
 };
 
-/// `together`: the worst one, and outages beside it where it is one.
+/// `together`: the worst one, and those beside it that are told with it.
 TakeVerdict fromIncidents(const SessionView& session, const std::vector<ListedIncident>& together,
                           RecentLosses& losses) {
     const ListedIncident& worst = together.front();
@@ -112,7 +112,7 @@ TakeVerdict fromIncidents(const SessionView& session, const std::vector<ListedIn
     const std::string lasts = verdict.isOver ? ", over" : ", going on";
     const std::string lost = losses.amountOf(worst, worst.incident.noun());
     const std::string what =
-        (together.size() > 1 ? outageHeadlineOf(session, together) : headlineOf(session, worst, lost)) +
+        (together.size() > 1 ? headlineOf(session, together) : headlineOf(session, worst, lost)) +
         whenOf(session, worst);
     verdict.text = answer + ": " + what + lasts;
     verdict.narrow = answer + lasts + ": " + what;
@@ -281,17 +281,19 @@ public:
     }
 
 private:
-    /// With the outages that go on beside one, of others: who is silent is named whole, since the first was.
+    /// With those that go on beside an outage or a conflict, of others: who is silent, or sent twice, is
+    /// named whole, since the first was.
     [[nodiscard]] std::vector<ListedIncident> besides(const ListedIncident& worst, bool isOfOne) const {
         std::vector<ListedIncident> together{worst};
-        const auto isSilence = [](const ListedIncident& one) {
-            return one.incident.kind == IncidentKind::Outage && one.state == State::Ongoing;
-        };
-        if (isOfOne || !isSilence(worst)) {
+        const IncidentKind kind = worst.incident.kind;
+        const bool isTold =
+            (kind == IncidentKind::Outage || kind == IncidentKind::Conflict) && worst.state == State::Ongoing;
+        if (isOfOne || !isTold) {
             return together;
         }
         for (const ListedIncident& one : m_listed) {
-            if (isSilence(one) && one.incident.number != worst.incident.number) {
+            if (one.incident.kind == kind && one.state == State::Ongoing &&
+                one.incident.number != worst.incident.number) {
                 together.push_back(one);
                 log::Stamp& since = together.front().incident.firstStamp;
                 since = std::min(since, one.incident.firstStamp);

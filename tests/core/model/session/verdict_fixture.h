@@ -24,13 +24,13 @@ protected:
         return verdictOf(m_session, recentSpan(m_session));
     }
     /// The same as pose(), of the character with the ID 1.
-    void poseOfOther(std::uint32_t sample) {
+    void poseOfOther(std::uint32_t sample, const std::string& address = "127.0.0.1:40001") {
         wire::Datagram datagram{{}, standingAt(0), {}};
         datagram.header.sampleCounter = sample;
         datagram.header.character = 1;
         datagram.header.timeCode = static_cast<std::uint32_t>(m_at.time_since_epoch() / 1ms);
         wire::completeHeader(datagram, wire::HeaderEra::Counted);
-        sendBytes(*wire::encode(datagram), m_at);
+        sendBytes(*wire::encode(datagram), m_at, address);
     }
     TakeVerdict verdictOn(std::uint8_t character) {
         follow();

@@ -459,11 +459,14 @@ TEST_F(VerdictTest, OneThatIsSentTwiceIsWorseOffThanOneThatLosesSome) {
         if (sample % 20 != 0) {
             pose(sample);
             pose(sample, "127.0.0.1:40002");
+            poseOfOther(sample);
+            poseOfOther(sample, "127.0.0.1:40002");
         }
     }
     const TakeVerdict said = verdict();
     EXPECT_EQ(said.state, State::Bad);
     EXPECT_NE(said.text.find("several senders"), std::string::npos) << said.text;
+    EXPECT_NE(said.text.find("Character 0 and Character 1 come"), std::string::npos) << said.text;
 }
 
 TEST_F(VerdictTest, MentionsTheOutageOfOneThatIsBackWhileAnotherIsStillSilent) {
