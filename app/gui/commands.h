@@ -22,7 +22,7 @@ public:
     /// Selects a packet with its sender and character; a display that is stopped moves there. Nothing happens
     /// where there is no such packet.
     virtual void selectPacket(std::uint64_t number) = 0;
-    /// Follows what is received.
+    /// Follows what is received, and lets go of a packet that is selected.
     virtual void goLive() = 0;
     /// Stops the display at a moment.
     virtual void showMoment(log::Stamp moment) = 0;

@@ -233,6 +233,7 @@ private:
     void setCursor(const model::Cursor& cursor);
     void stopAt(std::uint64_t packet);
     void letGoOfPacket();
+    void playLive();
     void beginPlaying(double speed);
     void endPlaying();
     /// Moves what plays on.

@@ -73,6 +73,11 @@ void SessionDriver::letGoOfPacket() {
 
 void SessionDriver::goLive() {
     showLive();
+    letGoOfPacket();
+    playLive();
+}
+
+void SessionDriver::playLive() {
     endPlaying();
     setCursor({});
 }
@@ -81,7 +86,7 @@ void SessionDriver::setPaused(bool isPaused) {
     if (m_isFileShown) {
         play(isPlaying(Direction::Backwards) ? Direction::Backwards : Direction::Forwards);
     } else if (!isPaused) {
-        goLive();
+        playLive();
     } else if (!this->isPaused()) {
         setCursor(stoppedAt(newestOf(shown())));
     }
@@ -207,7 +212,7 @@ void SessionDriver::playOn() {
     const log::Stamp moment = m_playback->at(m_clock.monotonic());
     const bool hasCaughtUp = m_playback->speed() > 0 && moment >= newestMoment(shown()) && !m_isLooping;
     if (hasCaughtUp && !m_isFileShown) {
-        goLive();
+        playLive();
         return;
     }
     model::Cursor cursor = stoppedAt(shown().packetAt(moment));

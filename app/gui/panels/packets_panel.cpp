@@ -96,6 +96,10 @@ void PacketsPanel::refresh() {
     m_list->header().setUseful(PacketModel::kSender, m_view.senders().size() > 1);
     followSelection();
     followCursor();
+    const bool isHeld = m_view.selection().packet || m_view.cursor().mode == model::Cursor::Mode::Paused;
+    if (std::exchange(m_isHeld, isHeld) && !isHeld) {
+        m_list->setFollowing(true); // all is live again
+    }
     showEmptyState();
 }
 

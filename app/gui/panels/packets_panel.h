@@ -121,6 +121,7 @@ private:
     PassingMessage* m_message;
     std::unique_ptr<PacketSearch> m_search;
     QTimer m_poll;              ///< for what the search has found
+    bool m_isHeld = false;      ///< at a packet, or with the display in the past
     bool m_isFollowing = false; ///< the selection: nobody selected anything here
 };
 

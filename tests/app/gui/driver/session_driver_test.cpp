@@ -253,6 +253,18 @@ TEST_F(SessionDriverTest, AFileTouchesNothingOfWhatIsReceived) {
     EXPECT_EQ(driver.session().end(), 2000U) << "it is still open";
 }
 
+TEST_F(SessionDriverTest, GoingLiveLetsGoOfThePacketThatIsHeldAndPlayingOnDoesNot) {
+    listenAndSend(50);
+    ASSERT_TRUE(tickUntil(driver, [&] { return driver.live().end() == 50; }));
+    driver.setPaused(true);
+    driver.selectPacket(42);
+    driver.setPaused(false);
+    EXPECT_EQ(driver.session().selection().packet, 42U);
+    driver.goLive();
+    EXPECT_FALSE(driver.session().selection().packet);
+    EXPECT_FALSE(driver.isPaused());
+}
+
 TEST_F(SessionDriverTest, WhatIsAskedForIsDoneInTheSessionThatIsShown) {
     const QTemporaryDir folder;
     listenAndSend(10);

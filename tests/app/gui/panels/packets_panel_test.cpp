@@ -198,6 +198,9 @@ TEST_F(PacketsPanelTest, ShowsWhereTheDisplayWasStoppedInThePast) {
     refresh();
     EXPECT_TRUE(list().isShown(m_panel.packets().index(100, 0)));
     EXPECT_FALSE(list().isFollowing());
+    m_stage.session.setCursor({});
+    refresh();
+    EXPECT_TRUE(list().isFollowing()) << "all is live again";
 }
 
 TEST_F(PacketsPanelTest, FilterLineSaysWhatIsWrongAndWhere) {
