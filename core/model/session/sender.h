@@ -78,7 +78,7 @@ struct Character {
     std::size_t ordinal = 0;              ///< for default colours alone; that of `before`, where there is one
     Metadata metadata;
     log::Stamp judgedNullPose{}; ///< when the null pose first came that was last looked at for contradictions
-    BodyMeasure measuredBody; ///< for as long as no scale message has come
+    BodyMeasure measuredBody;    ///< for as long as no scale message has come
     log::Stamp lastStamp{};
     bool isConfirmed = true; ///< else its datagrams are counted, and it is on no list of performers
     std::uint64_t firstPacket = 0;
