@@ -13,6 +13,8 @@
 #include <QVBoxLayout>
 
 #include <algorithm>
+#include <iterator>
+#include <vector>
 
 namespace posewire::gui {
 
@@ -109,13 +111,20 @@ CommandPalette::CommandPalette(const QMenuBar& bar, QWidget* window)
          window->geometry().top() + 2 * row);
 }
 
+/// What cannot be carried out now comes last, and is never the current one.
 void CommandPalette::list(const QString& typed) {
     m_list->clear();
+    std::vector<std::size_t> meant;
     for (std::size_t i = 0; i < m_commands.size(); ++i) {
-        const Command& command = m_commands[i];
-        if (!isMeant(command, typed)) {
-            continue;
+        if (isMeant(m_commands[i], typed)) {
+            meant.push_back(i);
         }
+    }
+    const auto disabled = std::ranges::stable_partition(
+        meant, [this](std::size_t i) { return m_commands[i].action->isEnabled(); });
+    m_choices = static_cast<int>(std::distance(meant.begin(), disabled.begin()));
+    for (const std::size_t i : meant) {
+        const Command& command = m_commands[i];
         const QAction& action = *command.action;
         const QString name = action.isChecked() ? QStringLiteral("✓ ") + command.name : command.name;
         auto* row = new QTreeWidgetItem(
@@ -125,10 +134,13 @@ void CommandPalette::list(const QString& typed) {
         row->setForeground(1, theme().dim);
         row->setForeground(2, theme().dim);
     }
-    m_list->setCurrentItem(m_list->topLevelItem(0));
+    if (meant.empty()) {
+        auto* row = new QTreeWidgetItem(m_list, {tr("No command has these words.")});
+        row->setDisabled(true);
+    }
+    m_list->setCurrentItem(m_choices == 0 ? nullptr : m_list->topLevelItem(0));
 }
 
-/// An entry that can't be carried out now stays where it is.
 void CommandPalette::choose() {
     const QTreeWidgetItem* row = m_list->currentItem();
     if (row != nullptr && !row->isDisabled()) {
@@ -145,7 +157,9 @@ bool CommandPalette::eventFilter(QObject* watched, QEvent* event) {
             const int step = key == Qt::Key_PageUp || key == Qt::Key_PageDown ? kRows : 1;
             const int sign = key == Qt::Key_Up || key == Qt::Key_PageUp ? -1 : 1;
             const int row = m_list->indexOfTopLevelItem(m_list->currentItem()) + sign * step;
-            m_list->setCurrentItem(m_list->topLevelItem(std::clamp(row, 0, m_list->topLevelItemCount() - 1)));
+            if (m_choices != 0) {
+                m_list->setCurrentItem(m_list->topLevelItem(std::clamp(row, 0, m_choices - 1)));
+            }
             return true;
         }
     }

@@ -48,6 +48,7 @@ private:
     const std::vector<Command> m_commands;
     QLineEdit* m_line;
     QTreeWidget* m_list;
+    int m_choices = 0; ///< the first so many rows can be carried out
     QAction* m_chosen = nullptr;
 };
 

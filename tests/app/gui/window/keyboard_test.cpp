@@ -181,6 +181,15 @@ TEST_F(KeyboardTest, WhatCannotBeDoneNowIsListedAndNotChosen) {
     EXPECT_EQ(palette.findChild<QTreeWidget*>()->topLevelItemCount(), 1);
     QTest::keyClick(palette.findChild<QLineEdit*>(), Qt::Key_Return);
     EXPECT_EQ(palette.chosen(), nullptr);
+    auto* line = palette.findChild<QLineEdit*>();
+    line->setText("back");
+    const auto* list = palette.findChild<QTreeWidget*>();
+    ASSERT_GT(list->topLevelItemCount(), 1);
+    EXPECT_TRUE(list->topLevelItem(list->topLevelItemCount() - 1)->isDisabled()) << "it comes last";
+    EXPECT_EQ(list->currentItem(), list->topLevelItem(0));
+    line->setText("nonsense");
+    EXPECT_EQ(list->topLevelItemCount(), 1);
+    EXPECT_EQ(list->topLevelItem(0)->text(0), "No command has these words.");
 }
 
 } // namespace
