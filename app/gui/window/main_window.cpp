@@ -280,14 +280,18 @@ void MainWindow::showVerdict() {
                 opened->notes()};
     }
     file.comparison = comparisonText(m_driver.comparison());
-    const bool hasInputs = !m_driver.receiving().state().ports.empty() || m_driver.live().end() != 0;
+    const std::vector<PortState>& ports = m_driver.receiving().state().ports;
+    const bool hasInputs = !ports.empty() || m_driver.live().end() != 0;
+    const bool isBlocked = !ports.empty() && std::ranges::none_of(ports, [](const PortState& port) {
+        return port.problem.isEmpty();
+    });
     m_menus.action("pause")->setEnabled(!file.isShown);
     m_menus.action("live")->setEnabled(hasInputs || !file.isShown);
     m_menus.action("showFile")->setEnabled(!file.name.isEmpty() && !file.isShown);
     m_menus.action("closeFile")->setEnabled(!file.name.isEmpty());
     m_menus.action("endComparison")->setEnabled(m_driver.comparison().isOpen);
     m_menus.action("resetForTake")->setEnabled(m_driver.live().end() != 0);
-    m_verdict->refresh(file, hasInputs);
+    m_verdict->refresh(file, hasInputs, isBlocked ? ports.front().problem : QString());
 }
 
 /// At once: whatever ends this program, the next run must not begin with a loop.

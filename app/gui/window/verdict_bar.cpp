@@ -198,18 +198,23 @@ void VerdictBar::setLarge(bool isLarge) {
     m_headline->setLarge(isLarge);
 }
 
-void VerdictBar::refresh(const ShownFile& file, bool hasInputs) {
+void VerdictBar::refresh(const ShownFile& file, bool hasInputs, const QString& blocked) {
     m_verdict = m_live.verdicts().all;
-    showVerdict(file.isShown);
+    showVerdict(file.isShown, blocked);
     showStrip(file, hasInputs);
     m_headline->setVisible(hasInputs || file.name.isEmpty());
     m_span->setVisible(m_headline->isVisibleTo(this));
     m_reset->setVisible(m_headline->isVisibleTo(this));
 }
 
-void VerdictBar::showVerdict(bool isBehindFile) {
+void VerdictBar::showVerdict(bool isBehindFile, const QString& blocked) {
+    model::TakeVerdict said = m_verdict;
+    if (said.state == model::TakeVerdict::State::None && !blocked.isEmpty()) {
+        said.state = model::TakeVerdict::State::Bad;
+        said.text = said.narrow = blocked.toStdString();
+    }
     m_headline->setLarge(m_isLarge && !isBehindFile);
-    m_headline->setVerdict(m_verdict, isBehindFile ? tr("Live: ") : QString());
+    m_headline->setVerdict(said, isBehindFile ? tr("Live: ") : QString());
     m_span->setText(spanOf(m_live));
     m_reset->setEnabled(m_live.end() != 0);
 }

@@ -72,8 +72,8 @@ public:
     VerdictBar(model::SessionView& live, const Actions& actions, QWidget* parent = nullptr);
 
     void setLarge(bool isLarge);
-    /// `hasInputs`: there is something to be live with.
-    void refresh(const ShownFile& file, bool hasInputs);
+    /// `hasInputs`: there is something to be live with. `blocked`: why nothing can come from any of them.
+    void refresh(const ShownFile& file, bool hasInputs, const QString& blocked = {});
     /// As last refreshed.
     [[nodiscard]] const model::TakeVerdict& verdict() const { return m_verdict; }
 
@@ -85,7 +85,7 @@ protected:
     void paintEvent(QPaintEvent* event) override;
 
 private:
-    void showVerdict(bool isBehindFile);
+    void showVerdict(bool isBehindFile, const QString& blocked);
     void showStrip(const ShownFile& file, bool hasInputs);
 
     model::SessionView& m_live;

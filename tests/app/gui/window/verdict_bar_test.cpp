@@ -32,7 +32,9 @@ protected:
         }
         m_stage.follow();
     }
-    void refresh(const ShownFile& file = {}, bool hasInputs = true) { m_bar.refresh(file, hasInputs); }
+    void refresh(const ShownFile& file = {}, bool hasInputs = true, const QString& blocked = {}) {
+        m_bar.refresh(file, hasInputs, blocked);
+    }
     [[nodiscard]] std::string headline() const {
         return m_bar.findChild<Headline*>("headline")->text().toStdString();
     }
@@ -86,6 +88,16 @@ TEST_F(VerdictBarTest, SaysWhichRecordingIsShownAndWhatIsLiveBehindIt) {
     refresh({"take.pcapng", false, {}, {}});
     EXPECT_TRUE(strip()->isHidden());
     EXPECT_EQ(button("showFileButton")->text(), "Show take.pcapng");
+}
+
+TEST_F(VerdictBarTest, SaysWhyNothingCanCome) {
+    refresh({}, true, "UDP 9763 is taken.");
+    EXPECT_EQ(headline(), "UDP 9763 is taken.");
+    refresh();
+    EXPECT_EQ(headline(), "No data yet");
+    send(0, 120);
+    refresh({}, true, "UDP 9763 is taken.");
+    EXPECT_THAT(headline(), StartsWith("Good for the take")) << "it was, until just now";
 }
 
 TEST_F(VerdictBarTest, OffersNothingLiveWithoutAnInput) {
