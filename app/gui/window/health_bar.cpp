@@ -142,9 +142,11 @@ void HealthBar::refreshCharacters() {
 /// As wide as the longest of each that was said so far, up to what is usual: they only grow, so that nothing
 /// moves to and fro.
 void HealthBar::measure(const QFontMetrics& metrics) {
-    const auto grow = [&metrics](int& width, const QString& text, const QString& most) {
-        width = std::clamp(metrics.horizontalAdvance(text), width,
-                           std::max(width, metrics.horizontalAdvance(most)));
+    const auto widthOf = [&metrics](const QString& text) { // not rounded down
+        return metrics.horizontalAdvance(text) + 1;
+    };
+    const auto grow = [&widthOf](int& width, const QString& text, const QString& most) {
+        width = std::clamp(widthOf(text), width, std::max(width, widthOf(most)));
     };
     grow(m_stateWidth, QStringLiteral("99 lost, network"), QStringLiteral("10.0 % lost, network, over"));
     grow(m_whatWidth, QStringLiteral("10.0 % lost"), QStringLiteral("10.0 % lost, over"));
