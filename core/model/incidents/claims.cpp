@@ -4,7 +4,6 @@
 #include "core/model/text.h"
 
 #include <algorithm>
-#include <ranges>
 #include <string>
 #include <utility>
 
@@ -103,16 +102,16 @@ std::span<const IncidentFollower::Claim> IncidentFollower::turnOf(std::vector<Cl
 /// Of each of them, naming all others.
 void IncidentFollower::tellConflict(std::span<const Claim> claims, const log::Packet& packet,
                                     std::uint8_t character) {
-    for (const Claim& own : claims | std::views::reverse) {
+    for (auto own = claims.rbegin(); own != claims.rend(); ++own) {
         std::vector<std::string> others;
         for (const Claim& other : claims) {
-            if (other.sender != own.sender) {
+            if (other.sender != own->sender) {
                 const auto found = m_sources.find(other.sender);
                 others.push_back(found != m_sources.end() ? found->second.address : "a retired sender");
             }
         }
         std::ranges::sort(others); // so that the text stays
-        Occurrence one = Occurrence::at(IncidentKind::Conflict, own.sender, packet.stamp, packet.number);
+        Occurrence one = Occurrence::at(IncidentKind::Conflict, own->sender, packet.stamp, packet.number);
         one.character = character;
         one.detail = listed(others);
         m_incidents.report(one);
