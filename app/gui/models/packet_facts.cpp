@@ -36,14 +36,21 @@ QStringList decodedFindings(const log::Packet& packet) {
     return texts;
 }
 
-/// "3 lost · network" where it is known whose loss it was.
-QString gapText(model::SessionView& view, std::uint64_t number, std::uint64_t samples) {
-    const model::Gap* gap = view.gapEndedBy(number);
-    if (gap != nullptr && gap->isJudged && gap->cause != model::LossCause::Unknown) {
-        return tr("%1 lost").arg(grouped(samples)) + QStringLiteral(" · ") +
-               fromUtf8(model::nameOf(gap->cause));
+/// Of the gap before a packet: what is lost for good, or missing as long as that is not known; 0 where
+/// nothing is after all.
+std::uint64_t missingBefore(const model::Gap* gap, const model::PacketDigest& digest) {
+    return gap != nullptr && gap->isJudged ? gap->lost : digest.gap;
+}
+
+/// "network: 3 lost": whose loss it was comes first, for where there is little room.
+QString gapText(const model::Gap* gap, std::uint64_t samples) {
+    if (gap == nullptr || !gap->isJudged) {
+        return samples == 1 ? tr("gap: 1 sample missing")
+                            : tr("gap: %1 samples missing").arg(grouped(samples));
     }
-    return samples == 1 ? tr("gap: 1 sample missing") : tr("gap: %1 samples missing").arg(grouped(samples));
+    const bool isKnown = gap->cause != model::LossCause::Unknown;
+    return tr("%1: %2 lost")
+        .arg(isKnown ? fromUtf8(model::nameOf(gap->cause)) : tr("cause unknown"), grouped(samples));
 }
 
 QString findingsOf(model::SessionView& view, const log::Packet& packet, const model::PacketDigest& digest) {
@@ -60,8 +67,9 @@ QString findingsOf(model::SessionView& view, const log::Packet& packet, const mo
     if (digest.followsDrops) {
         texts += tr("this computer dropped %1 before").arg(grouped(packet.kernelDropsBefore));
     }
-    if (digest.gap != 0) {
-        texts += gapText(view, packet.number, digest.gap);
+    const model::Gap* gap = digest.gap != 0 ? view.gapEndedBy(packet.number) : nullptr;
+    if (const std::uint64_t missing = missingBefore(gap, digest); missing != 0) {
+        texts += gapText(gap, missing);
     }
     if (digest.isDuplicate) {
         texts += tr("duplicate");
@@ -98,15 +106,17 @@ QStringList sequenceFindings(model::SessionView& view, std::uint64_t number) {
                      .arg(packet ? grouped(packet->kernelDropsBefore) : QStringLiteral("?"));
     }
     if (digest->gap != 0) {
-        const QString missing = digest->gap == 1
-                                    ? tr("1 sample is missing just before it.")
-                                    : tr("%1 samples are missing just before it.").arg(grouped(digest->gap));
         const model::Gap* gap = view.gapEndedBy(number);
-        texts += gap == nullptr ? missing
-                                : missing + QLatin1Char(' ') +
-                                      tr("Cause: %1. %2")
-                                          .arg(fromUtf8(model::nameOf(gap->cause)),
-                                               QString::fromStdString(gap->evidenceText()));
+        const std::uint64_t samples = missingBefore(gap, *digest);
+        const QString missing =
+            samples == 0   ? tr("Samples seemed to be missing just before it; none are lost.")
+            : samples == 1 ? tr("1 sample is missing just before it.")
+                           : tr("%1 samples are missing just before it.").arg(grouped(samples));
+        texts += gap == nullptr || samples == 0 ? missing
+                                                : missing + QLatin1Char(' ') +
+                                                      tr("Cause: %1. %2")
+                                                          .arg(fromUtf8(model::nameOf(gap->cause)),
+                                                               QString::fromStdString(gap->evidenceText()));
     }
     if (digest->isDuplicate) {
         texts += tr("Duplicate: this datagram of this sample had come before.");

@@ -90,6 +90,21 @@ TEST_F(PacketModelTest, NotesInWordsHowAPacketRelatesToItsStream) {
     EXPECT_EQ(lastNote(), QStringLiteral("▲ counter jumped"));
 }
 
+TEST_F(PacketModelTest, NotesWhoseLossAGapIsAndNothingOnceItIsFilled) {
+    const auto poses = [this](std::uint32_t first, std::uint32_t last) {
+        for (std::uint32_t sample = first; sample <= last; ++sample) {
+            pose(sample);
+        }
+        refresh();
+    };
+    steadyPoses(20);
+    poses(24, 60);
+    EXPECT_EQ(text(20, PacketModel::kNote), QStringLiteral("▲ cause unknown: 4 lost"));
+    poses(20, 23);
+    poses(61, 80);
+    EXPECT_EQ(text(20, PacketModel::kNote), "") << "they were very late";
+}
+
 TEST_F(PacketModelTest, NotesInWordsWhatIsWrongWithTheBytes) {
     const auto& whole = test::golden("02_quaternion_counted").bytes;
     m_stage.sendBytes(wire::Bytes(whole).first(whole.size() - 8), Stage::kStart);
