@@ -45,8 +45,7 @@ std::uint64_t missingBefore(const model::Gap* gap, const model::PacketDigest& di
 /// "network: 3 lost": whose loss it was comes first, for where there is little room.
 QString gapText(const model::Gap* gap, std::uint64_t samples) {
     if (gap == nullptr || !gap->isJudged) {
-        return samples == 1 ? tr("gap: 1 sample missing")
-                            : tr("gap: %1 samples missing").arg(grouped(samples));
+        return tr("gap: %1 missing").arg(grouped(samples));
     }
     const bool isKnown = gap->cause != model::LossCause::Unknown;
     return tr("%1: %2 lost")

@@ -81,7 +81,7 @@ void PacketsPanel::fitColumns() {
          QStringLiteral("9999.99"), QStringLiteral("192.168.10.21:52011"),
          QStringLiteral("22 Angular kinematics"), QStringLiteral("● 0 Mira Lin"), QStringLiteral("99 999"),
          QStringLiteral("1/1"), QStringLiteral("9 999"), QString()},
-        QStringLiteral("▲ gap: 1 sample"));
+        QStringLiteral("▲ network: 1 lost"));
 }
 
 void PacketsPanel::refresh() {

@@ -79,13 +79,13 @@ TEST_F(PacketModelTest, NotesInWordsHowAPacketRelatesToItsStream) {
     steadyPoses(20);
     EXPECT_EQ(lastNote(), "");
     pose(24);
-    EXPECT_EQ(lastNote(), QStringLiteral("▲ gap: 4 samples missing"));
+    EXPECT_EQ(lastNote(), QStringLiteral("▲ gap: 4 missing"));
     pose(24);
     EXPECT_EQ(lastNote(), QStringLiteral("▲ duplicate"));
     pose(22);
     EXPECT_EQ(lastNote(), QStringLiteral("▲ reordered"));
     pose(26);
-    EXPECT_EQ(lastNote(), QStringLiteral("▲ gap: 1 sample missing"));
+    EXPECT_EQ(lastNote(), QStringLiteral("▲ gap: 1 missing"));
     pose(1'000'000);
     EXPECT_EQ(lastNote(), QStringLiteral("▲ counter jumped"));
 }
