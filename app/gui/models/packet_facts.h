@@ -45,7 +45,7 @@ struct PacketFacts {
 
 /// Findings with their symbol, then the operator's comment: the column that says it in words.
 [[nodiscard]] QString packetNote(model::SessionView& view, const PacketFacts& facts);
-/// The same without symbols, for screen readers: "warning, gap: 1 sample missing".
+/// The same without symbols, for screen readers: "warning, gap: 1 missing".
 [[nodiscard]] QString spokenNote(model::SessionView& view, const PacketFacts& facts);
 
 } // namespace posewire::gui

@@ -11,12 +11,9 @@ constexpr double kNsPerSecond = 1e9;
 
 } // namespace
 
-void StreamStatistics::add(log::Stamp stamp, bool beginsSample) {
-    m_lastStamp = stamp;
-    if (beginsSample) {
-        m_arrivals[m_samples % kMostSamples] = stamp;
-        ++m_samples;
-    }
+void StreamStatistics::addSample(log::Stamp stamp) {
+    m_arrivals[m_samples % kMostSamples] = stamp;
+    ++m_samples;
 }
 
 std::size_t StreamStatistics::windowSize() const {

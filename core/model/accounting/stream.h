@@ -5,6 +5,7 @@
 #include "core/model/accounting/stream_accounting.h"
 #include "core/model/message.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -14,8 +15,10 @@ namespace posewire::model {
 /// How fast one stream is now, from receive stamps alone. O(1) in time and memory for each packet.
 class StreamStatistics {
 public:
-    /// Adds a datagram; `beginsSample` is true for the first one of a sample.
-    void add(log::Stamp stamp, bool beginsSample);
+    /// Adds a datagram.
+    void add(log::Stamp stamp) { m_lastStamp = std::max(m_lastStamp, stamp); }
+    /// Adds a sample, or message, when its first datagram came; duplicates are none.
+    void addSample(log::Stamp stamp);
 
     /// Samples a second over the window of the newest samples (at most 256 and at most about 2 s before the
     /// newest); 0 before the second sample.

@@ -277,7 +277,7 @@ bool Ingest::takeHeader(Observation& seen) {
     if (keepsNewest(packet, header)) {
         seen.stream->newestBytes = std::max(seen.stream->newestBytes, packet.bytes.size());
     }
-    seen.stream->statistics.add(packet.stamp, header.datagramIndex() == 0);
+    seen.stream->statistics.add(packet.stamp);
     if (seen.character->isConfirmed ||
         (seen.character->isConfirmed = m_unconfirmed.take(seen.character->key, packet, header))) {
         m_incidents->takeDatagram(packet, header, *seen.stream, seen.sender->info.address);
@@ -289,13 +289,19 @@ bool Ingest::takeHeader(Observation& seen) {
 
 void Ingest::account(Observation& seen) {
     const log::Packet& packet = seen.packet;
-    if (countsSamples(seen.digest.type)) {
-        m_attribution->takeSampled(packet.sender, packet.stamp);
-    }
     Stream& stream = *seen.stream;
+    const bool isSampled = countsSamples(seen.digest.type);
+    if (isSampled) {
+        m_attribution->takeSampled(packet.sender, packet.stamp);
+    } else if (seen.header->datagramIndex() == 0) {
+        stream.statistics.addSample(packet.stamp);
+    }
     for (const Verdict& verdict : addToStream(packet, *seen.header, stream.accounting, seen.digest)) {
         if (verdict.packet != packet.number) {
             m_digests.amend(verdict);
+        }
+        if (isSampled && verdict.isFirstOfSample) {
+            stream.statistics.addSample(verdict.stamp);
         }
         takeVerdict(stream, verdict, seen.character->isConfirmed);
     }

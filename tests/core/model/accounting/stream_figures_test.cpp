@@ -29,7 +29,8 @@ Stream streamOf(std::uint8_t type, std::uint32_t count, std::uint32_t every, std
             header.datagramCounter = 0x80;
             header.timeCode = i * timeCodeStep;
             addTo(stream.accounting, kBegin + i * 10ms, 760, header);
-            stream.statistics.add(kBegin + i * 10ms, true);
+            stream.statistics.add(kBegin + i * 10ms);
+            stream.statistics.addSample(kBegin + i * 10ms);
         }
     }
     return stream;

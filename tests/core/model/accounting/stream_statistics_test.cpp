@@ -8,10 +8,15 @@ namespace {
 
 using namespace std::chrono_literals;
 
+void addSample(StreamStatistics& statistics, log::Stamp stamp) {
+    statistics.add(stamp);
+    statistics.addSample(stamp);
+}
+
 StreamStatistics steady(int count, double rateHz) {
     StreamStatistics statistics;
     for (int i = 0; i < count; ++i) {
-        statistics.add(log::stampOf(static_cast<std::int64_t>(i * 1e9 / rateHz)), true);
+        addSample(statistics, log::stampOf(static_cast<std::int64_t>(i * 1e9 / rateHz)));
     }
     return statistics;
 }
@@ -19,7 +24,7 @@ StreamStatistics steady(int count, double rateHz) {
 TEST(StreamStatistics, IsSilentBeforeTheSecondSample) {
     StreamStatistics statistics;
     EXPECT_EQ(statistics.rateHz(), 0);
-    statistics.add(log::Stamp(5ns), true);
+    addSample(statistics, log::Stamp(5ns));
     EXPECT_EQ(statistics.rateHz(), 0);
 }
 
@@ -35,8 +40,8 @@ TEST(StreamStatistics, FollowsASlowStream) {
 TEST(StreamStatistics, CountsDatagramsOfOneSampleAsOneSample) {
     StreamStatistics statistics;
     for (std::uint32_t sample = 0; sample < 10; ++sample) {
-        statistics.add(log::Stamp(sample * 1s), true);
-        statistics.add(log::Stamp(sample * 1s + 5ns), false);
+        addSample(statistics, log::Stamp(sample * 1s));
+        statistics.add(log::Stamp(sample * 1s + 5ns));
     }
     EXPECT_NEAR(statistics.rateHz(), 1, 1e-6);
 }

@@ -46,6 +46,16 @@ TEST_F(ConditionTest, IsGoodWhileDataComes) {
     EXPECT_EQ(verdict.incident, std::nullopt);
 }
 
+TEST_F(ConditionTest, HasTheRateOfItsSamplesWhateverComesTwice) {
+    for (std::uint32_t sample = 1; sample <= 300; sample += 2) {
+        poses(sample, 2);
+        m_at -= 10ms;
+        poses(sample + 1, 1);
+    }
+    follow();
+    EXPECT_NEAR(m_session.streams().front().statistics.rateHz(), 100, 1);
+}
+
 TEST_F(ConditionTest, WarnsOfAFifthOfASecondOfSilence) {
     poses(1, 300);
     EXPECT_EQ(verdictAfter(200ms).state, State::Good);
