@@ -115,7 +115,7 @@ void MainWindow::toggleRecording() {
     } else if (take && !m_driver.isRecording()) {
         noteRecent(take->path);
         const QFileInfo file(take->path);
-        say(tr("Recorded %1 as \"%2\" in %3. It is under File > Open recent.")
+        say(tr("Recorded %1, under File > Open recent: %2, in %3")
                 .arg(duration(take->seconds), file.fileName(),
                      QDir::toNativeSeparators(file.absolutePath())));
     }
