@@ -281,14 +281,11 @@ std::vector<NullPoseFinding> findContradictions(const NullPoseEvidence& evidence
 }
 
 std::string gravestError(const NullPoseRecord& record) {
-    Findings findings;
-    if (record.pose != nullptr) {
-        findLeftOut(*record.pose, findings);
-        findDuplicateNames(*record.pose, findings);
-        findInShape(record, findings);
-    }
-    const auto found = std::ranges::find(findings, Severity::Error, &NullPoseFinding::severity);
-    return found == findings.end() ? std::string() : found->what;
+    NullPoseEvidence alone; // of no time: no part is overdue
+    alone.record = record;
+    const Findings findings = findContradictions(alone);
+    const bool isError = !findings.empty() && findings.front().severity == Severity::Error;
+    return isError ? findings.front().what : std::string();
 }
 
 std::string findingsSummary(const std::vector<NullPoseFinding>& findings) {
