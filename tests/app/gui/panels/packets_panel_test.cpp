@@ -47,6 +47,14 @@ protected:
         }
         refresh();
     }
+    /// As an operator types it, with Return. Returns the line.
+    QLineEdit* enterFilter(const QString& text) {
+        auto* line = bar().findChild<QLineEdit*>("displayFilter");
+        bar().focusLine();
+        line->setText(text);
+        QTest::keyClick(line, Qt::Key_Return);
+        return line;
+    }
     void trigger(std::string_view id) { gui::trigger(m_panel, id); }
     [[nodiscard]] PacketView& list() { return *m_panel.findChild<PacketView*>(); }
     [[nodiscard]] FilterBar& bar() { return *m_panel.findChild<FilterBar*>(); }
@@ -558,17 +566,12 @@ TEST_F(PacketsPanelTest, EnterInTheFilterLineGoesToTheListWithoutTakingARow) {
     poses(0, 50);
     m_panel.activateWindow();
     ASSERT_TRUE(QTest::qWaitForWindowActive(&m_panel));
-    auto* line = bar().findChild<QLineEdit*>("displayFilter");
-    bar().focusLine();
-    line->setText("type == 02");
-    QTest::keyClick(line, Qt::Key_Return);
+    QLineEdit* line = enterFilter("type == 02");
     EXPECT_TRUE(list().hasFocus());
     EXPECT_EQ(m_stage.session.displayFilter(), "type == 02");
     EXPECT_EQ(selected(), std::nullopt);
     EXPECT_TRUE(list().isFollowing());
-    bar().focusLine();
-    line->setText("type ==");
-    QTest::keyClick(line, Qt::Key_Return);
+    enterFilter("type ==");
     EXPECT_TRUE(line->hasFocus()) << "it is to be put right";
 }
 
@@ -576,10 +579,7 @@ TEST_F(PacketsPanelTest, DownGoesFromTheFilterLineToTheListAndAltDownOpensEarlie
     poses(0, 50);
     m_panel.activateWindow();
     ASSERT_TRUE(QTest::qWaitForWindowActive(&m_panel));
-    auto* line = bar().findChild<QLineEdit*>("displayFilter");
-    bar().focusLine();
-    line->setText("type == 02");
-    QTest::keyClick(line, Qt::Key_Return);
+    QLineEdit* line = enterFilter("type == 02");
     bar().focusLine();
     QTest::keyClick(line, Qt::Key_Down);
     EXPECT_EQ(QApplication::activePopupWidget(), nullptr);

@@ -73,6 +73,14 @@ protected:
         }
         follow();
     }
+    /// One after the other, a second apart.
+    void posesFromAllPorts() {
+        posesFrom(m_first, 100);
+        m_at += 1s;
+        posesFrom(m_second, 100);
+        m_at += 1s;
+        posesFrom(m_third, 100);
+    }
     CharacterKey keyOf(const std::string& address) { return {sender(address), 0}; }
     std::vector<CharacterKey> shown() {
         std::vector<CharacterKey> keys;
@@ -88,11 +96,7 @@ protected:
 };
 
 TEST_F(RestartTest, IsOneCharacterThroughPortsWithAHistory) {
-    posesFrom(m_first, 100);
-    m_at += 1s;
-    posesFrom(m_second, 100);
-    m_at += 1s;
-    posesFrom(m_third, 100);
+    posesFromAllPorts();
     EXPECT_EQ(shown(), std::vector{keyOf(m_third)});
     EXPECT_EQ(m_session.restartsOf(keyOf(m_third)), 2U);
     EXPECT_EQ(m_session.lineage(keyOf(m_third)).size(), 3U);
@@ -161,11 +165,7 @@ TEST_F(RestartTest, ForgetsWhoIsSilentForLong) {
 }
 
 TEST_F(RestartTest, IsForgottenWithAllThatCameBefore) {
-    posesFrom(m_first, 100);
-    m_at += 1s;
-    posesFrom(m_second, 100);
-    m_at += 1s;
-    posesFrom(m_third, 100);
+    posesFromAllPorts();
     m_session.follow(m_at + 2s);
     EXPECT_TRUE(m_session.forget(sender(m_third)));
     EXPECT_TRUE(shown().empty()) << "what it had taken over does not come back";
