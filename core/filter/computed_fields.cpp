@@ -65,6 +65,7 @@ struct Row {
     std::string_view text;
     ReadPacket read;
     bool isTrueByValue = false;
+    bool isJudged = false;
 };
 
 template <PacketKind Wanted>
@@ -108,12 +109,14 @@ constexpr std::array kRows{
     Row{"number", Kind::Number, "", "of the packet, in the order of arrival", always<kNumber>},
     Row{"size", Kind::Number, "bytes", "of the packet", always<kSize>},
     Row{"delta", Kind::Number, "s", "since the packet before it in its stream", readDelta},
-    Row{"gap", Kind::Number, "", "samples that are missing just before it", always<kGap>, true},
-    Row{"duplicate", Kind::Flag, "", "the same sample and datagram came before", always<kDuplicate>},
-    Row{"reordered", Kind::Flag, "", "came after a packet with a higher sample", always<kReordered>},
-    Row{"restart", Kind::Flag, "", "the sender's counter restarted", always<kRestart>},
+    Row{"gap", Kind::Number, "", "samples that are missing just before it", always<kGap>, true, true},
+    Row{"duplicate", Kind::Flag, "", "the same sample and datagram came before", always<kDuplicate>, false,
+        true},
+    Row{"reordered", Kind::Flag, "", "came after a packet with a higher sample", always<kReordered>, false,
+        true},
+    Row{"restart", Kind::Flag, "", "the sender's counter restarted", always<kRestart>, false, true},
     Row{"drops", Kind::Number, "", "datagrams that this computer lost just before it", always<kDrops>, true},
-    Row{"problem", Kind::Flag, "", "anything that an operator should look at", always<kProblem>},
+    Row{"problem", Kind::Flag, "", "anything that an operator should look at", always<kProblem>, false, true},
     Row{"notice", Kind::Text, "", "what is odd but readable, such as \"notFinite\"", readNotice},
     Row{"error", Kind::Text, "", "why it cannot be read, such as \"itemsTruncated\"", readError},
     Row{"malformed", Kind::Flag, "", "begins with MXTP and cannot be read",
@@ -176,6 +179,7 @@ std::vector<FieldInfo> computedFields() {
         info.readPacket = row.read;
         info.words = wordsOf(row);
         info.isTrueByValue = row.isTrueByValue;
+        info.isJudged = row.isJudged;
         fields.push_back(std::move(info));
     }
     return fields;

@@ -73,6 +73,7 @@ struct FieldInfo {
     std::size_t components = 1;
     bool isFloat = false;                  ///< constants are rounded to 32 bits to compare with it
     bool isTrueByValue = false;            ///< alone it means "not zero" rather than "present"
+    bool isJudged = false;                 ///< what comes after a packet may yet change it
     std::string unit{};                    ///< that it is compared in
     std::string unitSent{};                ///< where it is sent in another one: "cm (01), m (02)"
     Dimension dimension = Dimension::None; ///< of numbers that a unit may be written with

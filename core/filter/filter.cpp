@@ -144,6 +144,10 @@ bool Filter::comparesLengths() const {
     return m_program != nullptr && std::ranges::any_of(m_program->conditions, &Condition::comparesLengths);
 }
 
+bool Filter::comparesJudged() const {
+    return m_program != nullptr && std::ranges::any_of(m_program->conditions, &Condition::comparesJudged);
+}
+
 bool Program::holds(Subject& subject, std::uint32_t index) const {
     const Node& node = nodes[index];
     const auto isTrue = [&](std::uint32_t child) { return holds(subject, child); };

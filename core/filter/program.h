@@ -52,6 +52,7 @@ struct Condition {
     std::string tag; ///< its value is tested; the names of all tags where empty
     Test test;
     bool comparesLengths = false;
+    bool comparesJudged = false;
     Test testInCentimetres; ///< the same where a length comes in centimetres
 
     [[nodiscard]] bool isOfItems() const { return readPacket == nullptr && !isTag; }

@@ -422,6 +422,7 @@ tl::expected<Condition, FilterError> understood(const WrittenCondition& written)
     Condition condition;
     condition.test.op = written.op;
     condition.readPacket = field.readPacket;
+    condition.comparesJudged = field.isJudged;
     if (field.isOfItems()) {
         setPlaces(match, written, field, condition);
         condition.firstComponent = match.hasComponent ? match.component : 0;

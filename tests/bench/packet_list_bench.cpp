@@ -72,8 +72,7 @@ int report(const char* name, std::pair<double, double> taken, double limitMs, bo
 /// Seconds for a million packets; the window's thread asks for what was found as it would each tick.
 int filterAll(model::Session& session, gui::PacketModel& model, bool isChecked) {
     auto begin = Clock::now();
-    gui::PacketFilterRun run(session.log(), session.digests(),
-                             *filter::Filter::compile("gap > 0 || sample >= 0"), session.firstStamp());
+    gui::PacketFilterRun run(session, *filter::Filter::compile("gap > 0 || sample >= 0"));
     model.beginMatches();
     double longestMs = 0;
     gui::PacketFilterRun::Progress progress;
@@ -81,7 +80,7 @@ int filterAll(model::Session& session, gui::PacketModel& model, bool isChecked) 
         std::this_thread::sleep_for(std::chrono::milliseconds(100));
         progress = run.progress();
         const auto tick = Clock::now();
-        const auto found = run.take(session.digests());
+        const auto found = run.take(session);
         model.addMatches(found.packets, found.problems);
         model.refresh();
         longestMs = std::max(longestMs, millisecondsSince(tick));

@@ -36,12 +36,6 @@ QStringList decodedFindings(const log::Packet& packet) {
     return texts;
 }
 
-/// Of the gap before a packet: what is lost for good, or missing as long as that is not known; 0 where
-/// nothing is after all.
-std::uint64_t missingBefore(const model::Gap* gap, const model::PacketDigest& digest) {
-    return gap != nullptr && gap->isJudged ? gap->lost : digest.gap;
-}
-
 /// "network: 3 lost": whose loss it was comes first, for where there is little room.
 QString gapText(const model::Gap* gap, std::uint64_t samples) {
     if (gap == nullptr || !gap->isJudged) {
@@ -66,9 +60,8 @@ QString findingsOf(model::SessionView& view, const log::Packet& packet, const mo
     if (digest.followsDrops) {
         texts += tr("this computer dropped %1 before").arg(grouped(packet.kernelDropsBefore));
     }
-    const model::Gap* gap = digest.gap != 0 ? view.gapEndedBy(packet.number) : nullptr;
-    if (const std::uint64_t missing = missingBefore(gap, digest); missing != 0) {
-        texts += gapText(gap, missing);
+    if (digest.gap != 0) {
+        texts += gapText(view.gapEndedBy(packet.number), digest.gap);
     }
     if (digest.isDuplicate) {
         texts += tr("duplicate");
@@ -106,16 +99,14 @@ QStringList sequenceFindings(model::SessionView& view, std::uint64_t number) {
     }
     if (digest->gap != 0) {
         const model::Gap* gap = view.gapEndedBy(number);
-        const std::uint64_t samples = missingBefore(gap, *digest);
-        const QString missing =
-            samples == 0   ? tr("Samples seemed to be missing just before it; none are lost.")
-            : samples == 1 ? tr("1 sample is missing just before it.")
-                           : tr("%1 samples are missing just before it.").arg(grouped(samples));
-        texts += gap == nullptr || samples == 0 ? missing
-                                                : missing + QLatin1Char(' ') +
-                                                      tr("Cause: %1. %2")
-                                                          .arg(fromUtf8(model::nameOf(gap->cause)),
-                                                               QString::fromStdString(gap->evidenceText()));
+        const QString missing = digest->gap == 1
+                                    ? tr("1 sample is missing just before it.")
+                                    : tr("%1 samples are missing just before it.").arg(grouped(digest->gap));
+        texts += gap == nullptr ? missing
+                                : missing + QLatin1Char(' ') +
+                                      tr("Cause: %1. %2")
+                                          .arg(fromUtf8(model::nameOf(gap->cause)),
+                                               QString::fromStdString(gap->evidenceText()));
     }
     if (digest->isDuplicate) {
         texts += tr("Duplicate: this datagram of this sample had come before.");

@@ -96,23 +96,28 @@ void PacketSearch::run(const std::stop_token& stop) {
     m_isDone.store(true, std::memory_order_release);
 }
 
-PacketFilterRun::PacketFilterRun(const log::PacketLog& log, const model::PacketDigests& digests,
-                                 filter::Filter filter, log::Stamp firstStamp, PositionUnits units)
-    : m_log(log),
+PacketFilterRun::PacketFilterRun(const model::SessionView& view, filter::Filter filter, PositionUnits units)
+    : m_log(view.log()),
       m_filter(std::move(filter)),
-      m_firstStamp(firstStamp),
+      m_firstStamp(view.firstStamp()),
       m_units(std::move(units)),
-      m_begin(digests.begin()),
-      m_next(digests.begin()),
-      m_end(digests.end()),
-      m_excerpts{digests.excerpt(m_begin)},
-      m_thread([this](const std::stop_token& stop) { run(stop); }) {}
+      m_begin(view.digests().begin()),
+      m_next(m_begin),
+      m_end(m_begin),
+      m_thread([this](const std::stop_token& stop) { run(stop); }) {
+    static_cast<void>(take(view));
+}
 
-PacketFilterRun::Found PacketFilterRun::take(const model::PacketDigests& digests) {
+std::uint64_t PacketFilterRun::endOf(const model::SessionView& view) const {
+    return m_filter.comparesJudged() ? view.settledEnd() : view.digests().end();
+}
+
+PacketFilterRun::Found PacketFilterRun::take(const model::SessionView& view) {
+    const std::uint64_t end = endOf(view);
     const std::lock_guard lock(m_mutex);
-    if (digests.end() > m_end && !isCancelled()) {
-        m_excerpts.push_back(digests.excerpt(m_end));
-        m_end = digests.end();
+    if (end > m_end && !isCancelled()) {
+        m_excerpts.push_back(view.digests().excerpt(m_end, end));
+        m_end = end;
         m_changed.notify_all();
     }
     return std::exchange(m_found, {});

@@ -8,6 +8,7 @@
 #include "core/log/packet_log.h"
 #include "core/log/time.h"
 #include "core/model/accounting/packet_digest.h"
+#include "core/model/session/session_view.h"
 #include "core/wire/types.h"
 
 #include <QString>
@@ -80,16 +81,16 @@ private:
 /// is known about a packet beyond its bytes is the session's own digest, so that list and filter agree.
 class PacketFilterRun {
 public:
-    /// The log must outlive the run. `firstStamp` is where the filter's `time` begins.
-    PacketFilterRun(const log::PacketLog& log, const model::PacketDigests& digests, filter::Filter filter,
-                    log::Stamp firstStamp, PositionUnits units = {});
+    /// The log of the session must outlive the run.
+    PacketFilterRun(const model::SessionView& view, filter::Filter filter, PositionUnits units = {});
 
     struct Found {
         std::vector<std::uint64_t> packets;  ///< in growing order
         std::vector<std::uint64_t> problems; ///< those of them that are problems
     };
-    /// What was found since the last call. Has the thread look at the packets that were digested meanwhile.
-    [[nodiscard]] Found take(const model::PacketDigests& digests);
+    /// What was found since the last call. Has the thread look at the packets that were digested meanwhile;
+    /// where the filter compares what is judged later, at those that were judged.
+    [[nodiscard]] Found take(const model::SessionView& view);
 
     /// Ends the search; what was found stays.
     void cancel() { m_thread.request_stop(); }
@@ -107,6 +108,7 @@ public:
     void wait();
 
 private:
+    [[nodiscard]] std::uint64_t endOf(const model::SessionView& view) const;
     void run(const std::stop_token& stop);
     [[nodiscard]] std::optional<model::PacketDigests::Excerpt> nextExcerpt(const std::stop_token& stop);
     void lookAt(const model::PacketDigests::Excerpt& excerpt, log::LogFollower& follower,

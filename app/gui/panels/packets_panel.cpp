@@ -104,7 +104,7 @@ void PacketsPanel::refresh() {
 }
 
 void PacketsPanel::takeMatches() {
-    const PacketFilterRun::Found found = m_run->take(m_view.digests());
+    const PacketFilterRun::Found found = m_run->take(m_view);
     m_packets.addMatches(found.packets, found.problems);
     const auto [done, total, gone] = m_run->progress();
     m_filtered = done;
@@ -182,8 +182,7 @@ void PacketsPanel::followFilter() {
         m_filtered = 0;
         m_unfiltered = 0;
         m_backlog = m_view.digests().end() - m_view.digests().begin();
-        m_run = std::make_unique<PacketFilterRun>(m_view.log(), m_view.digests(), *std::move(compiled), first,
-                                                  m_filterUnits);
+        m_run = std::make_unique<PacketFilterRun>(m_view, *std::move(compiled), m_filterUnits);
     }
 }
 

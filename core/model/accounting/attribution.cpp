@@ -376,6 +376,18 @@ const Gap* Attribution::endedBy(std::uint64_t packet) const {
     return found != m_gaps.end() && found->toPacket == packet ? &*found : nullptr;
 }
 
+std::uint64_t Attribution::firstPending(log::Stamp after) const {
+    std::uint64_t first = UINT64_MAX;
+    for (const auto* dues : {&m_due, &m_held}) {
+        const auto pending = std::ranges::find_if(*dues, [&](const Due& due) {
+            const Gap* gap = due.stream != nullptr ? find(due.gap) : nullptr;
+            return gap != nullptr && gap->toStamp > after;
+        });
+        first = pending == dues->end() ? first : std::min(first, find(pending->gap)->toPacket);
+    }
+    return first;
+}
+
 std::uint64_t Attribution::attribute(Stream& stream, Loss loss) {
     stream.attributed[static_cast<std::size_t>(loss.cause)] += loss.samples;
     return m_sink->takeLoss(std::move(loss));
@@ -432,6 +444,9 @@ void Attribution::recount(Gap& gap, Stream& stream) {
     const std::uint32_t lost =
         stream.accounting.missingBetween(gap.fromSample, gap.toSample).value_or(gap.lost);
     const std::uint32_t before = std::exchange(gap.lost, lost);
+    if (lost != before) {
+        m_recounts.push_back({gap.toPacket, lost});
+    }
     if (!gap.isJudged || lost == before) {
         return;
     }

@@ -116,6 +116,18 @@ public:
     /// The gap that a packet ended; null where it ended none, or one that is forgotten.
     [[nodiscard]] const Gap* endedBy(std::uint64_t packet) const;
 
+    /// The first packet that ended a gap after a moment and is yet to be judged; UINT64_MAX for none.
+    [[nodiscard]] std::uint64_t firstPending(log::Stamp after) const;
+
+    /// What a gap lacks that was counted again.
+    struct Recount {
+        std::uint64_t packet = 0; ///< that ended the gap
+        std::uint32_t lost = 0;
+    };
+    /// Those since they were cleared, in the order in which they were counted.
+    [[nodiscard]] const std::vector<Recount>& recounts() const { return m_recounts; }
+    void clearRecounts() { m_recounts.clear(); }
+
 private:
     struct Sender {
         std::vector<const Stream*> streams; ///< those that count samples
@@ -225,6 +237,7 @@ private:
     std::deque<Partial> m_judgedPartials; ///< the newest ones
     std::deque<Drop> m_drops;
     std::deque<Damage> m_damages;
+    std::vector<Recount> m_recounts;
 };
 
 } // namespace posewire::model

@@ -98,29 +98,43 @@ void PacketDigests::dropBefore(std::uint64_t begin) {
 }
 
 void PacketDigests::amend(const Verdict& verdict) {
-    if (verdict.packet < m_begin || verdict.packet >= m_end) {
+    change(verdict.packet, [&](PacketDigest& digest) { applyVerdict(verdict, digest); });
+}
+
+void PacketDigests::amendGap(std::uint64_t number, std::uint32_t gap) {
+    change(number, [gap](PacketDigest& digest) { digest.gap = gap; });
+}
+
+template <class Change>
+void PacketDigests::change(std::uint64_t number, Change&& change) {
+    if (number < m_begin || number >= m_end) {
         return;
     }
-    const std::uint64_t place = verdict.packet - m_firstOfBlocks;
+    const std::uint64_t place = number - m_firstOfBlocks;
     Block& block = m_blocks[place / kBlock];
     if (block.digests.use_count() > 1) {
         block.digests = copyOf(*block.digests);
     }
     PacketDigest& digest = (*block.digests)[place % kBlock];
     block.problems -= digest.isProblem() ? 1 : 0;
-    applyVerdict(verdict, digest);
+    change(digest);
     block.problems += digest.isProblem() ? 1 : 0;
 }
 
-PacketDigests PacketDigests::excerpt(std::uint64_t from) const {
+PacketDigests PacketDigests::excerpt(std::uint64_t from, std::uint64_t to) const {
     PacketDigests excerpt(m_scratch);
     excerpt.m_begin = std::clamp(from, m_begin, m_end);
-    excerpt.m_end = m_end;
+    excerpt.m_end = std::clamp(to, excerpt.m_begin, m_end);
+    if (excerpt.m_begin == excerpt.m_end) {
+        return excerpt;
+    }
     const std::uint64_t first = (excerpt.m_begin - m_firstOfBlocks) / kBlock;
+    const std::uint64_t last = (excerpt.m_end - 1 - m_firstOfBlocks) / kBlock;
     excerpt.m_firstOfBlocks = m_firstOfBlocks + first * kBlock;
-    excerpt.m_blocks.assign(m_blocks.begin() + static_cast<std::ptrdiff_t>(first), m_blocks.end());
-    const bool isLastComplete = (m_end - m_firstOfBlocks) % kBlock == 0;
-    if (excerpt.m_begin != m_end && !isLastComplete) {
+    excerpt.m_blocks.assign(m_blocks.begin() + static_cast<std::ptrdiff_t>(first),
+                            m_blocks.begin() + static_cast<std::ptrdiff_t>(last) + 1);
+    const bool isComplete = m_end - m_firstOfBlocks >= (last + 1) * kBlock;
+    if (!isComplete) {
         excerpt.m_blocks.back().digests = copyOf(*m_blocks.back().digests);
     }
     return excerpt;

@@ -30,7 +30,7 @@ enum class PacketKind : std::uint8_t {
 /// stream's accounting: known when it came, or a few packets later where its sample counter was unexpected.
 struct PacketDigest {
     float deltaS = -1;     ///< seconds since the packet before it in its stream, -1 for the first of a stream
-    std::uint32_t gap = 0; ///< samples that are missing just before it, counted in the stream's own step
+    std::uint32_t gap = 0; ///< samples that are missing just before it, in the stream's own step
     PacketKind kind = PacketKind::Datagram;
     std::uint8_t type = 0; ///< of a Datagram or where the header of a Malformed one could be read, else 0
     std::uint8_t character = 0;    ///< likewise
@@ -90,6 +90,8 @@ public:
     void dropBefore(std::uint64_t begin);
     /// Corrects a digest by a verdict that took its time. Excerpts that were given out stay as they are.
     void amend(const Verdict& verdict);
+    /// Likewise by what its gap lacks now that late arrivals and the step of the stream are known.
+    void amendGap(std::uint64_t number, std::uint32_t gap);
 
     [[nodiscard]] std::uint64_t begin() const { return m_begin; }
     [[nodiscard]] std::uint64_t end() const { return m_end; }
@@ -110,8 +112,8 @@ public:
     [[nodiscard]] std::optional<std::uint64_t> nextProblem(std::uint64_t after) const;
     [[nodiscard]] std::optional<std::uint64_t> previousProblem(std::uint64_t before) const;
 
-    /// From a packet on; whole blocks are shared, at most one is copied.
-    [[nodiscard]] Excerpt excerpt(std::uint64_t from) const;
+    /// From a packet up to another; whole blocks are shared, at most one is copied.
+    [[nodiscard]] Excerpt excerpt(std::uint64_t from, std::uint64_t to) const;
 
 private:
     static constexpr std::size_t kBlock = 4096;
@@ -121,6 +123,8 @@ private:
         std::size_t problems = 0; ///< a block without one is passed over
     };
 
+    template <class Change>
+    void change(std::uint64_t number, Change&& change);
     [[nodiscard]] std::shared_ptr<Digests> copyOf(const Digests& digests) const;
 
     std::shared_ptr<log::Scratch> m_scratch;

@@ -143,6 +143,10 @@ public:
     [[nodiscard]] std::uint64_t datagrams() const { return m_datagrams; }
     [[nodiscard]] std::uint32_t step() const { return m_ledger.present().step(); }
     [[nodiscard]] bool isInDoubt() const { return !m_probation.empty(); }
+    /// The first packet that waits for what comes after it; UINT64_MAX for none.
+    [[nodiscard]] std::uint64_t firstInDoubt() const {
+        return m_probation.empty() ? UINT64_MAX : m_probation.waiting()[0].packet;
+    }
     [[nodiscard]] log::Stamp firstStamp() const { return m_firstStamp; }
     [[nodiscard]] log::Stamp lastStamp() const { return m_lastStamp; }
 

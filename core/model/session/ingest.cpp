@@ -84,6 +84,7 @@ bool Ingest::follow(log::Stamp now, std::size_t most) {
             m_attribution->advance(now - kUnderWay);
             m_incidents->advance(now);
         }
+        amendGaps();
     }
     return count > 0;
 }
@@ -112,6 +113,15 @@ void Ingest::settle() {
         }
     });
     m_attribution->settle();
+    amendGaps();
+}
+
+/// The list of packets shows what is lost as it is counted.
+void Ingest::amendGaps() {
+    for (const Attribution::Recount& recount : m_attribution->recounts()) {
+        m_digests.amendGap(recount.packet, recount.lost);
+    }
+    m_attribution->clearRecounts();
 }
 
 void Ingest::endFile() {
@@ -175,6 +185,7 @@ void Ingest::take(const log::Packet& packet) {
         }
     }
     m_digests.append(packet.number, seen.digest);
+    amendGaps();
     lookForContradictions();
 }
 

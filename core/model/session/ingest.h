@@ -199,6 +199,7 @@ private:
     void countPacket(const Observation& seen);
     void passOverDropped(const Observation& seen);
     void judgeGaps(const Observation& seen);
+    void amendGaps();
     void countFaulty(const Observation& seen);
     [[nodiscard]] bool takeHeader(Observation& seen);
     void account(Observation& seen);

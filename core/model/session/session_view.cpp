@@ -85,6 +85,18 @@ const Gap* SessionView::gapEndedBy(std::uint64_t packet) const {
     return m_ingest.attribution().endedBy(packet);
 }
 
+std::uint64_t SessionView::settledEnd() const {
+    constexpr log::Duration kLongest = std::chrono::seconds(1); // what stays open is not waited for
+    const log::Stamp after = now() - kLongest;
+    std::uint64_t end = std::min(digests().end(), m_ingest.attribution().firstPending(after));
+    for (const Stream& stream : streams()) {
+        if (stream.accounting.lastStamp() > after) {
+            end = std::min(end, stream.accounting.firstInDoubt());
+        }
+    }
+    return std::max(end, digests().begin());
+}
+
 SenderTotals SessionView::allSenders() const {
     SenderTotals sums = retired();
     for (const Sender& sender : senders()) {

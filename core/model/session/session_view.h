@@ -91,12 +91,11 @@ public:
     [[nodiscard]] const Gap* gapEndedBy(std::uint64_t packet) const;
     /// One for every packet from begin() to end().
     [[nodiscard]] const PacketDigests& digests() const { return m_ingest.digests(); }
+    /// The end of those that stand; of what comes after, gaps and restarts may yet turn out otherwise.
+    [[nodiscard]] std::uint64_t settledEnd() const;
 
     /// What is kept of all that came, decoded messages included, and its limits: one place decides.
     [[nodiscard]] MemoryFigures memory() const;
-    /// What metadata and null poses of all characters take, about.
-    [[nodiscard]] std::size_t metadataBytes() const { return m_ingest.metadataBytes(); }
-    [[nodiscard]] std::size_t nullPoseBytes() const { return m_ingest.nullPoseBytes(); }
 
     /// Packets followed so far: one past the newest packet number.
     [[nodiscard]] std::uint64_t end() const { return m_ingest.end(); }

@@ -180,11 +180,10 @@ TEST_F(PacketModelTest, ListsWhatAFilterLetsThroughAndFollowsIt) {
     }
     refresh();
     m_model.beginMatches();
-    PacketFilterRun run(m_stage.log, m_stage.session.digests(), *filter::Filter::compile("type == 12"),
-                        m_stage.session.firstStamp());
+    PacketFilterRun run(m_stage.session, *filter::Filter::compile("type == 12"));
     const auto take = [&] {
         run.wait();
-        return run.take(m_stage.session.digests()).packets;
+        return run.take(m_stage.session).packets;
     };
     m_model.addMatches(take());
     refresh();
@@ -204,15 +203,15 @@ TEST_F(PacketModelTest, ListsWhatAFilterLetsThroughAndFollowsIt) {
 
 TEST_F(PacketModelTest, FilterStopsAtOnceWhenItIsCancelled) {
     steadyPoses(50'000);
-    PacketFilterRun run(m_stage.log, m_stage.session.digests(), *filter::Filter::compile("type == 02"), {});
+    PacketFilterRun run(m_stage.session, *filter::Filter::compile("type == 02"));
     run.cancel();
     run.wait();
-    const auto found = run.take(m_stage.session.digests()).packets.size();
+    const auto found = run.take(m_stage.session).packets.size();
     EXPECT_TRUE(run.isCancelled());
     pose(60'000);
     m_stage.follow();
     run.wait();
-    EXPECT_LE(run.take(m_stage.session.digests()).packets.size() + found, 50'000U);
+    EXPECT_LE(run.take(m_stage.session).packets.size() + found, 50'000U);
 }
 
 TEST(PacketModel, FilterAndListAgreeOnPacketsWhosePredecessorsWereDropped) {
@@ -231,7 +230,8 @@ TEST(PacketModel, FilterAndListAgreeOnPacketsWhosePredecessorsWereDropped) {
         log.writer().publish();
         session.follow(Stage::kStart);
     }
-    PacketFilterRun run(log, session.digests(), *filter::Filter::compile("gap > 0"), {});
+    session.follow(Stage::kStart + 3s); // by then all of them are judged
+    PacketFilterRun run(session, *filter::Filter::compile("gap > 0"));
     run.wait();
     std::vector<std::uint64_t> gaps;
     for (std::uint64_t number = session.digests().begin(); number < session.digests().end(); ++number) {
@@ -239,9 +239,48 @@ TEST(PacketModel, FilterAndListAgreeOnPacketsWhosePredecessorsWereDropped) {
             gaps.push_back(number);
         }
     }
-    const auto found = run.take(session.digests());
+    const auto found = run.take(session);
     EXPECT_EQ(found.packets, gaps);
     EXPECT_EQ(found.problems, gaps);
+}
+
+TEST_F(PacketModelTest, FilterWaitsUntilItIsKnownWhatIsLost) {
+    steadyPoses(200);
+    pose(202);
+    pose(200);
+    pose(201); // both came after all
+    pose(204);
+    refresh();
+    PacketFilterRun gaps(m_stage.session, *filter::Filter::compile("gap > 0"));
+    PacketFilterRun poses(m_stage.session, *filter::Filter::compile("type == 02"));
+    EXPECT_EQ(poses.progress().total, 204U);
+    EXPECT_LT(gaps.progress().total, 204U);
+    for (std::uint32_t sample = 205; sample < 250; ++sample) {
+        pose(sample);
+    }
+    refresh();
+    static_cast<void>(gaps.take(m_stage.session));
+    gaps.wait();
+    EXPECT_EQ(gaps.take(m_stage.session).packets, std::vector<std::uint64_t>{203}) << "203 never came";
+    EXPECT_EQ(gaps.progress().total, 249U);
+}
+
+TEST_F(PacketModelTest, FilterFindsARestartThatWasInDoubt) {
+    steadyPoses(200);
+    refresh();
+    PacketFilterRun run(m_stage.session, *filter::Filter::compile("restart"));
+    std::vector<std::uint64_t> found;
+    const auto take = [&] {
+        std::ranges::copy(run.take(m_stage.session).packets, std::back_inserter(found));
+    };
+    for (std::uint32_t sample = 90'000; sample < 90'020; ++sample) {
+        pose(sample);
+        refresh();
+        take();
+    }
+    run.wait();
+    take();
+    EXPECT_EQ(found, std::vector<std::uint64_t>{200});
 }
 
 TEST(PacketModel, FilterCountsWhatLeftTheLogBeforeItLookedAtIt) {
@@ -258,17 +297,17 @@ TEST(PacketModel, FilterCountsWhatLeftTheLogBeforeItLookedAtIt) {
     append(100);
     session.follow(Stage::kStart);
     append(10'000); // the log drops all that the session knows
-    PacketFilterRun run(log, session.digests(), *filter::Filter::compile("type == 02"), {});
+    PacketFilterRun run(session, *filter::Filter::compile("type == 02"));
     run.wait();
     EXPECT_EQ(run.progress().gone, 100U);
     EXPECT_EQ(run.progress().done, 100U);
-    EXPECT_TRUE(run.take(session.digests()).packets.empty());
+    EXPECT_TRUE(run.take(session).packets.empty());
     session.follow(Stage::kStart);
-    static_cast<void>(run.take(session.digests()));
+    static_cast<void>(run.take(session));
     run.wait();
     const auto progress = run.progress();
     EXPECT_EQ(progress.done, progress.total);
-    EXPECT_EQ(run.take(session.digests()).packets.size() + progress.gone, 10'100U);
+    EXPECT_EQ(run.take(session).packets.size() + progress.gone, 10'100U);
 }
 
 TEST_F(PacketModelTest, PaintsEveryCellOfDamagedDatagrams) {

@@ -250,5 +250,38 @@ TEST_F(AttributionTest, IsTheSameInWhateverPortionsTheLogIsRead) {
     EXPECT_EQ(told[0], told[1]);
 }
 
+TEST_F(AttributionTest, LeavesNoGapInTheListOfPacketsWhereAllCameLate) {
+    frames(1, 50);
+    put(52, {});
+    m_at += 4ms;
+    put(51, {});
+    frames(53, 120);
+    follow();
+    EXPECT_EQ(m_session.digests().at(50).gap, 0U);
+    EXPECT_EQ(m_session.digests().nextProblem(0), 51U) << "the one that was reordered";
+    EXPECT_EQ(m_session.digests().nextProblem(51), std::nullopt);
+}
+
+TEST_F(AttributionTest, TellsTheListOfPacketsWhatIsMissingStill) {
+    frames(1, 50);
+    put(54, {});
+    m_at += 300ms; // it was lost for good, and comes
+    put(52, {});
+    frames(55, 120);
+    follow();
+    EXPECT_EQ(m_session.gaps().front().lost, 2U);
+    EXPECT_EQ(m_session.digests().at(50).gap, 2U);
+}
+
+TEST_F(AttributionTest, LeavesNoGapInTheListOfPacketsWhereTheStepChanged) {
+    frames(1, 200);
+    for (std::uint32_t sample = 204; sample <= 800; sample += 4, m_at += 16ms) {
+        put(sample, {});
+    }
+    follow();
+    EXPECT_EQ(m_session.streams().front().accounting.counts().lost, 0U);
+    EXPECT_EQ(m_session.digests().nextProblem(0), std::nullopt);
+}
+
 } // namespace
 } // namespace posewire::model

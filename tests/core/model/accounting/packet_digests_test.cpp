@@ -91,7 +91,7 @@ TEST(PacketDigests, GiveExcerptsThatStayAsTheyWere) {
     for (std::uint64_t number = 0; number < 6'000; ++number) {
         digests.append(number, number % 1'000 == 0 ? problem() : PacketDigest{});
     }
-    const auto excerpt = digests.excerpt(4'090);
+    const auto excerpt = digests.excerpt(4'090, 6'000);
     digests.amend(verdictOn(4'092, 9));
     digests.amend(verdictOn(5'000, 0));
     for (std::uint64_t number = 6'000; number < 20'000; ++number) {
@@ -107,13 +107,13 @@ TEST(PacketDigests, GiveExcerptsThatStayAsTheyWere) {
 
 TEST(PacketDigests, GiveAnEmptyExcerptWhereThereIsNothing) {
     PacketDigests digests;
-    EXPECT_EQ(digests.excerpt(0).begin(), digests.excerpt(0).end());
+    EXPECT_EQ(digests.excerpt(0, digests.end()).begin(), digests.excerpt(0, digests.end()).end());
     for (std::uint64_t number = 100; number < 100 + 4'096; ++number) {
         digests.append(number, problem());
     }
-    EXPECT_EQ(digests.excerpt(10'000).begin(), 4'196U);
-    EXPECT_EQ(digests.excerpt(10'000).end(), 4'196U);
-    const auto all = digests.excerpt(0); // a block that is full is shared
+    EXPECT_EQ(digests.excerpt(10'000, 20'000).begin(), 4'196U);
+    EXPECT_EQ(digests.excerpt(10'000, 20'000).end(), 4'196U);
+    const auto all = digests.excerpt(0, digests.end()); // a block that is full is shared
     EXPECT_EQ(all.begin(), 100U);
     EXPECT_EQ(all.end(), 4'196U);
     EXPECT_EQ(all.at(4'195).gap, 1U);

@@ -174,8 +174,11 @@ TEST_F(SplitMessages, KeepMetadataAndNullPosesWithinTheirBudgets) {
         }
     }
     follow();
-    EXPECT_LE(m_session.metadataBytes(), Ingest::kMetadataBudget);
-    EXPECT_LE(m_session.nullPoseBytes(), Ingest::kNullPoseBudget);
+    const auto bytesOf = [figures = m_session.memory()](std::string_view part) {
+        return std::ranges::find(figures.parts, part, &MemoryFigures::Part::key)->bytes;
+    };
+    EXPECT_LE(bytesOf("metadata"), Ingest::kMetadataBudget);
+    EXPECT_LE(bytesOf("nullPoses"), Ingest::kNullPoseBudget);
     EXPECT_TRUE(m_session.displayName(key()).shown().starts_with("1999x"));
 }
 
