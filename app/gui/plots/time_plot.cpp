@@ -16,6 +16,15 @@ constexpr std::size_t kMostHatches = 32;
 /// a line and does not hide the curves.
 constexpr double kLeastHatch = 0.06;
 
+/// Writes the minus sign as tables do.
+class Ticker : public QCPAxisTicker {
+protected:
+    QString getTickLabel(double tick, const QLocale& locale, QChar format, int precision) override {
+        return QCPAxisTicker::getTickLabel(tick, locale, format, precision)
+            .replace(QLatin1Char('-'), QChar(0x2212));
+    }
+};
+
 } // namespace
 
 struct TimePlot::Parts {
@@ -91,6 +100,9 @@ int TimePlot::addChart(const QString& title, int share, double leastRange) {
     }
     const Parts::Chart& chart = m_parts->charts.emplace_back(Parts::Chart{axes, words, title, leastRange});
     Parts::time(chart)->setRange(-m_parts->secondsShown, 0);
+    for (QCPAxis* axis : {Parts::time(chart), Parts::values(chart)}) {
+        axis->setTicker(QSharedPointer<Ticker>::create());
+    }
     Parts::time(chart)->ticker()->setTickCount(5);
     Parts::values(chart)->ticker()->setTickCount(3);
     if (m_parts->marks == nullptr) {
