@@ -12,6 +12,9 @@ namespace {
 
 using render::Simplification;
 
+/// Seconds a picture; where they take longer, movement is not seen as one.
+constexpr double kSlow = 0.1;
+
 /// What a step leaves out, beside what those before it do.
 QString leftOut(Simplification step) {
     switch (step) {
@@ -73,7 +76,7 @@ PictureHealth pictureHealthOf(const PictureLoad& load, const QString& hardwareFa
             ? leftOut(load.step)
             : tr("step %1 of %2: %3").arg(step).arg(render::kLastSimplification).arg(leftOut(load.step));
     return {load.typical > 0 ? tr("%1 · %2 ms").arg(state, milliseconds(load.typical)) : state, why,
-            load.step >= Simplification::FewAxes};
+            load.step >= Simplification::FewAxes || load.typical > kSlow};
 }
 
 } // namespace posewire::gui

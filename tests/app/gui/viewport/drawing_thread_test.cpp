@@ -123,7 +123,9 @@ TEST(PictureHealthTest, NamesTheStepAndWhyItIsOnIt) {
     EXPECT_EQ(coarse.state, QStringLiteral("step 3 of 7: coarse bodies · 15 ms"));
     EXPECT_TRUE(coarse.why.contains("since a picture took 31 ms")) << coarse.why.toStdString();
     EXPECT_TRUE(coarse.why.contains("coarse shadows, small shadows, coarse bodies"));
+    EXPECT_FALSE(coarse.isPoor);
     EXPECT_TRUE(pictureHealthOf({Simplification::HalfRate, 0.04, 0.05, 0.018, false}).isPoor);
+    EXPECT_TRUE(pictureHealthOf({Simplification::LowBodies, 0.15, 0.05, 0.018, false}).isPoor) << "it jerks";
     EXPECT_EQ(pictureHealthOf({Simplification::HalfRate, 0.04, 0.05, 0.018, true}).state,
               QStringLiteral("nothing moves · full quality"));
     EXPECT_EQ(pictureHealthOf({}).state, QStringLiteral("by graphics hardware"));
