@@ -102,16 +102,17 @@ SessionDriver::SessionDriver(const log::Clock& clock, QString cacheFolder, QObje
         tick();
         // A tick that takes long is followed by a rest as long: the window never takes more than half a
         // processor.
-        const auto took =
-            std::chrono::duration_cast<std::chrono::milliseconds>(m_clock.monotonic() - m_tickBegin);
+        const auto took = sinceTick();
         m_timer.start(std::clamp(std::max(kTick - took, took), std::chrono::milliseconds(1), kSlowestTick));
     });
 }
 
+std::chrono::milliseconds SessionDriver::sinceTick() const {
+    return std::chrono::duration_cast<std::chrono::milliseconds>(m_clock.monotonic() - m_tickBegin);
+}
+
 void SessionDriver::hasten() {
-    const auto passed =
-        std::chrono::duration_cast<std::chrono::milliseconds>(m_clock.monotonic() - m_tickBegin);
-    const auto left = std::max(kTick - passed, std::chrono::milliseconds(0));
+    const auto left = std::max(kTick - sinceTick(), std::chrono::milliseconds(0));
     if (m_timer.isActive() && left < m_timer.remainingTimeAsDuration()) {
         m_timer.start(left);
     }

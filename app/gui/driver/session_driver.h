@@ -227,6 +227,7 @@ private:
         m_tableTick = {};
         hasten();
     }
+    [[nodiscard]] std::chrono::milliseconds sinceTick() const;
     /// What the operator asked for does not wait out the rest after a long tick.
     void hasten();
     /// The same with the moment that is shown.

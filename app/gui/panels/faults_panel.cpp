@@ -63,8 +63,8 @@ void FaultsPanel::fitColumns() {
                                                              : number;
         m_table->columns().addElastic(column, least, count, least);
     }
-    m_givingWay = {FaultModel::kExpected, FaultModel::kLost};
-    m_table->columns().setGivingWay(m_givingWay);
+    m_givingWay.clear();
+    chooseCauses();
     m_table->columns().setUsual({FaultModel::kName, FaultModel::kThisComputer, FaultModel::kNetwork,
                                  FaultModel::kSender, FaultModel::kUnknown, FaultModel::kLost});
 }
