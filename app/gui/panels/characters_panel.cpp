@@ -192,10 +192,14 @@ void CharactersPanel::showEmptyState() {
         return;
     }
     const std::vector<PortState> ports = m_program.receivingState().ports;
+    if (ports.empty()) {
+        m_table->setEmptyText(tr("No character on the air.\nThere is nothing to listen to: add an input "
+                                 "(Input > Inputs)."));
+        return;
+    }
     const auto open =
         std::ranges::find_if(ports, [](const PortState& state) { return state.id.has_value(); });
-    const auto wanted = ports.empty() ? kDefaultPort : ports.front().port.port;
-    const auto port = open == ports.end() ? wanted : open->status.endpoint.port;
+    const auto port = open == ports.end() ? ports.front().port.port : open->status.endpoint.port;
     m_table->setEmptyText(
         tr("No character on the air.\nIn MVN: Options > Preferences > Network Streamer, add "
            "this computer with port %1 and tick the stream.")

@@ -81,6 +81,7 @@ TransportBar::TransportBar(model::SessionView& session, const Actions& actions, 
                    [this] { m_detail->setVisible(width() > 100 * fontMetrics().averageCharWidth()); });
     m_record->setCheckable(true);
     m_record->setObjectName(QStringLiteral("recordButton"));
+    m_live->setObjectName(QStringLiteral("modeButton"));
     restyle();
     showTake({});
     refresh();
@@ -134,7 +135,7 @@ TransportBar::Mode TransportBar::modeNow() const {
         std::ranges::any_of(m_session->characters(), [this](const model::Character& character) {
             return isLive(*m_session, character);
         });
-    return isAnyLive ? Mode::Live : Mode::Waiting;
+    return isAnyLive ? Mode::Live : m_inputs.empty() ? Mode::Idle : Mode::Waiting;
 }
 
 void TransportBar::showMode(Mode mode) {
@@ -143,10 +144,11 @@ void TransportBar::showMode(Mode mode) {
     m_pause->setIcon(themedIcon(isPaused ? QStringLiteral("play") : QStringLiteral("pause")));
     m_pause->setText(isPaused ? tr("Go live   Space") : tr("Pause   Space"));
     m_pause->setAccessibleName(isPaused ? tr("Go live") : tr("Pause"));
-    const std::array texts{tr("● LIVE"), tr("○ WAITING"), tr("▮▮ PAUSED"), tr("▶ PLAYING")};
-    const std::array names{tr("Live"), tr("Waiting"), tr("Paused"), tr("Playing")};
+    const std::array texts{tr("● LIVE"), tr("○ WAITING"), tr("○ NO INPUT"), tr("▮▮ PAUSED"), tr("▶ PLAYING")};
+    const std::array names{tr("Live"), tr("Waiting"), tr("No input"), tr("Paused"), tr("Playing")};
     const std::array helps{tr("The display follows the stream."),
                            tr("The display follows the stream, but nothing is arriving."),
+                           tr("There is nothing to listen to. Add an input (Input > Inputs)."),
                            tr("The display is paused; receiving continues. Click to follow again (End)."),
                            tr("Playing the past; receiving continues. Click to follow again (End).")};
     m_live->setText(texts[static_cast<std::size_t>(mode)]);
@@ -157,10 +159,14 @@ void TransportBar::showMode(Mode mode) {
     m_live->style()->polish(m_live);
 }
 
-void TransportBar::refresh() {
+void TransportBar::followMode() {
     if (const Mode mode = modeNow(); mode != m_mode) {
         showMode(mode);
     }
+}
+
+void TransportBar::refresh() {
+    followMode();
     m_past->setVisible(m_session->cursor().mode == model::Cursor::Mode::Paused);
     m_past->refresh(m_session->cursor());
     const auto key = shownCharacter(*m_session);
@@ -210,6 +216,7 @@ void TransportBar::setReceiving(const ReceivingState& receiving) {
         m_pills[i]->setVisible(false);
     }
     showRelays(receiving.relays);
+    followMode();
 }
 
 void TransportBar::showRelays(const std::vector<RelayState>& relays) {

@@ -53,12 +53,13 @@ protected:
     void paintEvent(QPaintEvent* event) override;
 
 private:
-    /// Waiting: it would follow, but nothing arrives.
-    enum class Mode { Live, Waiting, Paused, Playing };
+    /// Waiting: it would follow, but nothing arrives. Idle: and nothing can, for there is no input.
+    enum class Mode { Live, Waiting, Idle, Paused, Playing };
 
     [[nodiscard]] Mode modeNow() const;
     void restyle();
     void showMode(Mode mode);
+    void followMode();
     void showRelays(const std::vector<RelayState>& relays);
 
     void addPill();

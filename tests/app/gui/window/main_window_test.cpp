@@ -276,6 +276,21 @@ TEST_F(MainWindowTest, APillOfAnInputTellsMoreAboutIt) {
     }
 }
 
+TEST_F(MainWindowTest, SaysThatThereIsNoInput) {
+    const auto window = makeWindow();
+    const auto* live = window->findChild<QToolButton*>("modeButton");
+    const auto* board = dock(*window, "characters")->findChild<TableView*>();
+    driver.tick();
+    EXPECT_EQ(live->accessibleName(), "No input");
+    EXPECT_TRUE(board->accessibleDescription().contains("add an input"));
+    driver.receiving().addPort({"127.0.0.1", 0});
+    ASSERT_TRUE(QTest::qWaitFor([&] {
+        driver.tick();
+        return live->accessibleName() == "Waiting";
+    }));
+    EXPECT_TRUE(board->accessibleDescription().contains("Network Streamer"));
+}
+
 TEST_F(MainWindowTest, AFloatingDockHasAnEdge) {
     const auto window = makeWindow();
     QDockWidget* floating = dock(*window, "timecode");
