@@ -39,6 +39,9 @@ namespace {
 /// Raised when docks or tool bars change so that an old state would not fit.
 constexpr int kStateVersion = 2;
 constexpr QSize kDefaultSize(1600, 1000);
+/// What a desktop puts around a window, about; it does not tell before the window is there.
+constexpr QSize kFrame(16, 48);
+
 /// A tool bar that stays where it is and holds one widget.
 QToolBar* fixedBar(const QString& title, const QString& name, QWidget* content) {
     auto* bar = new QToolBar(title);
@@ -181,7 +184,7 @@ void MainWindow::restore() {
     const QRect place = onScreen(m_settings.window);
     if (place.isEmpty()) {
         const QRect room = screen()->availableGeometry();
-        resize(kDefaultSize.boundedTo(room.size()));
+        resize(kDefaultSize.boundedTo(room.size() - kFrame));
     } else {
         setGeometry(place);
     }
@@ -210,6 +213,28 @@ void MainWindow::showEvent(QShowEvent* event) {
     }
 }
 
+namespace {
+
+/// On one screen, or on several side by side.
+bool isAllSeen(const QRect& window) {
+    QRegion hidden(window);
+    for (const QScreen* screen : QGuiApplication::screens()) {
+        hidden -= screen->availableGeometry();
+    }
+    return hidden.isEmpty();
+}
+
+/// As far as it has to be, and as large as it may be.
+QRect movedInto(const QRect& room, const QRect& window) {
+    QRect moved(window.topLeft(), window.size().boundedTo(room.size()));
+    moved.moveRight(std::min(moved.right(), room.right()));
+    moved.moveBottom(std::min(moved.bottom(), room.bottom()));
+    moved.moveLeft(std::max(moved.left(), room.left()));
+    return moved;
+}
+
+} // namespace
+
 QRect onScreen(const QRect& window) {
     constexpr int kGrabbable = 80;
     if (window.width() < kGrabbable || window.height() < kGrabbable) {
@@ -219,7 +244,7 @@ QRect onScreen(const QRect& window) {
         const QRect room = screen->availableGeometry();
         const QRect seen = room.intersected(window);
         if (seen.width() >= kGrabbable && seen.height() >= kGrabbable && window.top() >= room.top()) {
-            return {window.topLeft(), window.size().boundedTo(room.size())};
+            return isAllSeen(window) ? window : movedInto(room, window);
         }
     }
     return {};
@@ -340,9 +365,14 @@ void MainWindow::useLayout(const QString& nameOrFile) {
         say(layout.error(), HelpTopic::UnknownLayout);
         return;
     }
+    const QWidget* const hadKeyboard = focusWidget();
     if (const QStringList unknown = applyLayout(*layout, *this); !unknown.isEmpty()) {
         say(tr("Layout %1: there is no dock named %2").arg(layout->name, unknown.join(tr(" or "))),
             HelpTopic::UnknownLayout);
+    }
+    // Docks that are taken away leave it to the next button, and Space would press that.
+    if (focusWidget() != hadKeyboard) {
+        m_viewport->setFocus();
     }
     m_verdict->setLarge(layout->hasLargeVerdict);
     m_settings.layout = layoutNames().contains(layout->name) ? layout->name : nameOrFile;

@@ -180,7 +180,8 @@ private:
     bool m_saysOpening = false; ///< the bar at the bottom does
 };
 
-/// Where a window of that place can be seen and grabbed on the screens there are; empty if nowhere.
+/// Where a window of that place is wholly seen on the screens there are, moved if it must be; empty if it
+/// cannot be grabbed where it is.
 [[nodiscard]] QRect onScreen(const QRect& window);
 
 } // namespace posewire::gui

@@ -15,6 +15,7 @@
 
 #include <QDockWidget>
 #include <QLabel>
+#include <QLineEdit>
 #include <QMenu>
 #include <QMenuBar>
 #include <QScreen>
@@ -414,6 +415,14 @@ TEST_F(MainWindowTest, SpacePausesAndEndGoesBackToLive) {
     EXPECT_FALSE(driver.isPaused());
 }
 
+TEST_F(MainWindowTest, GivesTheKeyboardToTheViewportWhenALayoutTakesItFromADock) {
+    const auto window = makeWindow();
+    window->useLayout("Debug");
+    dock(*window, "packets")->findChild<QLineEdit*>()->setFocus();
+    window->useLayout("Check");
+    EXPECT_EQ(window->focusWidget(), &window->viewport());
+}
+
 TEST_F(MainWindowTest, F6GoesThroughTheDocksAndBackToTheViewport) {
     const auto window = makeWindow();
     dock(*window, "compare")->show(); // the only one that no layout opens
@@ -545,6 +554,22 @@ TEST(OnScreen, RefusesPlacesThatCannotBeSeen) {
     const QRect inside(room.left() + 10, room.top() + 10, 300, 200);
     EXPECT_EQ(onScreen(inside), inside);
     EXPECT_LE(onScreen(QRect(room.topLeft(), QSize(90'000, 90'000))).width(), room.width());
+}
+
+TEST(OnScreen, MovesWhatReachesBeyondTheScreens) {
+    const QRect room = QGuiApplication::primaryScreen()->availableGeometry();
+    const QRect beyond(room.center(), room.size() * 0.75);
+    EXPECT_EQ(onScreen(beyond).size(), beyond.size());
+    EXPECT_EQ(onScreen(beyond).bottomRight(), room.bottomRight());
+    EXPECT_EQ(onScreen(QRect(room.center(), room.size() * 2)), room);
+    EXPECT_EQ(onScreen(QRect(room.left() - 200, room.top(), 400, 300)).left(), room.left());
+}
+
+TEST_F(MainWindowTest, LeavesRoomForItsFrameAtTheFirstStart) {
+    const MainWindow window(driver, file, {});
+    const QSize room = window.screen()->availableSize();
+    EXPECT_LT(window.height(), room.height());
+    EXPECT_LT(window.width(), room.width());
 }
 
 } // namespace
