@@ -2,9 +2,11 @@
 #include "app/gui/ending_signals.h"
 #include "app/gui/logging.h"
 #include "app/gui/options.h"
+#include "app/gui/plots/time_plot.h"
 #include "app/gui/saving.h"
 #include "app/gui/theme/event_watch.h"
 #include "app/gui/theme/icons.h"
+#include "app/gui/viewport/own_characters.h"
 #include "app/gui/viewport/presenter.h"
 #include "app/gui/window/main_window.h"
 #include "app/system/process_figures.h"
@@ -29,7 +31,8 @@ tl::expected<Options, EarlyExit> readOptions(int& argc, char** argv) {
     const QCoreApplication application(argc, argv);
     auto options = parseOptions(QCoreApplication::arguments());
     if (!options && options.error().isVersion) {
-        options.error().text += QStringLiteral("OpenGL %1\n").arg(windowlessOpenGlName());
+        options.error().text +=
+            QStringLiteral("%1\n%2\nOpenGL %3\n").arg(importerName(), plottingName(), windowlessOpenGlName());
     }
     return options;
 }

@@ -13,6 +13,7 @@
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
+#include <assimp/version.h>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
@@ -314,6 +315,10 @@ tl::expected<ImportedCharacter, std::string> importCharacter(std::span<const std
     configure(importer);
     return converted(importer,
                      importer.ReadFileFromMemory(bytes.data(), bytes.size(), kSteps, extension.c_str()), {});
+}
+
+std::string importerName() {
+    return "Assimp " + std::to_string(aiGetVersionMajor()) + "." + std::to_string(aiGetVersionMinor());
 }
 
 } // namespace posewire::render

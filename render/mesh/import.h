@@ -26,4 +26,7 @@ tl::expected<ImportedCharacter, std::string> importCharacter(const std::string& 
 tl::expected<ImportedCharacter, std::string> importCharacter(std::span<const std::byte> bytes,
                                                              const std::string& extension);
 
+/// What reads the files, and its version: "Assimp 5.2".
+[[nodiscard]] std::string importerName();
+
 } // namespace posewire::render

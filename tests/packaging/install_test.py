@@ -16,6 +16,7 @@ import tempfile
 ICON_SIZES = (16, 22, 24, 32, 48, 64, 128, 256, 512)
 PROGRAMS = ("posewire", "posewire-cli")
 RESOURCES = pathlib.Path(__file__).resolve().parents[2] / "resources"
+LIBRARIES = {"posewire": ["Qt", "Assimp", "QCustomPlot", "OpenGL"], "posewire-cli": ["Qt"]}
 PACKAGES = PROGRAMS + ("wireshark-mxtp",)
 
 
@@ -72,6 +73,7 @@ def check_programs(root, version):
         out = subprocess.run([root / "bin" / name, "--version"], env=environment, check=True, capture_output=True,
                              text=True).stdout
         assert out.splitlines()[0] == f"{name} {version}", out
+        assert [line.split()[0] for line in out.splitlines()[1:]] == LIBRARIES[name], out
 
 
 def main(cmake, build, version):

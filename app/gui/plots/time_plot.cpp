@@ -344,4 +344,8 @@ void TimePlot::changeEvent(QEvent* event) {
     }
 }
 
+QString plottingName() {
+    return QStringLiteral("QCustomPlot " QCUSTOMPLOT_VERSION_STR);
+}
+
 } // namespace posewire::gui

@@ -85,4 +85,7 @@ private:
     std::unique_ptr<Parts> m_parts;
 };
 
+/// What draws them, and its version: "QCustomPlot 2.1.0".
+[[nodiscard]] QString plottingName();
+
 } // namespace posewire::gui

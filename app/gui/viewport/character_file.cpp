@@ -121,4 +121,8 @@ ReadCharacter readCharacterFile(const QString& path) {
     return read;
 }
 
+QString importerName() {
+    return QString::fromStdString(render::importerName());
+}
+
 } // namespace posewire::gui

@@ -118,4 +118,7 @@ private:
     CharacterReading m_reading{this};
 };
 
+/// What reads the files of such characters, and its version: "Assimp 5.2".
+[[nodiscard]] QString importerName();
+
 } // namespace posewire::gui
