@@ -101,9 +101,10 @@ DockTitle::DockTitle(QDockWidget* dock)
     row->addSpacing(8);
     row->addWidget(m_summary, 1);
     row->addSpacing(2);
-    row->addWidget(m_help);
+    // Those that come with the pointer are before the one that is always there, or they would slip under it.
     row->addWidget(m_float);
     row->addWidget(m_close);
+    row->addWidget(m_help);
     connect(m_float, &QToolButton::clicked, dock, [dock] { dock->setFloating(!dock->isFloating()); });
     connect(m_close, &QToolButton::clicked, dock, &QDockWidget::close);
     connect(qApp, &QApplication::focusChanged, this, [this] { update(); });

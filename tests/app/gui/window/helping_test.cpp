@@ -13,7 +13,9 @@
 #include <QDockWidget>
 #include <QDragEnterEvent>
 #include <QDropEvent>
+#include <QEnterEvent>
 #include <QFile>
+#include <QLayout>
 #include <QMimeData>
 #include <QPushButton>
 #include <QTemporaryDir>
@@ -75,6 +77,19 @@ TEST_F(HelpingTest, ANarrowDockKeepsItsNameAndTheWayToItsPage) {
         QTest::qWait(1);
         const auto* button = title->findChild<QToolButton*>("helpButton");
         EXPECT_LE(button->geometry().right(), title->width()) << dock->objectName().toStdString();
+    }
+}
+
+TEST_F(HelpingTest, TheWayToItsPageStaysWhereItIsWhenThePointerComes) {
+    for (QDockWidget* dock : docks()) {
+        QWidget* title = dock->titleBarWidget();
+        title->layout()->activate();
+        const auto* button = title->findChild<QToolButton*>("helpButton");
+        const QPoint pointer = button->geometry().center();
+        QEnterEvent enter(pointer, pointer, pointer);
+        QCoreApplication::sendEvent(title, &enter);
+        title->layout()->activate();
+        EXPECT_TRUE(button->geometry().contains(pointer)) << dock->objectName().toStdString();
     }
 }
 
