@@ -172,6 +172,13 @@ void addSession(std::vector<Finding>& findings, const model::SessionView& sessio
                                           counted(session.overtaken(), "packet", "packets") +
                                           " in time: what was lost with them is counted as lost here."});
     }
+    if (session.dropsUnseen() != 0) {
+        findings.push_back({IncidentSeverity::Error,
+                            "This computer dropped " +
+                                counted(session.dropsUnseen(), "datagram", "datagrams") +
+                                " between those that it did not look at: it was too busy, or its receive "
+                                "buffer is too small."});
+    }
     addCounted(findings, session.unfollowed(), "datagram", "datagrams",
                " of too many streams at once could not be accounted for.");
     const model::RetiredTotals& retired = session.retired();

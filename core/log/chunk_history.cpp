@@ -146,7 +146,7 @@ std::size_t ChunkHistory::left(std::size_t chunks, std::uint64_t packets) const 
 
 /// How many packets the chunk will take is not known: so much is left for them that it seldom ends early, and
 /// it ends where the cap would be passed.
-ChunkHistory::Begun ChunkHistory::beginChunk(std::uint64_t first) {
+ChunkHistory::Begun ChunkHistory::beginChunk(std::uint64_t first, std::uint64_t drops) {
     const std::size_t mostBeside = left(2, 0) / 2;
     std::vector<Held> dropped; // given back outside the lock
     std::size_t chunks = 0;
@@ -172,7 +172,7 @@ ChunkHistory::Begun ChunkHistory::beginChunk(std::uint64_t first) {
         m_preparer = std::thread([pool = m_pool] { pool->keepReady(); });
     }
     const std::lock_guard lock(m_mutex);
-    m_chunks.push_back({first, chunk});
+    m_chunks.push_back({first, drops, chunk});
     m_version.fetch_add(1, std::memory_order_release);
     return {std::move(chunk), first + std::min(rest, mostBeside) / besidePacket()};
 }
@@ -182,7 +182,7 @@ std::vector<ChunkHistory::Entry> ChunkHistory::entries() const {
     std::vector<Entry> list;
     list.reserve(m_chunks.size());
     for (const Held& held : m_chunks) {
-        list.push_back({held.first, held.chunk});
+        list.push_back({held.first, held.drops, held.chunk});
     }
     return list;
 }

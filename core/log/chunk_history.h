@@ -141,6 +141,7 @@ class ChunkHistory {
 public:
     struct Entry {
         std::uint64_t first; ///< number of the first packet of the chunk
+        std::uint64_t drops; ///< sum of kernelDropsBefore of all packets before it
         std::weak_ptr<const Chunk> chunk;
     };
 
@@ -153,8 +154,9 @@ public:
         std::shared_ptr<Chunk> chunk;
         std::uint64_t end; ///< it may take the packets below this number
     };
-    /// Writer: the next chunk, which begins at packet `first`; the oldest ones go where the cap demands it.
-    Begun beginChunk(std::uint64_t first);
+    /// Writer: the next chunk, which begins at packet `first`, before which this computer had dropped `drops`
+    /// datagrams in all; the oldest ones go where the cap demands it.
+    Begun beginChunk(std::uint64_t first, std::uint64_t drops);
 
     /// Writer: readers now see all packets below `end`.
     void publish(std::uint64_t end) { m_end.store(end, std::memory_order_release); }
@@ -176,6 +178,7 @@ private:
     }
     struct Held {
         std::uint64_t first;
+        std::uint64_t drops;
         std::shared_ptr<Chunk> chunk;
     };
 

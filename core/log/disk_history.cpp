@@ -94,7 +94,8 @@ void DiskHistory::run(const std::stop_token& stop) {
 /// At the end all of it goes anyway: nobody waits for a slow disk then.
 DiskHistory::Result DiskHistory::follow(const std::stop_token& stop) {
     m_follower.refresh();
-    while (const auto packet = stop.stop_requested() ? std::nullopt : m_follower.next()) {
+    while (auto packet = stop.stop_requested() ? std::nullopt : m_follower.next()) {
+        packet->addDrops(m_follower.takeDropsUnseen());
         if (const auto written = write(*packet); !written) {
             return written;
         }
@@ -110,7 +111,9 @@ DiskHistory::Result DiskHistory::write(const Packet& packet) {
     }
     const SenderInfo* sender = m_senders.find(packet.sender);
     const Duration setBy = m_log.timeline().setByAt(packet.stamp);
-    if (const auto added = m_writer->add(packet, sender != nullptr ? *sender : SenderInfo{}, {}, setBy);
+    Packet written = packet; // nothing else tells who opens the file of what was passed over
+    written.addDrops(m_follower.takeOvertaken());
+    if (const auto added = m_writer->add(written, sender != nullptr ? *sender : SenderInfo{}, {}, setBy);
         !added) {
         return added;
     }

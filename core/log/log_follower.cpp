@@ -5,21 +5,24 @@
 
 namespace posewire::log {
 
-LogFollower::LogFollower(const PacketLog& log) : m_reader(log), m_next(m_reader.begin()) {}
+LogFollower::LogFollower(const PacketLog& log) : m_reader(log), m_next(0) {
+    beginAt(m_reader.begin());
+}
 
-LogFollower::LogFollower(const PacketLog& log, std::uint64_t from) : m_reader(log), m_next(from) {
+LogFollower::LogFollower(const PacketLog& log, std::uint64_t from) : m_reader(log), m_next(0) {
+    beginAt(from);
     skipTo(m_reader.begin());
 }
 
 LogFollower LogFollower::fromOldest(const PacketLog& log, std::uint64_t from) {
     LogFollower follower(log);
-    follower.m_next = std::max(from, follower.m_next);
+    follower.beginAt(std::max(from, follower.m_next));
     return follower;
 }
 
 LogFollower LogFollower::fromNow(const PacketLog& log) {
     LogFollower follower(log);
-    follower.m_next = follower.m_reader.end();
+    follower.beginAt(follower.m_reader.end());
     return follower;
 }
 
@@ -32,6 +35,7 @@ std::optional<Packet> LogFollower::next(std::uint64_t end) {
     while (m_next < std::min(end, m_reader.end())) {
         if (auto packet = m_reader.packet(m_next)) {
             ++m_next;
+            countDrops(*packet);
             return packet;
         }
         passOver(1); // dropped since the last refresh()
@@ -45,10 +49,26 @@ void LogFollower::skipTo(std::uint64_t number) {
     }
 }
 
+void LogFollower::beginAt(std::uint64_t number) {
+    m_next = number;
+    m_drops = m_reader.dropsBelow(number);
+}
+
 void LogFollower::passOver(std::uint64_t count) {
     m_next += count;
     m_overtaken += count;
     m_overtakenSince += count;
+    m_mayHaveDrops = true;
+}
+
+/// Those of packets in memory are known in all, those of others from packet to packet.
+void LogFollower::countDrops(const Packet& packet) {
+    if (std::exchange(m_mayHaveDrops, false) || !m_drops) {
+        const auto now = m_reader.dropsBelow(packet.number);
+        m_dropsUnseenSince += now && m_drops ? *now - std::min(*now, *m_drops) : 0;
+        m_drops = now ? now : m_drops;
+    }
+    m_drops = m_drops ? std::optional(*m_drops + packet.kernelDropsBefore) : std::nullopt;
 }
 
 } // namespace posewire::log

@@ -36,6 +36,10 @@ public:
     /// asked after each.
     std::uint64_t takeOvertaken() { return std::exchange(m_overtakenSince, 0); }
 
+    /// Datagrams that this computer dropped where packets were passed over, since this was last asked: the
+    /// packets that told of them are among those.
+    std::uint64_t takeDropsUnseen() { return std::exchange(m_dropsUnseenSince, 0); }
+
     /// Number of the next packet.
     [[nodiscard]] std::uint64_t position() const { return m_next; }
     /// Packets that waited at the last refresh().
@@ -47,12 +51,17 @@ public:
     [[nodiscard]] LogReader& reader() { return m_reader; }
 
 private:
+    void beginAt(std::uint64_t number);
     void passOver(std::uint64_t count);
+    void countDrops(const Packet& packet);
 
     LogReader m_reader;
     std::uint64_t m_next;
     std::uint64_t m_overtaken = 0;
     std::uint64_t m_overtakenSince = 0;
+    std::optional<std::uint64_t> m_drops; ///< below the next packet, seen or not; nothing where nobody knows
+    bool m_mayHaveDrops = false;          ///< packets were passed over since the last one that was taken
+    std::uint64_t m_dropsUnseenSince = 0;
 };
 
 } // namespace posewire::log

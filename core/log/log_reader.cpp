@@ -44,6 +44,20 @@ std::optional<Packet> LogReader::packetFrom(std::uint64_t number) {
     return found;
 }
 
+std::optional<std::uint64_t> LogReader::dropsBelow(std::uint64_t number) {
+    if (number == 0) {
+        return 0;
+    }
+    if (number > m_end || !enterChunk(number)) {
+        return std::nullopt;
+    }
+    std::uint64_t drops = m_currentDrops;
+    for (std::uint64_t below = m_currentFirst; below < number; ++below) {
+        drops += view(below).kernelDropsBefore;
+    }
+    return drops;
+}
+
 bool LogReader::enterChunk(std::uint64_t number) {
     const auto next = std::ranges::upper_bound(m_entries, number, {}, &ChunkHistory::Entry::first);
     if (next == m_entries.begin()) {
@@ -57,6 +71,7 @@ bool LogReader::enterChunk(std::uint64_t number) {
     }
     m_current = held.get();
     m_currentFirst = entry->first;
+    m_currentDrops = entry->drops;
     m_currentCount = (next == m_entries.end() ? m_end : std::min(next->first, m_end)) - m_currentFirst;
     return true;
 }

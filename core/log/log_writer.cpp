@@ -118,6 +118,7 @@ void LogWriter::addRecord(const std::byte* data, std::size_t size, const Arrival
     m_chunk->addRecord({data, arrival.stamp, static_cast<std::uint32_t>(size), arrival.sender,
                         arrival.kernelDropsBefore, arrival.flags});
     ++m_next;
+    m_drops += arrival.kernelDropsBefore;
     Noted& noted = m_noted[static_cast<std::uint32_t>(arrival.sender) % m_noted.size()];
     if (noted.sender != arrival.sender || noted.chunk != m_chunkCount) {
         noted = {arrival.sender, m_chunkCount};
@@ -126,7 +127,7 @@ void LogWriter::addRecord(const std::byte* data, std::size_t size, const Arrival
 }
 
 void LogWriter::beginChunk() {
-    ChunkHistory::Begun begun = m_history.beginChunk(m_next);
+    ChunkHistory::Begun begun = m_history.beginChunk(m_next, m_drops);
     m_chunk = std::move(begun.chunk);
     m_chunkEnd = begun.end;
     ++m_chunkCount;

@@ -3,6 +3,7 @@
 
 #include "core/log/time.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -69,6 +70,12 @@ struct Packet {
     std::uint32_t kernelDropsBefore = 0; ///< see Arrival
     PacketFlags flags{};
     std::span<const std::byte> bytes;
+
+    /// Behind so many more.
+    constexpr void addDrops(std::uint64_t more) {
+        kernelDropsBefore +=
+            static_cast<std::uint32_t>(std::min<std::uint64_t>(more, UINT32_MAX - kernelDropsBefore));
+    }
 };
 
 } // namespace posewire::log

@@ -67,9 +67,7 @@ Recorder::Result Recorder::writeNew() {
         if (missed > 0) {
             m_holes.push_back({std::max(packet->number - missed, m_first), packet->number});
         }
-        const std::uint64_t drops = packet->kernelDropsBefore + missed;
-        packet->kernelDropsBefore =
-            static_cast<std::uint32_t>(std::min<std::uint64_t>(drops, std::uint64_t{UINT32_MAX}));
+        packet->addDrops(missed + m_follower.takeDropsUnseen());
         const SenderInfo* sender = m_senders.find(packet->sender);
         const Duration setBy = m_timeline.setByAt(packet->stamp);
         if (auto added = m_writer.add(*packet, sender != nullptr ? *sender : SenderInfo{}, {}, setBy);

@@ -100,11 +100,7 @@ void IncidentFollower::takePacket(const log::Packet& packet, const PacketDigest&
         m_nextWatch = packet.stamp + kWatch;
     }
     if (packet.kernelDropsBefore != 0) {
-        Occurrence one = occurrenceOf(IncidentKind::Local, packet);
-        one.cause = LossCause::ThisComputer;
-        one.count = 0;
-        one.value = packet.kernelDropsBefore;
-        m_incidents.report(one);
+        takeDrops(packet.kernelDropsBefore, occurrenceOf(IncidentKind::Local, packet));
     }
     if (digest.kind == PacketKind::Malformed) {
         Occurrence one = occurrenceOf(IncidentKind::Malformed, packet);
@@ -116,6 +112,17 @@ void IncidentFollower::takePacket(const log::Packet& packet, const PacketDigest&
     } else if (digest.kind == PacketKind::Foreign) {
         m_incidents.report(occurrenceOf(IncidentKind::Foreign, packet));
     }
+}
+
+void IncidentFollower::takeDrops(std::uint64_t count, Occurrence where) {
+    where.cause = LossCause::ThisComputer;
+    where.count = 0;
+    where.value = static_cast<double>(count);
+    m_incidents.report(where);
+}
+
+void IncidentFollower::takeDropsUnseen(std::uint64_t count, const log::Packet& next) {
+    takeDrops(count, Occurrence::at(IncidentKind::Local, log::kNoSender, next.stamp, next.number));
 }
 
 void IncidentFollower::takeOvertaken(std::uint64_t packet, std::uint64_t count, log::Stamp stamp) {

@@ -41,6 +41,8 @@ public:
                     const std::optional<wire::Header>& header);
     /// Packets just below one were passed over.
     void takeOvertaken(std::uint64_t packet, std::uint64_t count, log::Stamp stamp);
+    /// This computer dropped so many where packets were passed over, just before one.
+    void takeDropsUnseen(std::uint64_t count, const log::Packet& next);
     /// Each datagram with its header. `address`: of its sender.
     void takeDatagram(const log::Packet& packet, const wire::Header& header, Stream& stream,
                       const std::string& address);
@@ -122,6 +124,7 @@ private:
         std::size_t host = 0; ///< one number for each
     };
     void tellClockSets(log::Stamp until);
+    void takeDrops(std::uint64_t count, Occurrence where);
     void check(log::Stamp stamp);
     [[nodiscard]] static log::Duration silenceOf(const Character& character, log::Stamp stamp);
     void checkSilence(const CharacterKey& key, Character& character, log::Stamp stamp);

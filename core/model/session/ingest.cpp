@@ -144,6 +144,9 @@ std::size_t Ingest::takeNew(log::Stamp now, std::size_t most) {
         if (!packet) {
             break;
         }
+        if (const std::uint64_t drops = m_follower.takeDropsUnseen()) {
+            takeDropsUnseen(drops, *packet);
+        }
         take(*packet);
         ++count;
     }
@@ -157,6 +160,13 @@ void Ingest::takeOvertaken(std::uint64_t count, const log::Packet* next) {
     const std::uint64_t packet = next != nullptr ? next->number : m_follower.position();
     m_attribution->takeOvertaken(packet, count);
     m_incidents->takeOvertaken(packet, count, next != nullptr ? next->stamp : m_now);
+    m_streams.forEach([count](Stream& stream) { stream.accounting.passOver(count); });
+}
+
+/// The packets that told of them are among those that were passed over, so nobody knows at which port it was.
+void Ingest::takeDropsUnseen(std::uint64_t count, const log::Packet& next) {
+    m_dropsUnseen += count;
+    m_incidents->takeDropsUnseen(count, next);
     m_streams.forEach([count](Stream& stream) { stream.accounting.passOver(count); });
 }
 

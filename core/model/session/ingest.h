@@ -153,6 +153,8 @@ public:
     [[nodiscard]] std::uint64_t unfollowed() const { return m_unfollowed; }
     /// Packets that the log had dropped before they were looked at.
     [[nodiscard]] std::uint64_t overtaken() const { return m_follower.overtaken(); }
+    /// Datagrams that this computer dropped among those: of no sender that is known.
+    [[nodiscard]] std::uint64_t dropsUnseen() const { return m_dropsUnseen; }
 
     [[nodiscard]] const IncidentFollower& incidents() const { return *m_incidents; }
     /// The number of the incident that the pending gaps of a sender may become.
@@ -195,6 +197,7 @@ private:
     // The stages, in this order. Those from takeHeader() on are for datagrams that could be decoded.
     void take(const log::Packet& packet);
     void takeOvertaken(std::uint64_t count, const log::Packet* next);
+    void takeDropsUnseen(std::uint64_t count, const log::Packet& next);
     void observe(Observation& seen);
     void countPacket(const Observation& seen);
     void passOverDropped(const Observation& seen);
@@ -232,6 +235,7 @@ private:
     log::LogFollower m_follower;
     log::StreamIndex m_index;
     std::uint64_t m_begin = 0;
+    std::uint64_t m_dropsUnseen = 0;
     log::Stamp m_now{};
     log::Stamp m_firstStamp{};
     log::Stamp m_observed{}; ///< of the newest packet

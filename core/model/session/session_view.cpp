@@ -102,6 +102,7 @@ SenderTotals SessionView::allSenders() const {
     for (const Sender& sender : senders()) {
         sums.add(sender);
     }
+    sums.kernelDrops += m_ingest.dropsUnseen();
     return sums;
 }
 

@@ -66,6 +66,7 @@ public:
     [[nodiscard]] SenderTotals allSenders() const;
     [[nodiscard]] std::uint64_t unfollowed() const { return m_ingest.unfollowed(); }
     [[nodiscard]] std::uint64_t overtaken() const { return m_ingest.overtaken(); }
+    [[nodiscard]] std::uint64_t dropsUnseen() const { return m_ingest.dropsUnseen(); }
     /// "10.0.0.5:40001"; "this computer" for kNoSender; "a retired sender" for one retired long ago.
     [[nodiscard]] ForeignText addressOf(log::SenderId id) const;
 

@@ -12,11 +12,11 @@ namespace {
 /// A log of two small chunks, each with room for a few hundred packets.
 class LogFollowerTest : public testing::Test {
 protected:
-    void append(std::size_t count) {
+    void append(std::size_t count, std::uint32_t drops = 0) {
         const std::vector<std::byte> bytes(1'000);
         const SenderId sender = m_log.senders().intern({"10.0.0.2:40001", Transport::Udp, 9763});
         for (std::size_t i = 0; i < count; ++i) {
-            m_log.writer().append(bytes, {.sender = sender});
+            m_log.writer().append(bytes, {.sender = sender, .kernelDropsBefore = drops});
         }
         m_log.writer().publish();
         m_appended += count;
@@ -73,6 +73,45 @@ TEST_F(LogFollowerTest, CountsWhatIsDroppedWhileItLooks) {
     taken += take(follower);
     EXPECT_GT(follower.overtaken(), 0U);
     EXPECT_EQ(taken + follower.overtaken(), m_appended);
+}
+
+TEST_F(LogFollowerTest, KnowsWhatTheKernelDroppedAmongThePacketsThatAreGone) {
+    LogFollower follower(m_log);
+    append(10, 1);
+    follower.refresh();
+    take(follower, 4);
+    EXPECT_EQ(follower.takeDropsUnseen(), 0U);
+    append(10'000, 3);
+    follower.refresh();
+    follower.next();
+    const std::uint64_t unseen = 6 * 1 + (follower.overtaken() - 6) * 3;
+    EXPECT_EQ(follower.takeDropsUnseen(), unseen);
+    EXPECT_EQ(follower.takeDropsUnseen(), 0U);
+    while (follower.next()) {
+    }
+    EXPECT_EQ(follower.takeDropsUnseen(), 0U) << "each packet tells its own";
+    append(10'000, 5);
+    const std::uint64_t before = follower.overtaken();
+    follower.refresh();
+    follower.next();
+    EXPECT_EQ(follower.takeDropsUnseen(), (follower.overtaken() - before) * 5);
+}
+
+TEST_F(LogFollowerTest, ForgetsWhatWasDroppedBeforeItBegan) {
+    append(10'000, 3);
+    LogFollower oldest(m_log);
+    LogFollower newest = LogFollower::fromNow(m_log);
+    append(1, 2);
+    for (LogFollower* follower : {&oldest, &newest}) {
+        follower->refresh();
+        while (follower->next()) {
+        }
+        EXPECT_EQ(follower->takeDropsUnseen(), 0U);
+    }
+    append(10'000, 1);
+    newest.refresh();
+    newest.next();
+    EXPECT_EQ(newest.takeDropsUnseen(), newest.overtaken());
 }
 
 TEST_F(LogFollowerTest, CountsWhatItIsToldToPassOver) {

@@ -231,6 +231,41 @@ TEST(Overtaken, PacketsAreThisComputersLossToTheSample) {
     EXPECT_EQ(session.addressOf(told->sender), "this computer");
 }
 
+TEST(Overtaken, PacketsTakeTheDropsThatTheyTellOfWithThem) {
+    log::PacketLog small({.memoryCap = 1, .chunkSize = std::size_t{256} << 10});
+    Session session(small);
+    const auto sender = small.senders().intern({"a:1", log::Transport::Udp, 9763});
+    wire::Datagram datagram{{}, wire::CentreOfMass{}, {}};
+    log::Stamp stamp{100s};
+    std::uint32_t sample = 0;
+    const auto send = [&](int count, std::uint32_t dropsBefore) {
+        for (int i = 0; i < count; ++i, stamp += 4ms) {
+            sample += 1 + dropsBefore;
+            datagram.header.sampleCounter = sample;
+            datagram.header.datagramCounter = 0x80;
+            wire::completeHeader(datagram, wire::HeaderEra::Counted);
+            small.writer().append(*wire::encode(datagram), {stamp, sender, dropsBefore});
+        }
+        small.writer().publish();
+    };
+    send(200, 0);
+    session.follow(stamp);
+    send(10'000, 1);
+    send(10'000, 0); // more than the log holds
+    session.follow(stamp);
+    const StreamCounts counts = session.streams().front().accounting.counts();
+    EXPECT_EQ(session.dropsUnseen(), 10'000U);
+    EXPECT_EQ(session.allSenders().kernelDrops, 10'000U);
+    EXPECT_EQ(session.allSenders().datagrams + session.overtaken() + session.allSenders().kernelDrops,
+              sample);
+    EXPECT_EQ(counts.restarts, 0U);
+    EXPECT_EQ(counts.lost, session.overtaken() + session.dropsUnseen());
+    EXPECT_EQ(counts.samples + counts.lost, sample);
+    const auto told = std::ranges::find(session.incidents().all(), IncidentKind::Local, &Incident::kind);
+    ASSERT_NE(told, session.incidents().all().end());
+    EXPECT_EQ(static_cast<std::uint64_t>(told->value), session.dropsUnseen());
+}
+
 TEST(Dropped, PacketsAreThisComputersLossToTheSampleHoweverMany) {
     log::PacketLog log;
     Session session(log);
