@@ -146,7 +146,7 @@ std::size_t ChunkHistory::left(std::size_t chunks, std::uint64_t packets) const 
 
 /// How many packets the chunk will take is not known: so much is left for them that it seldom ends early, and
 /// it ends where the cap would be passed.
-ChunkHistory::Begun ChunkHistory::beginChunk(std::uint64_t first, std::uint64_t drops) {
+ChunkHistory::Begun ChunkHistory::beginChunk(std::uint64_t first, const DropSums& drops) {
     const std::size_t mostBeside = left(2, 0) / 2;
     std::vector<Held> dropped; // given back outside the lock
     std::size_t chunks = 0;

@@ -118,6 +118,18 @@ inline constexpr std::size_t kBesidePacket = 44;
 /// What of that is in memory where the rest is in a scratch file.
 inline constexpr std::size_t kBesidePacketInMemory = 4;
 
+/// What this computer dropped before a packet of the log.
+struct DropSums {
+    std::uint64_t datagrams = 0; ///< the sum of kernelDropsBefore
+    std::uint64_t records = 0;   ///< packets that are none, and only tell of that: PacketFlags::isDropRecord
+
+    void add(std::uint32_t drops, PacketFlags flags) {
+        datagrams += drops;
+        records += flags.isDropRecord ? 1 : 0;
+    }
+    friend bool operator==(const DropSums&, const DropSums&) = default;
+};
+
 struct LogLimits {
     /// Bytes of chunks and of what is kept beside them. Two chunks are kept whatever it says, with half a
     /// chunk beside each.
@@ -141,7 +153,7 @@ class ChunkHistory {
 public:
     struct Entry {
         std::uint64_t first; ///< number of the first packet of the chunk
-        std::uint64_t drops; ///< sum of kernelDropsBefore of all packets before it
+        DropSums drops;      ///< before that
         std::weak_ptr<const Chunk> chunk;
     };
 
@@ -154,9 +166,9 @@ public:
         std::shared_ptr<Chunk> chunk;
         std::uint64_t end; ///< it may take the packets below this number
     };
-    /// Writer: the next chunk, which begins at packet `first`, before which this computer had dropped `drops`
-    /// datagrams in all; the oldest ones go where the cap demands it.
-    Begun beginChunk(std::uint64_t first, std::uint64_t drops);
+    /// Writer: the next chunk, which begins at packet `first`, before which so much was dropped; the oldest
+    /// ones go where the cap demands it.
+    Begun beginChunk(std::uint64_t first, const DropSums& drops);
 
     /// Writer: readers now see all packets below `end`.
     void publish(std::uint64_t end) { m_end.store(end, std::memory_order_release); }
@@ -178,7 +190,7 @@ private:
     }
     struct Held {
         std::uint64_t first;
-        std::uint64_t drops;
+        DropSums drops;
         std::shared_ptr<Chunk> chunk;
     };
 

@@ -95,7 +95,7 @@ void DiskHistory::run(const std::stop_token& stop) {
 DiskHistory::Result DiskHistory::follow(const std::stop_token& stop) {
     m_follower.refresh();
     while (auto packet = stop.stop_requested() ? std::nullopt : m_follower.next()) {
-        packet->addDrops(m_follower.takeDropsUnseen());
+        packet->addDrops(m_follower.takeUnseen().datagrams);
         if (const auto written = write(*packet); !written) {
             return written;
         }

@@ -51,7 +51,7 @@ void LogFollower::skipTo(std::uint64_t number) {
 
 void LogFollower::beginAt(std::uint64_t number) {
     m_next = number;
-    m_drops = m_reader.dropsBelow(number);
+    m_drops = m_reader.dropsBefore(number);
 }
 
 void LogFollower::passOver(std::uint64_t count) {
@@ -64,11 +64,16 @@ void LogFollower::passOver(std::uint64_t count) {
 /// Those of packets in memory are known in all, those of others from packet to packet.
 void LogFollower::countDrops(const Packet& packet) {
     if (std::exchange(m_mayHaveDrops, false) || !m_drops) {
-        const auto now = m_reader.dropsBelow(packet.number);
-        m_dropsUnseenSince += now && m_drops ? *now - std::min(*now, *m_drops) : 0;
+        const auto now = m_reader.dropsBefore(packet.number);
+        if (now && m_drops) {
+            m_unseen.datagrams += now->datagrams - std::min(now->datagrams, m_drops->datagrams);
+            m_unseen.records += now->records - std::min(now->records, m_drops->records);
+        }
         m_drops = now ? now : m_drops;
     }
-    m_drops = m_drops ? std::optional(*m_drops + packet.kernelDropsBefore) : std::nullopt;
+    if (m_drops) {
+        m_drops->add(packet.kernelDropsBefore, packet.flags);
+    }
 }
 
 } // namespace posewire::log

@@ -36,9 +36,9 @@ public:
     /// asked after each.
     std::uint64_t takeOvertaken() { return std::exchange(m_overtakenSince, 0); }
 
-    /// Datagrams that this computer dropped where packets were passed over, since this was last asked: the
-    /// packets that told of them are among those.
-    std::uint64_t takeDropsUnseen() { return std::exchange(m_dropsUnseenSince, 0); }
+    /// What was dropped where packets were passed over, since this was last asked, and how many of those were
+    /// only records of that. Known once the next packet is taken.
+    DropSums takeUnseen() { return std::exchange(m_unseen, {}); }
 
     /// Number of the next packet.
     [[nodiscard]] std::uint64_t position() const { return m_next; }
@@ -59,9 +59,9 @@ private:
     std::uint64_t m_next;
     std::uint64_t m_overtaken = 0;
     std::uint64_t m_overtakenSince = 0;
-    std::optional<std::uint64_t> m_drops; ///< below the next packet, seen or not; nothing where nobody knows
-    bool m_mayHaveDrops = false;          ///< packets were passed over since the last one that was taken
-    std::uint64_t m_dropsUnseenSince = 0;
+    std::optional<DropSums> m_drops; ///< before the next packet, seen or not; nothing where nobody knows
+    bool m_mayHaveDrops = false;     ///< packets were passed over since the last one that was taken
+    DropSums m_unseen;
 };
 
 } // namespace posewire::log

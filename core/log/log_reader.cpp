@@ -44,16 +44,17 @@ std::optional<Packet> LogReader::packetFrom(std::uint64_t number) {
     return found;
 }
 
-std::optional<std::uint64_t> LogReader::dropsBelow(std::uint64_t number) {
+std::optional<DropSums> LogReader::dropsBefore(std::uint64_t number) {
     if (number == 0) {
-        return 0;
+        return DropSums();
     }
     if (number > m_end || !enterChunk(number)) {
         return std::nullopt;
     }
-    std::uint64_t drops = m_currentDrops;
+    DropSums drops = m_currentDrops;
     for (std::uint64_t below = m_currentFirst; below < number; ++below) {
-        drops += view(below).kernelDropsBefore;
+        const Packet packet = view(below);
+        drops.add(packet.kernelDropsBefore, packet.flags);
     }
     return drops;
 }

@@ -43,9 +43,9 @@ public:
         return packetElsewhere(number);
     }
 
-    /// Datagrams that this computer dropped before it received a packet, or what comes next: the sum of
-    /// kernelDropsBefore of all packets below that number. Nothing where these are not in memory any more.
-    [[nodiscard]] std::optional<std::uint64_t> dropsBelow(std::uint64_t number);
+    /// What this computer dropped before a packet, or before what comes next. Nothing where the packet is not
+    /// in memory any more.
+    [[nodiscard]] std::optional<DropSums> dropsBefore(std::uint64_t number);
 
     /// The packet of that number, or else the next one that is there.
     [[nodiscard]] std::optional<Packet> packetFrom(std::uint64_t number);
@@ -73,7 +73,7 @@ private:
     const Chunk* m_current = nullptr; ///< the chunk of the last packet looked at
     std::uint64_t m_currentFirst = 0;
     std::uint64_t m_currentCount = 0;
-    std::uint64_t m_currentDrops = 0; ///< before its first packet
+    DropSums m_currentDrops; ///< before its first packet
 };
 
 } // namespace posewire::log

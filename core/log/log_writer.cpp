@@ -118,7 +118,7 @@ void LogWriter::addRecord(const std::byte* data, std::size_t size, const Arrival
     m_chunk->addRecord({data, arrival.stamp, static_cast<std::uint32_t>(size), arrival.sender,
                         arrival.kernelDropsBefore, arrival.flags});
     ++m_next;
-    m_drops += arrival.kernelDropsBefore;
+    m_drops.add(arrival.kernelDropsBefore, arrival.flags);
     Noted& noted = m_noted[static_cast<std::uint32_t>(arrival.sender) % m_noted.size()];
     if (noted.sender != arrival.sender || noted.chunk != m_chunkCount) {
         noted = {arrival.sender, m_chunkCount};

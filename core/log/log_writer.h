@@ -75,7 +75,7 @@ private:
     std::shared_ptr<Chunk>
         m_laneChunk; ///< where the lanes lie: differs from m_chunk only while a batch is cut in two
     std::uint64_t m_next = 0;
-    std::uint64_t m_drops = 0;      ///< sum of kernelDropsBefore of all packets before m_next
+    DropSums m_drops;               ///< before m_next
     std::uint64_t m_chunkCount = 0; ///< begun so far
     /// Senders that the chunk keeps, and the last of each place with its chunk, so that most packets need no
     /// more than a comparison.

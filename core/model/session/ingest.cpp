@@ -138,14 +138,16 @@ std::size_t Ingest::takeNew(log::Stamp now, std::size_t most) {
     std::size_t count = 0;
     while (count < most) {
         const auto packet = m_follower.next();
-        if (const std::uint64_t overtaken = m_follower.takeOvertaken()) {
-            takeOvertaken(overtaken, packet ? &*packet : nullptr);
+        const log::DropSums unseen = m_follower.takeUnseen();
+        m_dropRecordsUnseen += unseen.records;
+        if (const std::uint64_t overtaken = m_follower.takeOvertaken(); overtaken > unseen.records) {
+            takeOvertaken(overtaken - unseen.records, packet ? &*packet : nullptr);
         }
         if (!packet) {
             break;
         }
-        if (const std::uint64_t drops = m_follower.takeDropsUnseen()) {
-            takeDropsUnseen(drops, *packet);
+        if (unseen.datagrams != 0) {
+            takeDropsUnseen(unseen.datagrams, *packet);
         }
         take(*packet);
         ++count;

@@ -152,7 +152,7 @@ public:
     /// Datagrams of streams and characters beyond what is followed: they are in the log, and nowhere else.
     [[nodiscard]] std::uint64_t unfollowed() const { return m_unfollowed; }
     /// Packets that the log had dropped before they were looked at.
-    [[nodiscard]] std::uint64_t overtaken() const { return m_follower.overtaken(); }
+    [[nodiscard]] std::uint64_t overtaken() const { return m_follower.overtaken() - m_dropRecordsUnseen; }
     /// Datagrams that this computer dropped among those: of no sender that is known.
     [[nodiscard]] std::uint64_t dropsUnseen() const { return m_dropsUnseen; }
 
@@ -236,6 +236,7 @@ private:
     log::StreamIndex m_index;
     std::uint64_t m_begin = 0;
     std::uint64_t m_dropsUnseen = 0;
+    std::uint64_t m_dropRecordsUnseen = 0;
     log::Stamp m_now{};
     log::Stamp m_firstStamp{};
     log::Stamp m_observed{}; ///< of the newest packet

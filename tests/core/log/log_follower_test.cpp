@@ -80,21 +80,21 @@ TEST_F(LogFollowerTest, KnowsWhatTheKernelDroppedAmongThePacketsThatAreGone) {
     append(10, 1);
     follower.refresh();
     take(follower, 4);
-    EXPECT_EQ(follower.takeDropsUnseen(), 0U);
+    EXPECT_EQ(follower.takeUnseen().datagrams, 0U);
     append(10'000, 3);
     follower.refresh();
     follower.next();
     const std::uint64_t unseen = 6 * 1 + (follower.overtaken() - 6) * 3;
-    EXPECT_EQ(follower.takeDropsUnseen(), unseen);
-    EXPECT_EQ(follower.takeDropsUnseen(), 0U);
+    EXPECT_EQ(follower.takeUnseen().datagrams, unseen);
+    EXPECT_EQ(follower.takeUnseen().datagrams, 0U);
     while (follower.next()) {
     }
-    EXPECT_EQ(follower.takeDropsUnseen(), 0U) << "each packet tells its own";
+    EXPECT_EQ(follower.takeUnseen().datagrams, 0U) << "each packet tells its own";
     append(10'000, 5);
     const std::uint64_t before = follower.overtaken();
     follower.refresh();
     follower.next();
-    EXPECT_EQ(follower.takeDropsUnseen(), (follower.overtaken() - before) * 5);
+    EXPECT_EQ(follower.takeUnseen().datagrams, (follower.overtaken() - before) * 5);
 }
 
 TEST_F(LogFollowerTest, ForgetsWhatWasDroppedBeforeItBegan) {
@@ -106,12 +106,12 @@ TEST_F(LogFollowerTest, ForgetsWhatWasDroppedBeforeItBegan) {
         follower->refresh();
         while (follower->next()) {
         }
-        EXPECT_EQ(follower->takeDropsUnseen(), 0U);
+        EXPECT_EQ(follower->takeUnseen().datagrams, 0U);
     }
     append(10'000, 1);
     newest.refresh();
     newest.next();
-    EXPECT_EQ(newest.takeDropsUnseen(), newest.overtaken());
+    EXPECT_EQ(newest.takeUnseen().datagrams, newest.overtaken());
 }
 
 TEST_F(LogFollowerTest, CountsWhatItIsToldToPassOver) {
