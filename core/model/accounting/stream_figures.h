@@ -153,7 +153,8 @@ private:
 };
 
 /// Open ends of a range: before and after every stamp, and far enough from the bounds to be rounded.
-inline constexpr TimeRange kAllTime{log::stampOf(INT64_MIN / 2), log::stampOf(INT64_MAX / 2)};
+inline constexpr TimeRange kAllTime{log::Stamp::min() + std::chrono::years(1),
+                                    log::Stamp::max() - std::chrono::years(1)};
 
 /// All there is where no range is given; either end of the range may be that of kAllTime. In a range whose
 /// losses they were is not known here: all are unknown.

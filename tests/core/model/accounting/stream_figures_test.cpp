@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <set>
 #include <string>
@@ -62,6 +63,25 @@ TEST(StreamFigures, AreReadFromTheAccounting) {
     const TimeRange open{kBegin + 5s, kAllTime.to};
     EXPECT_EQ(figuresOf(stream, open).count(Figure::Lost), 10U);
     EXPECT_DOUBLE_EQ(figuresOf(stream, open)[Figure::Rate], figuresOf(stream, open)[Figure::RateMean]);
+}
+
+TEST(StreamFigures, AreTheSameInEveryYearThatAFileMayBeOf) {
+    using namespace std::chrono;
+    for (const year of : {1741y, 1800y, 1969y, 2117y, 2259y}) {
+        const auto begin = log::Stamp(sys_days(of / January / 1).time_since_epoch());
+        Stream stream({log::SenderId{}, 0, 2});
+        for (std::uint32_t i = 0; i < 100; ++i) {
+            wire::Header header;
+            header.sampleCounter = i;
+            header.datagramCounter = 0x80;
+            addTo(stream.accounting, begin + i * 10ms, 760, header);
+            stream.statistics.add(begin + i * 10ms);
+            stream.statistics.addSample(begin + i * 10ms);
+        }
+        const StreamFigures figures = figuresOf(stream);
+        EXPECT_NEAR(figures[Figure::RateWhole], 100, 1e-6) << static_cast<int>(of);
+        EXPECT_EQ(figuresOf(stream, kAllTime).count(Figure::Samples), 100U) << static_cast<int>(of);
+    }
 }
 
 TEST(StreamFigures, HaveACauseForAllThatIsMissingAlsoInARange) {
