@@ -5,6 +5,7 @@
 #include "core/filter/filter.h"
 #include "core/log/recording_file.h"
 #include "core/log/sender_table.h"
+#include "core/model/foreign_text.h"
 #include "core/wire/codec.h"
 #include "core/wire/field_tree.h"
 #include "core/wire/type_table.h"
@@ -16,15 +17,11 @@
 namespace posewire::cli {
 namespace {
 
-/// Line ends and other control characters of the sender must not reach the terminal.
-std::string withoutControls(const std::string& value) {
+/// On one line, and nothing in it that a terminal would obey or that turns the direction of what follows.
+std::string onOneLine(std::string_view value) {
     std::string text;
-    for (const char character : value) {
-        if (character == '\n') {
-            text += "\\n";
-        } else {
-            text += static_cast<unsigned char>(character) < 0x20 || character == 0x7f ? '.' : character;
-        }
+    for (const char character : model::visibleText(value)) {
+        text += character == '\n' ? "\\n" : character == '\t' ? "␉" : std::string(1, character);
     }
     return text;
 }
@@ -37,7 +34,7 @@ std::string row(const wire::FieldNode& node, std::size_t depth) {
     line.append(2 + 2 * depth, ' ').append(node.name);
     if (!node.value.empty()) {
         line.resize(std::max(line.size(), offsetWidth + 2 + nameWidth), ' ');
-        line.append("  ").append(withoutControls(node.value));
+        line.append("  ").append(onOneLine(node.value));
         line.append(wire::unitSymbol(node.unit).empty() ? "" : "  ").append(wire::unitSymbol(node.unit));
     }
     return line + '\n';

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/wire/codec.h"
 #include "tests/app/cli/program_run.h"
 #include "tests/core/log/capture_fixture.h"
 #include "tests/support/golden.h"
+#include "tests/support/hostile_text.h"
 #include "tests/support/paths.h"
 
 #include <QProcess>
@@ -87,6 +89,21 @@ TEST(DecodeCommand, ListsEveryFieldForPeople) {
     EXPECT_THAT(run.out, StartsWith("#0  offset 0  74 bytes  12 Metadata\n"));
     EXPECT_THAT(run.out, HasSubstr("payloadSize                   50  bytes\n"));
     EXPECT_THAT(run.out, HasSubstr("name:J\u00f6rg: take 2\\nxmid:0080A1B2\\ncolor:e96417\\n"));
+}
+
+TEST(DecodeCommand, ListsHostileTextAsSymbols) {
+    std::string all;
+    for (const std::string& name : posewire::test::hostileNames()) {
+        if (name.size() < 256) { // all of a long one is listed: nothing else shows it
+            wire::Datagram datagram{{}, wire::MetaData{.text = "name:" + name + '\n'}, {}};
+            wire::completeHeader(datagram, wire::HeaderEra::Counted);
+            all += asText(*wire::encode(datagram));
+        }
+    }
+    const std::string listed = runProgram({"decode", "-"}, all).out;
+    EXPECT_EQ(posewire::test::harmIn(listed), "") << listed;
+    EXPECT_THAT(listed, HasSubstr("gpj.⟨U+202E⟩exe⟨U+2066⟩"));
+    EXPECT_THAT(listed, HasSubstr("␛]0;title␇␛[2J␡⟨U+009B⟩1m␉␍\\n"));
 }
 
 TEST(DecodeCommand, ListsFaultsAndNoticesForPeople) {
