@@ -134,6 +134,7 @@ private:
     const bool m_isTerminal = system::isTerminal(system::kStandardOutput);
     std::optional<TableWriter> m_table; ///< where tables or lines were asked for
     exporting::VerdictLines m_lines;
+    std::uint64_t m_linesLeftOut = 0;
     bool m_isConcluding = false;
     bool m_isReaderTold = false;
     std::set<log::SenderId> m_toldSenders; ///< those that the session lists

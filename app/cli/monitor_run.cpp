@@ -171,10 +171,16 @@ void MonitorRun::tellSenders() {
     m_toldSenders = std::move(listed);
 }
 
+/// Who reads too slowly gets fewer lines, and in the next one what those that are missing would have told.
 void MonitorRun::showLine(log::Stamp now) {
+    const bool isFile = !m_options.file.empty();
+    if (!isFile && !m_isConcluding && !m_table->hasRoom()) {
+        m_linesLeftOut += m_lines.skipLine(m_session, now) ? 1 : 0;
+        return;
+    }
     if (const auto line =
             m_isConcluding ? m_lines.lastLine(m_session, now) : m_lines.lineAt(m_session, now)) {
-        m_table->add(*line, !m_options.file.empty());
+        m_table->add(*line, isFile);
     }
 }
 
@@ -205,8 +211,10 @@ ExitStatus MonitorRun::finishTable(const exporting::MonitorFacts& facts) {
     m_isConcluding = true;
     show(facts, m_session.now());
     m_table->finish(system::Interruption::hasCome);
-    if (const std::uint64_t leftOut = m_table->leftOut(); leftOut != 0) {
-        m_console.complain(std::to_string(leftOut) + " lines were left out: they were not read in time");
+    const std::uint64_t leftOut = m_linesLeftOut + (m_table->isWanted() ? m_table->unwritten() : 0);
+    if (leftOut != 0) {
+        m_console.complain(std::to_string(leftOut) + (leftOut == 1 ? " line was" : " lines were") +
+                           " left out: the lines before were not read in time");
     }
     const std::string failure = m_table->failure();
     return failure.empty() ? ExitStatus::Fine : m_console.unusable(failure);

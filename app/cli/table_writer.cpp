@@ -6,6 +6,7 @@
 #include "app/system/standard_streams.h"
 #include "core/log/system_files.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <span>
@@ -44,17 +45,14 @@ void TableWriter::add(std::string line, bool canWait) {
         while (!m_changed.wait_for(lock, step, hasRoom) && !system::Interruption::hasCome()) {
         }
     }
-    if (m_lines.size() >= kMostLines) {
-        m_lines.pop_front();
-        ++m_leftOut;
-    }
     m_lines.push_back(std::move(line) + '\n');
+    ++m_unwritten;
     m_changed.notify_all();
 }
 
-std::uint64_t TableWriter::leftOut() const {
+bool TableWriter::hasRoom() const {
     const std::lock_guard lock(m_mutex);
-    return m_leftOut;
+    return m_lines.size() < kMostLines;
 }
 
 void TableWriter::finish(bool (*isInterrupted)()) {
@@ -87,6 +85,7 @@ void TableWriter::run() {
             return;
         }
         std::string text;
+        const bool hasLines = !m_lines.empty();
         const auto table = std::exchange(m_newest, std::nullopt);
         for (; !m_lines.empty(); m_lines.pop_front()) {
             text += m_lines.front();
@@ -98,14 +97,14 @@ void TableWriter::run() {
             const system::TerminalSize size = system::terminalSize();
             text += m_display.show(*table, size.rows, size.columns);
         }
-        write(text);
+        write(text, hasLines);
         lock.lock();
         m_isWriting = false;
         m_changed.notify_all();
     }
 }
 
-void TableWriter::write(std::string_view text) {
+void TableWriter::write(std::string_view text, bool isOfLines) {
     constexpr std::size_t piece = 512; // the least that a pipe or a terminal with room takes at once
     constexpr std::chrono::milliseconds pause{50};
     while (!text.empty() && !m_isStopping && m_isWanted) {
@@ -115,7 +114,9 @@ void TableWriter::write(std::string_view text) {
         const std::ptrdiff_t count =
             log::writeSome(m_descriptor, std::as_bytes(std::span(text.substr(0, piece))));
         if (count >= 0) {
-            text.remove_prefix(static_cast<std::size_t>(count));
+            const std::string_view written = text.substr(0, static_cast<std::size_t>(count));
+            m_unwritten -= isOfLines ? static_cast<std::size_t>(std::ranges::count(written, '\n')) : 0;
+            text.remove_prefix(written.size());
         } else if (errno != EINTR && errno != EAGAIN) {
             noteFailure();
         }

@@ -18,7 +18,7 @@ namespace posewire::cli {
 
 /// Writes tables or lines on a thread of its own: who reads slowly or not at all (a pager, a stopped
 /// terminal) delays nobody. It holds the newest table only; one that was not begun in time is replaced by the
-/// next. Of lines it holds a number.
+/// next. Lines it holds all.
 class TableWriter {
 public:
     /// Writes to this descriptor, which stays the caller's; on a terminal one table over the other.
@@ -31,11 +31,12 @@ public:
     /// Returns at once.
     void show(std::vector<std::string> lines);
 
-    /// A line of text, without its newline. Where too many wait already the oldest goes; or, of what can
-    /// wait, this waits until there is room or nobody reads.
+    /// A line of text, without its newline. Of what can wait, this waits until there is room or nobody reads.
     void add(std::string line, bool canWait);
-    /// Lines that nobody read in time.
-    [[nodiscard]] std::uint64_t leftOut() const;
+    /// False while so many lines wait that the next one should.
+    [[nodiscard]] bool hasRoom() const;
+    /// Lines that were not written, or not to their ends.
+    [[nodiscard]] std::uint64_t unwritten() const { return m_unwritten; }
 
     /// Waits until everything is written, or nobody reads; at most a second once `isInterrupted` says
     /// so.
@@ -46,11 +47,11 @@ public:
     [[nodiscard]] std::string failure() const;
 
 private:
-    static constexpr std::size_t kMostLines = 1'024;
+    static constexpr std::size_t kMostLines = 256;
 
     void run();
     [[nodiscard]] bool hasWork() const { return m_newest || !m_lines.empty(); }
-    void write(std::string_view text);
+    void write(std::string_view text, bool isOfLines);
     void noteFailure();
 
     int m_descriptor;
@@ -60,7 +61,7 @@ private:
     std::condition_variable m_changed;
     std::optional<std::vector<std::string>> m_newest;
     std::deque<std::string> m_lines;
-    std::uint64_t m_leftOut = 0;
+    std::atomic<std::uint64_t> m_unwritten = 0; ///< of the lines
     std::string m_failure;
     bool m_isWriting = false;
     std::atomic<bool> m_isStopping = false;

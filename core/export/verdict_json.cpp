@@ -82,10 +82,17 @@ JsonValue incidentsJson(const model::SessionView& session) {
 
 std::optional<std::string> VerdictLines::lineAt(const model::SessionView& session, log::Stamp now) {
     const model::TakeVerdict verdict = model::verdictOf(session, model::recentSpan(session));
-    if (m_next && now < *m_next && sayTheSame(verdict, m_verdict)) {
-        return std::nullopt;
+    return isDue(verdict, now) ? std::optional(line(session, now, verdict, changedIncidents(session)))
+                               : std::nullopt;
+}
+
+bool VerdictLines::skipLine(const model::SessionView& session, log::Stamp now) {
+    const model::TakeVerdict verdict = model::verdictOf(session, model::recentSpan(session));
+    const bool wasDue = isDue(verdict, now);
+    if (wasDue) {
+        await(verdict, now);
     }
-    return line(session, now, verdict, changedIncidents(session));
+    return wasDue;
 }
 
 std::optional<std::string> VerdictLines::lastLine(const model::SessionView& session, log::Stamp now) {
@@ -95,13 +102,22 @@ std::optional<std::string> VerdictLines::lastLine(const model::SessionView& sess
     return isTold ? std::nullopt : std::optional(line(session, now, verdict, changed));
 }
 
-std::string VerdictLines::line(const model::SessionView& session, log::Stamp now,
-                               const model::TakeVerdict& verdict, const JsonValue::List& changed) {
+bool VerdictLines::isDue(const model::TakeVerdict& verdict, log::Stamp now) const {
+    return !m_next || now >= *m_next || !sayTheSame(verdict, m_verdict);
+}
+
+/// The next line.
+void VerdictLines::await(const model::TakeVerdict& verdict, log::Stamp now) {
     if (!m_next || now >= *m_next) {
         m_next = std::max(m_next.value_or(now) + m_interval, now);
     }
-    m_newest = now;
     m_verdict = verdict;
+}
+
+std::string VerdictLines::line(const model::SessionView& session, log::Stamp now,
+                               const model::TakeVerdict& verdict, const JsonValue::List& changed) {
+    await(verdict, now);
+    m_newest = now;
     JsonValue::List characters;
     const std::vector<const model::Character*> listed = session.charactersNow();
     const model::TakeVerdicts verdicts = model::verdictsOf(session, model::recentSpan(session), listed);

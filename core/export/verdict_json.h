@@ -25,10 +25,15 @@ public:
 
     /// The line that is due at a time of the log, without a newline; nothing where none is.
     [[nodiscard]] std::optional<std::string> lineAt(const model::SessionView& session, log::Stamp now);
+    /// Leaves out the line that is due, where one is: what it had to tell is told by the next one. False
+    /// where none is due.
+    bool skipLine(const model::SessionView& session, log::Stamp now);
     /// The last one, also where none is due, once all is settled; nothing where the one before says all.
     [[nodiscard]] std::optional<std::string> lastLine(const model::SessionView& session, log::Stamp now);
 
 private:
+    [[nodiscard]] bool isDue(const model::TakeVerdict& verdict, log::Stamp now) const;
+    void await(const model::TakeVerdict& verdict, log::Stamp now);
     [[nodiscard]] std::string line(const model::SessionView& session, log::Stamp now,
                                    const model::TakeVerdict& verdict, const JsonValue::List& changed);
     [[nodiscard]] JsonValue::List changedIncidents(const model::SessionView& session);

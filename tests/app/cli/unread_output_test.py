@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """`posewire-cli monitor` where nobody reads what it shows, and where it is ended in every way there is."""
 
+import fcntl
 import json
 import os
 import re
@@ -74,6 +75,28 @@ def check_blocked_table(cli: str, folder: Path) -> None:
                                        text=True).stdout)
     source = report["sources"][0]
     assert source["datagrams"] + source["kernelDropped"] == monitor.sent, report
+
+
+def check_blocked_lines(cli: str, _folder: Path) -> None:
+    """Lines that nobody reads in time are left out, and what happened in them is told all the same."""
+    monitor = Monitor(cli, "--json-lines", "--interval", "0.001")
+    fcntl.fcntl(monitor.process.stdout, fcntl.F_SETPIPE_SZ, 4096)
+    strangers = []
+    for _ in range(5):  # one a second: before lines are left out, and after
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as stranger:
+            stranger.sendto(b"not MXTP", monitor.place)
+            strangers.append(stranger.getsockname()[1])
+        for _ in range(100):
+            monitor.send(1)
+            time.sleep(0.01)
+    monitor.process.send_signal(signal.SIGINT)
+    out, err = monitor.process.communicate(timeout=20)
+    assert monitor.process.returncode == 0, err
+    assert re.search(r"\d lines? w\w+ left out", err), err
+    lines = [json.loads(line) for line in out.splitlines()]
+    told = {incident["source"] for line in lines for incident in line["incidents"] if incident["kind"] == "foreign"}
+    assert told == {f"127.0.0.1:{port}" for port in strangers}, (told, strangers, err)
+    assert [line["timeNs"] for line in lines] == sorted(line["timeNs"] for line in lines)
 
 
 def check_nobody_ever_reads(cli: str, _folder: Path) -> None:
@@ -179,8 +202,8 @@ def check_slow_recording(cli: str, folder: Path) -> None:
 
 def main() -> int:
     cli = sys.argv[1]
-    checks = [check_blocked_table, check_nobody_ever_reads, check_reader_gone, check_every_end, check_file_size,
-              check_files_without_end, check_cancelled_output, check_slow_recording]
+    checks = [check_blocked_table, check_blocked_lines, check_nobody_ever_reads, check_reader_gone, check_every_end,
+              check_file_size, check_files_without_end, check_cancelled_output, check_slow_recording]
     for check in checks:
         with tempfile.TemporaryDirectory() as name:
             check(cli, Path(name))
