@@ -75,8 +75,8 @@ std::uint64_t Ingest::provisionalNumber(log::SenderId sender) {
 bool Ingest::follow(log::Stamp now, std::size_t most) {
     const std::size_t count = takeNew(now, most);
     m_isFile = false;
-    if (count > 0) {
-        m_isLive = now - m_observed < kLive && m_observed - now < kLive;
+    if (count > 0 && now - m_observed < kLive && m_observed - now < kLive) {
+        m_isLive = true; // also where its end is read late: this program was held up
     }
     if (m_isLive && !m_isHeldUp && m_follower.lag() == 0) {
         passTime(now);

@@ -292,6 +292,19 @@ TEST_F(VerdictTest, CallsNobodySilentForTheTimeThatThisProgramWasStopped) {
     EXPECT_EQ(verdictAfter(1'500ms).state, State::Bad);
 }
 
+TEST_F(VerdictTest, IsNotGoodWhereTheLastThatCameIsReadMuchLater) {
+    poses(1, 300);
+    follow();
+    poses(301, 400);
+    for (const log::Duration silence : {15s, 16s}) {
+        m_session.setHeldUp(silence == 15s);
+        m_session.follow(m_at + silence);
+    }
+    EXPECT_EQ(verdictOf(m_session, recentSpan(m_session)).state, State::Bad);
+    ASSERT_EQ(of(IncidentKind::Outage).size(), 1U);
+    EXPECT_EQ(of(IncidentKind::Outage)[0].firstStamp, m_at - 10ms);
+}
+
 TEST(HeldUp, IsWhoWasNotAskedForLongUntilWhatCameIsRead) {
     HeldUp heldUp;
     EXPECT_FALSE(heldUp.at(log::Stamp(100s)));
