@@ -93,8 +93,8 @@ public:
 
     [[nodiscard]] log::PacketLog& log() { return m_log; }
 
-    /// Takes in everything that is in the log.
-    void follow(log::Stamp now);
+    /// Takes in everything that is in the log. `isReceiverHeldUp`: what has just come may not be.
+    void follow(log::Stamp now, bool isReceiverHeldUp = false);
 
     /// The same when nothing more is received: no silence until then is doubted. Returns the end, which is
     /// not before anything that came.

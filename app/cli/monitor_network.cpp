@@ -211,7 +211,7 @@ double watch(const MonitorOptions& options, const net::Receiver& receiver, Monit
         const duration<double> left{options.durationSeconds - elapsed.count()};
         const bool hasEnd = options.durationSeconds > 0;
         const log::Stamp now = run.log().timeline().now(clock);
-        run.follow(now);
+        run.follow(now, receiver.isHeldUp());
         run.show(factsOf(receiver, elapsed.count()), now);
         recording.look();
         inputs.look();

@@ -137,8 +137,9 @@ bool MonitorRun::isOver() const {
     return system::Interruption::hasCome() || (isReaderGone() && m_options.record.empty());
 }
 
-void MonitorRun::follow(log::Stamp now) {
-    m_session.setHeldUp(m_options.file.empty() && m_heldUp.at(now)); // a file holds nobody up
+void MonitorRun::follow(log::Stamp now, bool isReceiverHeldUp) {
+    const bool isHeldUp = m_options.file.empty() && m_heldUp.at(now); // a file holds nobody up
+    m_session.setHeldUp(isHeldUp || isReceiverHeldUp);
     takeIn(now);
 }
 

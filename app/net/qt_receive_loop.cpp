@@ -66,6 +66,7 @@ public:
         m_events.begin();
         while (!isStopping()) {
             m_context.commands.run();
+            m_context.counters.readUntil.store(m_context.clock.monotonic(), std::memory_order_release);
             m_clock.look();
             m_clock.settle(); // what comes now gets its stamps here
             for (Socket& socket : m_sockets) {
@@ -77,6 +78,7 @@ public:
             if (!m_joined.empty() && m_context.clock.monotonic() - m_followed >= kInterfacePause) {
                 followInterfaces();
             }
+            m_context.counters.readUntil.store(log::Moment::max(), std::memory_order_release);
             m_events.process(QEventLoop::WaitForMoreEvents);
         }
         for (Socket& socket : m_sockets) {

@@ -127,6 +127,15 @@ void Receiver::flush() {
     m_commands.call([&] { m_queue.moveTo(m_log); });
 }
 
+bool Receiver::isHeldUp() const {
+    constexpr log::Duration kLate = std::chrono::milliseconds(50);
+    constexpr log::Duration kMost = std::chrono::seconds(1);
+    const log::Moment until = m_counters.readUntil.load(std::memory_order_acquire);
+    const log::Moment now = m_clock.monotonic();
+    const log::Duration late = now - std::min(until, now);
+    return late > kLate && late < kMost;
+}
+
 std::vector<InputStatus> Receiver::inputs() const {
     const std::lock_guard lock(m_mutex);
     std::vector<InputStatus> result;

@@ -47,6 +47,8 @@ struct ReceiveCounters {
     /// Largest fill in thousandths since it was last read; -1 before the first look.
     std::atomic<std::int32_t> bufferFill = -1;
     std::atomic<log::Duration> longestDelay{}; ///< the longest time between two looks at the sockets
+    /// What had come to the sockets until then is in the log; log::Moment::max() while it waits for more.
+    std::atomic<log::Moment> readUntil = log::Moment::max();
 };
 
 /// Over all inputs since the receiver was created, removed ones included.
@@ -98,6 +100,10 @@ public:
     /// In the order in which they were added.
     [[nodiscard]] std::vector<InputStatus> inputs() const;
     [[nodiscard]] ReceiveTotals totals() const;
+
+    /// Whether the receiving thread is late just now, since its computer is busy: what has come for a moment
+    /// is still in the sockets, and nobody may be called silent. One that stands still for long is not late.
+    [[nodiscard]] bool isHeldUp() const;
 
     /// CPU time of the receiving thread in seconds; empty where the system does not report it.
     [[nodiscard]] std::optional<double> cpuSeconds();

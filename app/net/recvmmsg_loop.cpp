@@ -296,6 +296,7 @@ private:
     }
 
     void rest(std::size_t received) {
+        m_context.counters.readUntil.store(m_looked, std::memory_order_release);
         m_idleNaps = received != 0 ? 0 : m_idleNaps + 1;
         adaptNap(received);
         if (m_idleNaps > kNapsUntilIdle) {
@@ -335,6 +336,7 @@ private:
                             ? -1
                             : static_cast<int>(kInterfacePause / std::chrono::milliseconds(1));
         }
+        m_context.counters.readUntil.store(log::Moment::max(), std::memory_order_release);
         ::poll(watched.data(), watched.size(), longestMs);
         std::uint64_t wakes = 0;
         [[maybe_unused]] const auto read = ::read(m_wake.get(), &wakes, sizeof wakes);

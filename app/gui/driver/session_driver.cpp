@@ -126,7 +126,7 @@ void SessionDriver::tick() {
     const log::Stamp now = m_log.timeline().now(m_clock);
     const std::uint64_t endBefore = m_live.end();
     const log::Moment begin = m_clock.monotonic();
-    m_live.setHeldUp(m_heldUp.at(now));
+    m_live.setHeldUp(m_heldUp.at(now) || m_receiving.receiver().isHeldUp());
     while (m_live.follow(now, kPacketsAtOnce) && m_clock.monotonic() - begin < kFollowTime) {
     }
     const bool hasNew = m_live.end() != endBefore;

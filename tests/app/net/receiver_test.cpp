@@ -286,6 +286,15 @@ ReceiverOptions narrow(std::chrono::milliseconds nap) {
     return options;
 }
 
+TEST(ReceiverDelay, IsKnownWhileItLasts) {
+    ReceiverOptions late;
+    late.nap = std::chrono::milliseconds(400);
+    const Receiving receiving(late);
+    EXPECT_TRUE(eventually([&] { return receiving.receiver->isHeldUp(); }));
+    const Receiving other;
+    EXPECT_TRUE(eventually([&] { return !other.receiver->isHeldUp(); }));
+}
+
 TEST(ReceiverKernelDrops, AreInTheLogThoughNoPacketComesToTell) {
     Receiving receiving(narrow(std::chrono::milliseconds(20)));
     auto sender = DatagramSender::connect(receiving.target());
