@@ -178,6 +178,7 @@ using enum model::Figure;
 
 constexpr std::array kRate{RateWhole, Datagrams, Samples, Lost, Incomplete, LossShare};
 constexpr std::array kOrder{Duplicates, Reordered, Late, Restarts};
+constexpr std::array kWhoseLoss{LostHere, LostOnNetwork, LostAtSender, LostUnknown};
 constexpr std::array kTiming{Jitter, SpacingMean, SpacingLeast, SpacingMost, SpacingDeviation,
                              Skew,   Drift,       LongestGap,   Bursts,      BurstDensity,
                              Step,   FirstSample, LastSample};
@@ -240,6 +241,18 @@ std::vector<std::string> timingCells(const model::StreamFigures& figures) {
     return cells;
 }
 
+HtmlTable tableOf(const std::string& title, std::span<const model::Figure> figures) {
+    std::vector<HtmlTable::Column> columns{{title, false, ""}};
+    addColumns(columns, figures);
+    return HtmlTable(columns);
+}
+
+std::vector<std::string> lossCells(const model::StreamFigures& figures) {
+    std::vector<std::string> cells{escaped(wire::typeTitle(figures.key().type))};
+    addCells(cells, figures, kWhoseLoss);
+    return cells;
+}
+
 } // namespace
 
 ReportSteps stepsOf(const model::SessionView& session, const std::optional<model::TimeRange>& range) {
@@ -289,9 +302,8 @@ std::string plotSection(const model::SessionView& session, const ReportSteps& st
 std::string streamTable(const model::SessionView& session, const model::CharacterKey& key,
                         const std::vector<model::StreamFigures>& figures, const ReportSteps& steps) {
     HtmlTable delivery(deliveryColumns());
-    std::vector<HtmlTable::Column> columns{{"When it arrived", false, ""}};
-    addColumns(columns, kTiming);
-    HtmlTable timing(columns);
+    HtmlTable timing = tableOf("When it arrived", kTiming);
+    HtmlTable losses = tableOf("Whose loss", kWhoseLoss);
     for (const model::Stream* stream : streamsByType(session, key)) {
         const auto own = std::ranges::find(figures, stream->key, &model::StreamFigures::key);
         if (own == figures.end()) {
@@ -301,8 +313,12 @@ std::string streamTable(const model::SessionView& session, const model::Characte
         if (own->isSampled()) {
             timing.add(timingCells(*own));
         }
+        if (std::ranges::any_of(kWhoseLoss, [&](model::Figure cause) { return own->count(cause) != 0; })) {
+            losses.add(lossCells(*own));
+        }
     }
-    return delivery.html() + (timing.isEmpty() ? "" : timing.html());
+    return delivery.html() + (losses.isEmpty() ? "" : losses.html()) +
+           (timing.isEmpty() ? "" : timing.html());
 }
 
 std::string metadataList(const model::SessionView& session, const model::CharacterKey& key) {

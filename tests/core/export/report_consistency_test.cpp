@@ -239,16 +239,18 @@ TEST_P(Reports, GiveTheSameVerdictInHtml) {
     EXPECT_EQ(isGood, GetParam().name == "None") << text;
 }
 
-/// What two tables say of a stream, by the titles of their columns.
+/// What three tables say of a stream, by the titles of their columns.
 std::map<std::string, std::string> tellingsOf(const std::string& html, const Json& stream) {
     const auto type = static_cast<std::uint8_t>(std::stoi(stream["type"].get<std::string>()));
     std::map<std::string, std::string> tellings;
     std::size_t at = html.find("character " + stream["character"].dump() + "</span></h3>");
-    for (const char* first : {"What arrived", "When it arrived"}) {
-        const auto table = between(html, at, "<table>", "</table>");
+    for (const char* first : {"What arrived", "Whose loss", "When it arrived"}) {
+        std::size_t end = at;
+        const auto table = between(html, end, "<table>", "</table>");
         if (!table || table->find(first) == std::string::npos) {
-            break; // none of its streams has such figures
+            continue; // none of its streams has such figures
         }
+        at = end;
         const std::vector<std::string> titles = textsOf(*table, "th");
         std::size_t row = 0;
         while (const auto cells = between(*table, row, "<tr>", "</tr>")) {
@@ -265,6 +267,9 @@ TEST_P(Reports, GiveTheSameFiguresInHtml) {
     for (const Json& stream : streams()) {
         const auto tellings = tellingsOf(monitored.html, stream);
         EXPECT_GE(tellings.size(), isSampled(stream) ? 20U : 10U);
+        const std::uint64_t missing =
+            stream["lost"].get<std::uint64_t>() + stream["incomplete"].get<std::uint64_t>();
+        EXPECT_EQ(tellings.contains("Lost on the network"), missing != 0) << stream;
         std::size_t compared = 0;
         for (const model::FigureRow& row : model::figureTable()) {
             const auto told = tellings.find(row.title);

@@ -125,6 +125,12 @@ TEST_F(StreamReportTest, SaysOfEveryGapWhoseItWas) {
     EXPECT_THAT(html, HasSubstr("99–101"));
     EXPECT_THAT(html, HasSubstr("<td>this computer</td>"));
     EXPECT_THAT(html, HasSubstr("<td>unknown</td>"));
+    const auto row = html.find("Pose, quaternion</td>", html.find("\">Whose loss</th>"));
+    EXPECT_EQ(
+        html.substr(row, html.find("</tr>", row) - row),
+        "Pose, quaternion</td><td class=\"n\"><span class=\"warning\">1</span></td><td class=\"n\">0</td>"
+        "<td class=\"n\">0</td><td class=\"n\"><span class=\"warning\">1</span></td>")
+        << "of each stream by cause";
     EXPECT_THAT(html, HasSubstr("<h2>Incidents</h2>"));
     EXPECT_THAT(html, HasSubstr("source up"));
     EXPECT_THAT(html, HasSubstr("1 sample was lost in this computer"));
