@@ -2,6 +2,7 @@
 #include "core/model/session/listed_incidents.h"
 
 #include "core/log/local_time.h"
+#include "core/model/accounting/count_history.h"
 #include "core/model/incidents/incident_kinds.h"
 #include "core/model/session/loss_amount.h"
 #include "core/model/session/losses.h"
@@ -155,7 +156,7 @@ std::string amountOf(const SessionView& session, const Incident& incident, std::
         const Stream* stream = streamOf(session, incident.sender, part);
         if (stream != nullptr) {
             sum += stream->accounting.countsBetween(incident.firstStamp,
-                                                    incident.lastStamp + std::chrono::seconds(1));
+                                                    incident.lastStamp + CountHistory::kFirstWidth);
         }
     }
     return lossAmount(incident.samples, incident.isOfMessages() ? 0 : sum.expected(), noun);

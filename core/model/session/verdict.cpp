@@ -57,12 +57,13 @@ public:
         }
     }
 
-    /// "2.1 %", or "37 samples" with a noun: as much as the columns of losses beside the verdict have of that
-    /// cause. Empty for what is no loss.
+    /// "2.1 %", or "37 samples" with a noun: how much of what has gone on since before that time is lost in
+    /// it. Empty for what is told whole: what began in it, or is over, so that it does not grow less.
     [[nodiscard]] std::string amountOf(const ListedIncident& one, std::string_view noun) {
         const Incident& incident = one.incident;
         const bool isLoss = incident.kind == IncidentKind::Loss || incident.kind == IncidentKind::Local;
-        if (!isLoss || one.state == State::Provisional || !incident.cause) {
+        const bool isOlder = m_range && incident.firstStamp < m_range->from;
+        if (!isLoss || !isOlder || one.state != State::Ongoing || !incident.cause) {
             return {};
         }
         FaultCounts sum;
