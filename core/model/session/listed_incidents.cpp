@@ -127,7 +127,20 @@ ListedIncident forgottenOf(log::SenderId sender, LossCause cause, std::uint64_t 
     return listed;
 }
 
-/// "Jonas", "Jonas and Mira", "4 characters", or the sender.
+/// Whether another sender has one of the same ID: its name does not say which of them is meant.
+bool hasNamesake(const SessionView& session, const Incident& incident) {
+    if (session.senders().size() < 2 || session.find(incident.sender) == nullptr) {
+        return false;
+    }
+    const std::vector<std::uint8_t> own = incident.characters();
+    return std::ranges::any_of(session.charactersNow(), [&](const Character* one) {
+        return one->key.sender != incident.sender &&
+               std::ranges::find(own, one->key.character) != own.end() &&
+               !session.isSame(one->key, {incident.sender, one->key.character});
+    });
+}
+
+/// "Jonas", "Jonas and Mira", "4 characters", or the sender; with it where others send the same.
 std::string whom(const SessionView& session, const Incident& incident) {
     const auto characters = incident.characters();
     if (characters.empty()) {
@@ -137,7 +150,9 @@ std::string whom(const SessionView& session, const Incident& incident) {
     for (const std::uint8_t character : characters) {
         keys.push_back({incident.sender, character});
     }
-    return namesOrCount(session, keys);
+    const bool isAmbiguous = incident.kind != IncidentKind::Conflict && hasNamesake(session, incident);
+    return namesOrCount(session, keys) +
+           (isAmbiguous ? " of " + session.addressOf(incident.sender).shown() : std::string());
 }
 
 /// A sentence as it goes on after a colon: "The null pose changed" as "the null pose changed".

@@ -282,22 +282,24 @@ public:
     }
 
 private:
-    /// With those that go on beside an outage or a conflict, of others: who is silent, or sent twice, is
-    /// named whole, since the first was.
+    /// With those of others beside an outage or a conflict, that go on as it does, or were at the same time:
+    /// who is silent, or sent twice, is named whole, since the first was and until the last.
     [[nodiscard]] std::vector<ListedIncident> besides(const ListedIncident& worst, bool isOfOne) const {
         std::vector<ListedIncident> together{worst};
-        const IncidentKind kind = worst.incident.kind;
-        const bool isTold =
-            (kind == IncidentKind::Outage || kind == IncidentKind::Conflict) && worst.state == State::Ongoing;
-        if (isOfOne || !isTold) {
+        const Incident& own = worst.incident;
+        if (isOfOne || (own.kind != IncidentKind::Outage && own.kind != IncidentKind::Conflict)) {
             return together;
         }
         for (const ListedIncident& one : m_listed) {
-            if (one.incident.kind == kind && one.state == State::Ongoing &&
-                one.incident.number != worst.incident.number) {
+            const Incident& other = one.incident;
+            const bool isBeside = worst.state == State::Ongoing ||
+                                  (other.firstStamp <= own.lastStamp && other.lastStamp >= own.firstStamp);
+            if (other.kind == own.kind && one.state == worst.state && other.number != own.number &&
+                isBeside) {
                 together.push_back(one);
-                log::Stamp& since = together.front().incident.firstStamp;
-                since = std::min(since, one.incident.firstStamp);
+                Incident& all = together.front().incident;
+                all.firstStamp = std::min(all.firstStamp, other.firstStamp);
+                all.lastStamp = std::max(all.lastStamp, other.lastStamp);
             }
         }
         return together;

@@ -7,6 +7,11 @@
 namespace posewire::model {
 namespace {
 
+using State = TakeVerdict::State;
+
+constexpr const char* kHere = "192.0.2.1:40001";
+constexpr const char* kElsewhere = "192.0.2.2:40001";
+
 TEST_F(VerdictTest, SaysOfWhatIsOverOrJustBeganHowMuchOfItsOwnTimeIsLost) {
     for (std::uint32_t sample = 1; sample <= 600; ++sample, m_at += 10ms) {
         if (sample < 300 || sample % 5 != 0) {
@@ -21,6 +26,31 @@ TEST_F(VerdictTest, SaysOfWhatIsOverOrJustBeganHowMuchOfItsOwnTimeIsLost) {
     EXPECT_NE(verdict().text.find("20 % lost on Character 0"), std::string::npos)
         << "as long as it is told: " << verdict().text;
     EXPECT_TRUE(verdict().brief.starts_with("20 % lost, ")) << verdict().brief;
+}
+
+TEST_F(VerdictTest, NamesAllWhoWereSilentAtTheSameTime) {
+    for (std::uint32_t sample = 1; sample <= 800; ++sample, m_at += 10ms) {
+        if (sample < 300 || sample >= 400) {
+            pose(sample, kHere);
+            poseOfOther(sample, kElsewhere);
+        }
+    }
+    ASSERT_EQ(of(IncidentKind::Outage).size(), 2U);
+    EXPECT_NE(verdict().text.find("no data from Character 0 and Character 1, "), std::string::npos)
+        << verdict().text;
+    EXPECT_TRUE(verdict().isOver);
+}
+
+TEST_F(VerdictTest, SaysWhichOfTwoThatSendTheSameIsSilent) {
+    for (std::uint32_t sample = 1; sample <= 1'000; ++sample, m_at += 10ms) {
+        pose(sample, kHere);
+        if (sample <= 300) {
+            pose(sample, kElsewhere);
+        }
+    }
+    EXPECT_EQ(verdict().state, State::Bad);
+    EXPECT_NE(verdict().text.find("no data from Character 0 of 192.0.2.2:40001, since "), std::string::npos)
+        << verdict().text;
 }
 
 } // namespace
