@@ -51,6 +51,18 @@ log::Duration patienceWith(std::span<Stream* const> streams, log::Duration least
     return fastestHz > 0 ? std::max(least, log::durationOf(samples / fastestHz)) : kFirst;
 }
 
+/// Of a datagram that cannot be decoded, also where its header has no readable type: as it stands there.
+std::optional<std::uint8_t> characterOf(const log::Packet& packet,
+                                        const std::optional<wire::Header>& header) {
+    constexpr std::size_t kAt = 16; // of revision K, 2.4.1
+    if (header) {
+        return header->character;
+    }
+    return packet.bytes.size() < wire::kHeaderSize
+               ? std::nullopt
+               : std::optional(std::to_integer<std::uint8_t>(packet.bytes[kAt]));
+}
+
 /// "Types 02 and 20 are not sent any more …": one that ended now, and those of the incident before it.
 std::string endedText(const Incident* known, std::uint8_t type) {
     std::vector<std::uint8_t> types = known != nullptr ? known->types() : std::vector<std::uint8_t>();
@@ -104,9 +116,10 @@ void IncidentFollower::takePacket(const log::Packet& packet, const PacketDigest&
     }
     if (digest.kind == PacketKind::Malformed) {
         Occurrence one = occurrenceOf(IncidentKind::Malformed, packet);
-        if (header && m_characters.contains({packet.sender, header->character})) {
-            one.character = header->character;
-            one.type = header->type();
+        const std::optional<std::uint8_t> character = characterOf(packet, header);
+        if (character && m_characters.contains({packet.sender, *character})) {
+            one.character = character;
+            one.type = header ? std::optional(header->type()) : std::nullopt;
         }
         m_incidents.report(one);
     } else if (digest.kind == PacketKind::Foreign) {

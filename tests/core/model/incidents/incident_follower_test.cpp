@@ -24,6 +24,23 @@ protected:
     }
 };
 
+TEST_F(IncidentBounds, ADatagramWithoutAReadableTypeIsOfItsCharacterAlone) {
+    for (std::uint32_t sample = 1; sample <= 100; ++sample, m_at += 10ms) {
+        pose(sample);
+        poseOfOther(sample);
+    }
+    wire::Datagram datagram{{}, standingAt(0), {}};
+    datagram.header.character = 1;
+    wire::completeHeader(datagram, wire::HeaderEra::Counted);
+    auto bytes = *wire::encode(datagram);
+    bytes[5] = std::byte{0xff}; // "MXTP0?"
+    sendBytes(bytes, m_at);
+    ASSERT_EQ(of(IncidentKind::Malformed).size(), 1U);
+    EXPECT_EQ(of(IncidentKind::Malformed)[0].characters(), std::vector<std::uint8_t>{1});
+    sendBytes(std::span(bytes).first(20), m_at);
+    EXPECT_FALSE(of(IncidentKind::Malformed)[0].character()) << "too short to say whose it is";
+}
+
 TEST_F(IncidentBounds, ASenderIsSilentAfterAFifthOfASecond) {
     poses(1, 100);
     const log::Stamp last = m_at - 10ms;
