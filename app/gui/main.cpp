@@ -113,10 +113,21 @@ void openInputs(MainWindow& window, const Options& options, const Settings& sett
     openComparison(window, options, settings);
 }
 
+void saveScreenshot(MainWindow& window, const Options& options) {
+    QWidget* part = options.screenshotPart.isEmpty() ? &window : window.showPart(options.screenshotPart);
+    const QString problem =
+        part == nullptr
+            ? QStringLiteral("--part: there is no '%1' in the window.").arg(options.screenshotPart)
+            : savePicture(part->grab(), options.screenshotFile);
+    if (!problem.isEmpty()) {
+        std::fprintf(stderr, "posewire: %s\n", qUtf8Printable(problem));
+    }
+    QCoreApplication::exit(problem.isEmpty() ? 0 : 1);
+}
+
 /// Takes the picture once the file is open and the viewport has one to show; after some seconds without, as
-/// it is.
+/// it is. Right after a refresh: what is painted later may know more than the verdict beside it.
 void takeScreenshot(MainWindow& window, const Options& options, int attempts) {
-    const QString& path = options.screenshotFile;
     constexpr int kAgainMs = 50;
     const bool isOpening = window.driver().isOpening();
     const bool isUnsettled = window.viewport().failure().isEmpty() && !window.viewport().isSettled();
@@ -126,15 +137,9 @@ void takeScreenshot(MainWindow& window, const Options& options, int attempts) {
                            [&window, options, left] { takeScreenshot(window, options, left); });
         return;
     }
-    QWidget* part = options.screenshotPart.isEmpty() ? &window : window.showPart(options.screenshotPart);
-    const QString problem =
-        part == nullptr
-            ? QStringLiteral("--part: there is no '%1' in the window.").arg(options.screenshotPart)
-            : savePicture(part->grab(), path);
-    if (!problem.isEmpty()) {
-        std::fprintf(stderr, "posewire: %s\n", qUtf8Printable(problem));
-    }
-    QCoreApplication::exit(problem.isEmpty() ? 0 : 1);
+    QObject::connect(
+        &window.driver(), &SessionDriver::tableTick, &window,
+        [&window, options] { saveScreenshot(window, options); }, Qt::SingleShotConnection);
 }
 
 void begin(MainWindow& window, const Options& options, const Settings& settings) {
