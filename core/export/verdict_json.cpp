@@ -13,10 +13,10 @@ JsonValue timeJson(const model::SessionView& session, log::Stamp stamp) {
     return log::nanosecondsOf(session.wallOf(stamp));
 }
 
-template <class ToJson>
-JsonValue numberList(const std::vector<std::uint8_t>& values, ToJson toJson) {
+template <class Number, class ToJson>
+JsonValue numberList(const std::vector<Number>& values, ToJson toJson) {
     JsonValue::List list;
-    for (const std::uint8_t value : values) {
+    for (const Number value : values) {
         list.push_back(toJson(value));
     }
     return list;
@@ -82,7 +82,7 @@ JsonValue incidentsJson(const model::SessionView& session) {
 
 std::optional<std::string> VerdictLines::lineAt(const model::SessionView& session, log::Stamp now) {
     const model::TakeVerdict verdict = model::verdictOf(session, model::recentSpan(session));
-    return isDue(verdict, now) ? std::optional(line(session, now, verdict, changedIncidents(session)))
+    return isDue(verdict, now) ? std::optional(line(session, now, verdict, changesOf(session)))
                                : std::nullopt;
 }
 
@@ -97,9 +97,10 @@ bool VerdictLines::skipLine(const model::SessionView& session, log::Stamp now) {
 
 std::optional<std::string> VerdictLines::lastLine(const model::SessionView& session, log::Stamp now) {
     const model::TakeVerdict verdict = model::verdictOf(session, model::recentSpan(session));
-    const JsonValue::List changed = changedIncidents(session);
-    const bool isTold = m_newest == now && changed.empty() && sayTheSame(verdict, m_verdict);
-    return isTold ? std::nullopt : std::optional(line(session, now, verdict, changed));
+    const Changes changes = changesOf(session);
+    const bool isTold =
+        m_newest == now && changes.changed.empty() && changes.gone.empty() && sayTheSame(verdict, m_verdict);
+    return isTold ? std::nullopt : std::optional(line(session, now, verdict, changes));
 }
 
 bool VerdictLines::isDue(const model::TakeVerdict& verdict, log::Stamp now) const {
@@ -115,7 +116,7 @@ void VerdictLines::await(const model::TakeVerdict& verdict, log::Stamp now) {
 }
 
 std::string VerdictLines::line(const model::SessionView& session, log::Stamp now,
-                               const model::TakeVerdict& verdict, const JsonValue::List& changed) {
+                               const model::TakeVerdict& verdict, const Changes& changes) {
     await(verdict, now);
     m_newest = now;
     JsonValue::List characters;
@@ -124,27 +125,35 @@ std::string VerdictLines::line(const model::SessionView& session, log::Stamp now
     for (const model::Character* character : listed) {
         characters.push_back(characterJson(session, character->key, verdicts.characters.at(character->key)));
     }
-    return JsonValue{{"timeNs", timeJson(session, now)},
+    JsonValue object{{"timeNs", timeJson(session, now)},
                      {"verdict", verdictJson(session, verdict)},
                      {"characters", std::move(characters)},
-                     {"incidents", changed}}
-        .text();
+                     {"incidents", changes.changed}};
+    if (!changes.gone.empty()) {
+        object["gone"] = numberList(changes.gone, [](std::uint64_t number) { return JsonValue(number); });
+    }
+    return object.text();
 }
 
-JsonValue::List VerdictLines::changedIncidents(const model::SessionView& session) {
-    JsonValue::List list;
+VerdictLines::Changes VerdictLines::changesOf(const model::SessionView& session) {
+    Changes changes;
     std::map<std::uint64_t, std::uint64_t> told;
     for (const model::ListedIncident& listed : model::listedIncidents(session)) {
         JsonValue json = incidentJson(session, listed);
         const std::uint64_t sum = std::hash<std::string>{}(json.text());
         const auto before = m_told.find(listed.incident.number);
         if (before == m_told.end() || before->second != sum) {
-            list.push_back(std::move(json));
+            changes.changed.push_back(std::move(json));
         }
         told[listed.incident.number] = sum;
     }
+    for (const auto& [number, sum] : m_told) {
+        if (!told.contains(number)) {
+            changes.gone.push_back(number);
+        }
+    }
     m_told = std::move(told);
-    return list;
+    return changes;
 }
 
 } // namespace posewire::exporting

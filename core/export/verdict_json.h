@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 /// Verdict and incidents for programs: in the report, and line by line while it goes on.
 namespace posewire::exporting {
@@ -18,7 +19,8 @@ namespace posewire::exporting {
 [[nodiscard]] JsonValue incidentsJson(const model::SessionView& session);
 
 /// One JSON object a line: at intervals, and at once when the verdict changes. Each says what the verdict is,
-/// how each character does, and the incidents that are new or have changed since the line before.
+/// how each character does, the incidents that are new or have changed since the line before, and the numbers
+/// of those that came to nothing.
 class VerdictLines {
 public:
     explicit VerdictLines(log::Duration interval) : m_interval(interval) {}
@@ -32,11 +34,16 @@ public:
     [[nodiscard]] std::optional<std::string> lastLine(const model::SessionView& session, log::Stamp now);
 
 private:
+    /// Of the incidents since the line before.
+    struct Changes {
+        JsonValue::List changed;
+        std::vector<std::uint64_t> gone; ///< their numbers
+    };
     [[nodiscard]] bool isDue(const model::TakeVerdict& verdict, log::Stamp now) const;
     void await(const model::TakeVerdict& verdict, log::Stamp now);
     [[nodiscard]] std::string line(const model::SessionView& session, log::Stamp now,
-                                   const model::TakeVerdict& verdict, const JsonValue::List& changed);
-    [[nodiscard]] JsonValue::List changedIncidents(const model::SessionView& session);
+                                   const model::TakeVerdict& verdict, const Changes& changes);
+    [[nodiscard]] Changes changesOf(const model::SessionView& session);
 
     log::Duration m_interval;
     std::optional<log::Stamp> m_next;
