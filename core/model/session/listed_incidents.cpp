@@ -103,8 +103,9 @@ bool isMissingStill(const SessionView& session, const Incident& incident) {
 /// it would be of the same incident, but it does not go on.
 bool hasCeased(const SessionView& session, const Incident& incident) {
     constexpr log::Duration kLeast = std::chrono::seconds(1);
-    const auto repeats = static_cast<std::int64_t>(std::max<std::uint64_t>(2, incident.count) - 1);
-    const log::Duration between = (incident.lastStamp - incident.firstStamp) / repeats;
+    const auto repeats = static_cast<std::int64_t>(std::max<std::uint64_t>(1, incident.count) - 1);
+    const log::Duration between =
+        repeats == 0 ? log::Duration() : (incident.lastStamp - incident.firstStamp) / repeats;
     if (incident.kind == IncidentKind::Step && isMissingStill(session, incident)) {
         return false;
     }

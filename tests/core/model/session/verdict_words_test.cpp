@@ -28,6 +28,17 @@ TEST_F(VerdictTest, SaysOfWhatIsOverOrJustBeganHowMuchOfItsOwnTimeIsLost) {
     EXPECT_TRUE(verdict().brief.starts_with("20 % lost, ")) << verdict().brief;
 }
 
+TEST_F(VerdictTest, SaysOfWhatHappenedOnceThatItIsOverHoweverLongItWas) {
+    poses(1, 300);
+    posesOfOneTimeCode(301, 600);
+    EXPECT_NE(verdict().text.find("stands still"), std::string::npos) << verdict().text;
+    EXPECT_FALSE(verdict().isOver);
+    m_timeCodeOff = {};
+    poses(601, 720);
+    EXPECT_NE(verdict().text.find("stood still for 3.0 s"), std::string::npos) << verdict().text;
+    EXPECT_TRUE(verdict().isOver) << verdict().text;
+}
+
 TEST_F(VerdictTest, NamesAllWhoWereSilentAtTheSameTime) {
     for (std::uint32_t sample = 1; sample <= 800; ++sample, m_at += 10ms) {
         if (sample < 300 || sample >= 400) {
