@@ -231,14 +231,15 @@ bool isPast(const ListedIncident& one, const VerdictSpan& span) {
     return isOnlyComing(one) || (one.state == State::Over && one.incident.lastStamp < span.from);
 }
 
+/// How bad it is: loss that was above its limit need not be any more.
+double lastingValueOf(RecentLosses& losses, const Incident& incident) {
+    const bool isLimited = incident.kind == IncidentKind::Loss && incident.limit > 0;
+    return isLimited && !losses.isAboveLimit(incident) ? 0 : incident.value;
+}
+
 /// What of it is to one character: that may be over while others still have it.
-ListedIncident ofOne(const SessionView& session, RecentLosses& losses, const ListedIncident& one,
-                     std::uint8_t character) {
+ListedIncident ofOne(const SessionView& session, const ListedIncident& one, std::uint8_t character) {
     ListedIncident own{one.incident.of(character), one.state};
-    const bool isLimited = own.incident.kind == IncidentKind::Loss && own.incident.limit > 0;
-    if (isLimited && !losses.isAboveLimit(own.incident)) {
-        own.incident.value = 0;
-    }
     own.state = one.state == State::Ongoing ? stateOf(session, own.incident) : one.state;
     return own;
 }
@@ -271,7 +272,8 @@ public:
             if (!concerns(one.incident, line)) {
                 continue;
             }
-            ListedIncident mine = character ? ofOne(m_session, m_losses, one, character->character) : one;
+            ListedIncident mine = character ? ofOne(m_session, one, character->character) : one;
+            mine.incident.value = lastingValueOf(m_losses, mine.incident);
             const bool isMeant = !character || !isPast(mine, m_span);
             if (isMeant && (!worst || rankOf(*worst) < rankOf(mine))) {
                 worst = std::move(mine);

@@ -39,6 +39,22 @@ TEST_F(VerdictTest, SaysOfWhatHappenedOnceThatItIsOverHoweverLongItWas) {
     EXPECT_TRUE(verdict().isOver) << verdict().text;
 }
 
+TEST_F(VerdictTest, IsAsBadOfAllAsOfTheOneThatItIsAbout) {
+    for (std::uint32_t sample = 1; sample <= 840; ++sample, m_at += 10ms) {
+        const bool isLost = sample > 500 && sample % (sample < 600 ? 20 : 100) == 0;
+        if (!isLost) {
+            pose(sample);
+        }
+        poseOfOther(sample);
+    }
+    const auto losses = of(IncidentKind::Loss);
+    ASSERT_EQ(losses.size(), 1U);
+    EXPECT_GT(losses[0].value, losses[0].limit) << "it was above its limit";
+    EXPECT_EQ(verdictOn(0).state, State::Warning) << verdictOn(0).text;
+    EXPECT_EQ(verdict().state, State::Warning) << verdict().text;
+    EXPECT_FALSE(verdict().isOver);
+}
+
 TEST_F(VerdictTest, NamesAllWhoWereSilentAtTheSameTime) {
     for (std::uint32_t sample = 1; sample <= 800; ++sample, m_at += 10ms) {
         if (sample < 300 || sample >= 400) {
