@@ -64,7 +64,7 @@ TEST_F(PanelsTest, TableHasTheDocksThatScriptsKnowAndMakesEachOfThem) {
 }
 
 TEST_F(PanelsTest, EmptyPanelsSayWhatToDo) {
-    EXPECT_TRUE(table(*open<CharactersPanel>())->accessibleDescription().contains("Network Streamer"));
+    EXPECT_TRUE(table(*open<CharactersPanel>())->accessibleDescription().contains("add an input"));
     EXPECT_TRUE(table(*open<MetadataPanel>())->accessibleDescription().contains("No character selected"));
     EXPECT_TRUE(table(*open<TrackersPanel>())->accessibleDescription().contains("type 23"));
     EXPECT_EQ(open<CharactersPanel>()->summary(), "");
