@@ -171,8 +171,7 @@ public:
     }
     /// The same now, whatever the cursor.
     [[nodiscard]] CharacterKey currentNow(const CharacterKey& key) const { return currentBefore(key, end()); }
-    /// A character with all that it took over from, the oldest first and itself last; empty where there is
-    /// none.
+    /// A character with all that it took over from, oldest first, itself last; empty where there is none.
     [[nodiscard]] std::vector<const Character*> lineage(const CharacterKey& key) const;
     /// Whether two are one character, before and after restarts of its sender.
     [[nodiscard]] bool isSame(const CharacterKey& a, const CharacterKey& b) const;
