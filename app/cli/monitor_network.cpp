@@ -243,6 +243,10 @@ tl::expected<Places, std::string> placesOf(const MonitorOptions& options) {
             return tl::unexpected("--tcp: " + std::to_string(endpoint.port) +
                                   " has no host; write HOST:PORT, or --tcp-listen to wait for the sender");
         }
+        if (endpoint.port == 0) {
+            return tl::unexpected("--tcp: " + net::textOf(endpoint) +
+                                  ": nobody can listen to port 0; write one from 1 to 65535");
+        }
     }
     if (udp->empty() && tcpListen->empty() && tcp->empty() && options.multicast.empty()) {
         places.udp.emplace_back();

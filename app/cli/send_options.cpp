@@ -129,6 +129,10 @@ tl::expected<std::vector<net::SendTarget>, Complaint> targetsOf(const SendOption
         if (!endpoint) {
             return tl::unexpected("--to: " + endpoint.error().text);
         }
+        if (endpoint->port == 0) {
+            return tl::unexpected("--to: " + text +
+                                  ": nobody can listen to port 0; write one from 1 to 65535");
+        }
         using Transport = net::SendTarget::Transport;
         targets.push_back({std::move(*endpoint), options.overTcp ? Transport::Tcp : Transport::Udp});
     }

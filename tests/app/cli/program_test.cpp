@@ -47,6 +47,8 @@ TEST(Program, EndsWithStatusTwoOnWrongUsage) {
                                                       {"send", "--revision", "Q"},
                                                       {"send", "--motion", "fly"},
                                                       {"send", "--to", "a:b"},
+                                                      {"send", "--to", "127.0.0.1:0", "--duration", "0.1"},
+                                                      {"monitor", "--tcp", "127.0.0.1:0", "--duration", "1"},
                                                       {"send", "--loop"},
                                                       {"send", "--rate", "0"},
                                                       {"send", "--characters", "0"},
