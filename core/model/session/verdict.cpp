@@ -58,12 +58,14 @@ public:
     }
 
     /// "2.1 %", or "37 samples" with a noun: how much of what has gone on since before that time is lost in
-    /// it. Empty for what is told whole: what began in it, or is over, so that it does not grow less.
+    /// it. Empty for what is told whole: what began in it, or is over, so that it does not grow less, and
+    /// began after the reset.
     [[nodiscard]] std::string amountOf(const ListedIncident& one, std::string_view noun) {
         const Incident& incident = one.incident;
         const bool isLoss = incident.kind == IncidentKind::Loss || incident.kind == IncidentKind::Local;
-        const bool isOlder = m_range && incident.firstStamp < m_range->from;
-        if (!isLoss || !isOlder || one.state != State::Ongoing || !incident.cause) {
+        const bool isOlder = m_range && incident.firstStamp <
+                                            (one.state == State::Ongoing ? m_range->from : m_session.reset());
+        if (!isLoss || !isOlder || one.state == State::Provisional || !incident.cause) {
             return {};
         }
         FaultCounts sum;

@@ -28,6 +28,21 @@ TEST_F(VerdictTest, SaysOfWhatIsOverOrJustBeganHowMuchOfItsOwnTimeIsLost) {
     EXPECT_TRUE(verdict().brief.starts_with("20 % lost, ")) << verdict().brief;
 }
 
+TEST_F(VerdictTest, SaysOfWhatIsOverOnlyWhatWasLostSinceTheReset) {
+    for (std::uint32_t sample = 1; sample <= 700; ++sample, m_at += 10ms) {
+        if (sample == 590) {
+            follow();
+            m_session.resetForTake();
+        }
+        if (sample < 300 || sample > 600 || sample % 5 != 0) {
+            pose(sample);
+        }
+    }
+    poses(701, 900);
+    EXPECT_TRUE(verdict().isOver);
+    EXPECT_NE(verdict().text.find("3 samples lost on Character 0"), std::string::npos) << verdict().text;
+}
+
 TEST_F(VerdictTest, SaysOfWhatHappenedOnceThatItIsOverHoweverLongItWas) {
     poses(1, 300);
     posesOfOneTimeCode(301, 600);
