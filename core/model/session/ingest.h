@@ -194,6 +194,7 @@ private:
     /// Silence after the newest packet, at moments that follow from its stamp alone: what is found, and in
     /// which order, is the same however often it is looked.
     void passTime(log::Stamp until);
+    void advance(log::Stamp stamp);
     // The stages, in this order. Those from takeHeader() on are for datagrams that could be decoded.
     void take(const log::Packet& packet);
     void takeOvertaken(std::uint64_t count, const log::Packet* next);
