@@ -81,22 +81,20 @@ public:
     /// A verdict of the stream's accounting.
     void takeVerdict(Stream& stream, const Verdict& verdict);
 
-    /// Calls f(stream, samples, from, to) for what is not there yet and not yet lost: gaps, and samples of
-    /// which a part is missing though the next one has come.
+    /// Calls f(const PendingLoss&) for gaps and for samples of which a part is missing.
     template <class Function>
     void forEachPending(Function&& f) const {
         for (const auto* dues : {&m_due, &m_held}) {
             for (const Due& due : *dues) {
                 const Gap* gap = due.stream != nullptr ? find(due.gap) : nullptr;
                 if (gap != nullptr && gap->lost != 0) {
-                    f(gap->stream, std::uint64_t{gap->lost}, gap->fromStamp, gap->toStamp);
+                    f(PendingLoss{gap->stream, gap->lost, gap->fromStamp, gap->toStamp});
                 }
             }
         }
         for (const Partial& partial : m_partials) {
-            if (partial.stream != nullptr && partial.nextPacket != 0 &&
-                partial.stream->accounting.isIncomplete(partial.sample)) {
-                f(partial.stream->key, std::uint64_t{1}, partial.stamp, partial.stamp);
+            if (partial.stream != nullptr && partial.stream->accounting.isIncomplete(partial.sample)) {
+                f(PendingLoss{partial.stream->key, 1, partial.stamp, partial.stamp, partial.nextPacket == 0});
             }
         }
     }

@@ -46,4 +46,13 @@ struct Gap {
     [[nodiscard]] std::string evidenceText() const;
 };
 
+/// Samples of a stream that are not there yet, and not yet lost.
+struct PendingLoss {
+    log::StreamKey stream;
+    std::uint64_t samples = 0;
+    log::Stamp from{};
+    log::Stamp to{};
+    bool isUnderWay = false; ///< the rest of the newest sample, after which nothing came: it may just come
+};
+
 } // namespace posewire::model

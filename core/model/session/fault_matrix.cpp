@@ -9,8 +9,8 @@ namespace posewire::model {
 namespace {
 
 FaultCounts countsOf(const Losses& losses, const Stream& stream) {
-    const auto [lost, pending, expected] = losses.of(stream);
-    return {lost, pending, expected};
+    const StreamLosses own = losses.of(stream);
+    return {own.byCause, own.pending, own.expected};
 }
 
 void add(CharacterFaults& character, const log::StreamKey& key, const FaultCounts& counts) {

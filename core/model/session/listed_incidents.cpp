@@ -54,6 +54,12 @@ std::map<log::SenderId, Untold> untoldOf(const SessionView& session) {
             sum -= std::min(sum, incident.samples);
         }
     }
+    session.forEachPending([&](const PendingLoss& loss) {
+        if (const auto own = rest.find(loss.stream.sender); own != rest.end() && loss.isUnderWay) {
+            std::uint64_t& sum = own->second.lost[kUnknownCause];
+            sum -= std::min(sum, loss.samples);
+        }
+    });
     return rest;
 }
 
@@ -69,15 +75,15 @@ ListedIncident provisionalOf(const SessionView& session, log::SenderId sender, c
     incident.samples = untold.lost[kUnknownCause];
     incident.firstStamp = log::Stamp::max();
     incident.version = session.incidents().version();
-    session.forEachPending(
-        [&](const log::StreamKey& stream, std::uint64_t missing, log::Stamp from, log::Stamp to) {
-            if (stream.sender == sender) {
-                incident.firstStamp = std::min(incident.firstStamp, from);
-                incident.lastStamp = std::max(incident.lastStamp, to);
-                incident.parts.push_back({stream.character, stream.type, 1, missing, from, to});
-                ++incident.count;
-            }
-        });
+    session.forEachPending([&](const PendingLoss& loss) {
+        if (loss.stream.sender == sender && !loss.isUnderWay) {
+            incident.firstStamp = std::min(incident.firstStamp, loss.from);
+            incident.lastStamp = std::max(incident.lastStamp, loss.to);
+            incident.parts.push_back(
+                {loss.stream.character, loss.stream.type, 1, loss.samples, loss.from, loss.to});
+            ++incident.count;
+        }
+    });
     for (const Incident::Part& part : untold.stalled) {
         incident.firstStamp = std::min(incident.firstStamp, part.from);
         incident.lastStamp = std::max(incident.lastStamp, part.to);

@@ -20,15 +20,18 @@ void addLosses(LossesByCause& sums, const LossesByCause& more) {
 }
 
 Losses::Losses(const SessionView& session, const std::optional<TimeRange>& range) : m_range(range) {
-    session.forEachPending(
-        [&](const log::StreamKey& stream, std::uint64_t missing, log::Stamp /*from*/, log::Stamp to) {
-            if (!range || (to >= range->from && to < range->to)) {
-                Pending& pending = m_pending[stream];
-                pending.samples += missing;
-                pending.longest = std::max(pending.longest, missing);
-                pending.gaps.emplace_back(to, missing);
+    session.forEachPending([&](const PendingLoss& loss) {
+        if (!range || (loss.to >= range->from && loss.to < range->to)) {
+            Pending& pending = m_pending[loss.stream];
+            if (loss.isUnderWay) {
+                ++pending.underWay;
+                return;
             }
-        });
+            pending.samples += loss.samples;
+            pending.longest = std::max(pending.longest, loss.samples);
+            pending.gaps.emplace_back(loss.to, loss.samples);
+        }
+    });
     if (!m_pending.empty()) {
         for (const Gap& gap : session.gaps()) {
             if (const auto pending = m_pending.find(gap.stream); pending != m_pending.end() && gap.isJudged) {
@@ -67,9 +70,11 @@ StreamLosses Losses::of(const Stream& stream) const {
     if (const Pending* pending = pendingOf(stream.key)) {
         losses.pending = std::min(losses.byCause[kUnknown], pending->samples);
         losses.byCause[kUnknown] -= losses.pending;
+        losses.underWay = std::min(losses.byCause[kUnknown], pending->underWay);
+        losses.byCause[kUnknown] -= losses.underWay;
     }
     if (countsSamples(stream.key.type)) {
-        losses.expected = stream.accounting.counts(m_range).expected() - losses.pending;
+        losses.expected = stream.accounting.counts(m_range).expected() - losses.pending - losses.underWay;
     }
     return losses;
 }
@@ -97,10 +102,12 @@ StreamFigures Losses::figuresOf(const Stream& stream) const {
     for (std::size_t cause = 0; cause < kFigureOfCause.size(); ++cause) {
         figures.set(kFigureOfCause[cause], static_cast<double>(losses.byCause[cause]));
     }
-    if (losses.pending != 0) {
+    if (losses.pending + losses.underWay != 0) {
         const auto pending = static_cast<double>(losses.pending);
-        const double missing = figures.orZero(Figure::Missing) - pending;
+        const auto underWay = static_cast<double>(losses.underWay);
+        const double missing = figures.orZero(Figure::Missing) - pending - underWay;
         figures.set(Figure::Missing, missing);
+        figures.set(Figure::Incomplete, std::max(0.0, figures.orZero(Figure::Incomplete) - underWay));
         figures.set(Figure::Lost, std::max(0.0, figures.orZero(Figure::Lost) - pending));
         figures.set(Figure::LossShare, missing > 0 ? 100 * missing / figures.expected() : 0);
         figures.set(Figure::LongestGap, static_cast<double>(longestGapOf(stream)));

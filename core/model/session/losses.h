@@ -24,10 +24,12 @@ inline constexpr std::array kFigureOfCause{Figure::LostHere, Figure::LostOnNetwo
                                            Figure::LostUnknown};
 static_assert(kFigureOfCause.size() == kLossCauses);
 
-/// What one stream lacks; the sum of all is what it has lost and what is incomplete.
+/// What one stream lacks; the sum of all, without what was expected, is what it has lost and what is
+/// incomplete.
 struct StreamLosses {
     LossesByCause byCause{};
     std::uint64_t pending = 0;  ///< not here yet, and not yet lost: late packets may still bring them
+    std::uint64_t underWay = 0; ///< the newest, of which a part has come and the rest may just come
     std::uint64_t expected = 0; ///< samples that should have come, but those; 0 for messages
 };
 
@@ -49,6 +51,7 @@ public:
 private:
     struct Pending {
         std::uint64_t samples = 0;
+        std::uint64_t underWay = 0;
         std::uint64_t longest = 0; ///< in a row
         std::uint64_t settled = 0; ///< the longest gap of the newest that is not pending
         std::vector<std::pair<log::Stamp, std::uint64_t>> gaps{}; ///< by when the next sample came

@@ -63,8 +63,7 @@ const std::deque<Gap>& SessionView::gaps() const {
     return m_ingest.attribution().gaps();
 }
 
-void SessionView::forEachPending(
-    const std::function<void(const log::StreamKey&, std::uint64_t, log::Stamp, log::Stamp)>& f) const {
+void SessionView::forEachPending(const std::function<void(const PendingLoss&)>& f) const {
     m_ingest.attribution().forEachPending(f);
 }
 

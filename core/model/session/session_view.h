@@ -22,6 +22,7 @@ struct CharacterPose;
 struct Gap;
 struct NullPose;
 struct NullPoseEvidence;
+struct PendingLoss;
 struct PoseRemark;
 struct RangePart;
 struct RangeParts;
@@ -78,9 +79,8 @@ public:
     [[nodiscard]] const Thresholds& thresholds() const;
     /// Every gap in a stream with whose loss it was; the newest ones, oldest first.
     [[nodiscard]] const std::deque<Gap>& gaps() const;
-    /// Those that are yet to be judged: what is not there yet, and not yet lost.
-    void forEachPending(
-        const std::function<void(const log::StreamKey&, std::uint64_t, log::Stamp, log::Stamp)>& f) const;
+    /// Those that are yet to be judged, and samples that are not whole yet.
+    void forEachPending(const std::function<void(const PendingLoss&)>& f) const;
     /// Calls f(stream, when it was due, cause, first packet) for the newest samples that came in part.
     void forEachPartialLoss(
         const std::function<void(const log::StreamKey&, log::Stamp, LossCause, std::uint64_t)>& f) const;

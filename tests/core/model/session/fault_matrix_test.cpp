@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/session/fault_matrix.h"
 
+#include "core/model/session/listed_incidents.h"
 #include "tests/core/model/incidents/incidents_fixture.h"
 
 #include <functional>
@@ -34,10 +35,15 @@ protected:
         return faultMatrix(m_session, range);
     }
 
+    /// The first of several datagrams of a sample of type 02.
+    void part(std::uint32_t number) { one(0, number, standingAt(0), "127.0.0.1:40001", 0x00); }
+
 private:
-    void one(std::uint8_t character, std::uint32_t number, wire::Body body, const std::string& address) {
+    void one(std::uint8_t character, std::uint32_t number, wire::Body body, const std::string& address,
+             std::uint8_t datagramCounter = 0x80) {
         wire::Datagram datagram{{}, std::move(body), {}};
         datagram.header.sampleCounter = number;
+        datagram.header.datagramCounter = datagramCounter;
         datagram.header.character = character;
         datagram.header.timeCode = static_cast<std::uint32_t>(m_at.time_since_epoch() / 1ms);
         wire::completeHeader(datagram, wire::HeaderEra::Counted);
@@ -65,6 +71,21 @@ TEST_F(FaultMatrixTest, SumsStreamsByCauseAmongWhatWasExpected) {
     EXPECT_EQ(character.counts.lost[kNetwork], 4U);
     EXPECT_EQ(all.sum.total(), 4U);
     EXPECT_EQ(all.sum.expected, 800U);
+}
+
+TEST_F(FaultMatrixTest, LeavesOutASampleOfWhichTheRestMayJustCome) {
+    samples(0, 1, 100);
+    part(101);
+    EXPECT_EQ(matrix().sum.total(), 0U);
+    EXPECT_EQ(matrix(TimeRange{m_at - 500ms, m_at + 1s}).sum.total(), 0U);
+    EXPECT_EQ(matrix().sum.expected, 200U);
+    EXPECT_TRUE(listedIncidents(m_session).empty());
+    m_at += 10ms;
+    samples(0, 102, 102);
+    EXPECT_EQ(matrix().characters[0].counts.pending, 2U) << "and type 20 has none at all";
+    m_at += 10ms;
+    samples(0, 103, 200);
+    EXPECT_EQ(matrix().sum.lost[kNetwork], 2U);
 }
 
 TEST_F(FaultMatrixTest, CountsOnlyWhatIsInTheRange) {
