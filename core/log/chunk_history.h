@@ -118,18 +118,6 @@ inline constexpr std::size_t kBesidePacket = 44;
 /// What of that is in memory where the rest is in a scratch file.
 inline constexpr std::size_t kBesidePacketInMemory = 4;
 
-/// What this computer dropped before a packet of the log.
-struct DropSums {
-    std::uint64_t datagrams = 0; ///< the sum of kernelDropsBefore
-    std::uint64_t records = 0;   ///< packets that are none, and only tell of that: PacketFlags::isDropRecord
-
-    void add(std::uint32_t drops, PacketFlags flags) {
-        datagrams += drops;
-        records += flags.isDropRecord ? 1 : 0;
-    }
-    friend bool operator==(const DropSums&, const DropSums&) = default;
-};
-
 struct LogLimits {
     /// Bytes of chunks and of what is kept beside them. Two chunks are kept whatever it says, with half a
     /// chunk beside each.

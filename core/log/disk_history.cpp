@@ -94,8 +94,7 @@ void DiskHistory::run(const std::stop_token& stop) {
 /// At the end all of it goes anyway: nobody waits for a slow disk then.
 DiskHistory::Result DiskHistory::follow(const std::stop_token& stop) {
     m_follower.refresh();
-    while (auto packet = stop.stop_requested() ? std::nullopt : m_follower.next()) {
-        packet->addDrops(m_follower.takeUnseen().datagrams);
+    while (const auto packet = stop.stop_requested() ? std::nullopt : m_follower.next()) {
         if (const auto written = write(*packet); !written) {
             return written;
         }
@@ -112,11 +111,14 @@ DiskHistory::Result DiskHistory::write(const Packet& packet) {
     const SenderInfo* sender = m_senders.find(packet.sender);
     const Duration setBy = m_log.timeline().setByAt(packet.stamp);
     Packet written = packet; // nothing else tells who opens the file of what was passed over
-    written.addDrops(m_follower.takeOvertaken());
+    const DropSums unseen = m_follower.takeUnseen();
+    const std::uint64_t missed = m_follower.takeOvertaken();
+    written.addDrops(missed - std::min(missed, unseen.records) + unseen.datagrams);
     if (const auto added = m_writer->add(written, sender != nullptr ? *sender : SenderInfo{}, {}, setBy);
         !added) {
         return added;
     }
+    m_past->noteDrops(m_follower.dropsBeforeTaken());
     m_past->add(packet.number, {packet.stamp, packet.sender, packet.kernelDropsBefore, packet.flags},
                 m_writer->packetOffset(), packet.bytes.size());
     m_files.back().bytes = m_writer->bytes();

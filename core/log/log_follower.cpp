@@ -61,7 +61,7 @@ void LogFollower::passOver(std::uint64_t count) {
     m_mayHaveDrops = true;
 }
 
-/// Those of packets in memory are known in all, those of others from packet to packet.
+/// Known in all where packets were passed over, else from packet to packet.
 void LogFollower::countDrops(const Packet& packet) {
     if (std::exchange(m_mayHaveDrops, false) || !m_drops) {
         const auto now = m_reader.dropsBefore(packet.number);
@@ -71,6 +71,7 @@ void LogFollower::countDrops(const Packet& packet) {
         }
         m_drops = now ? now : m_drops;
     }
+    m_dropsBeforeTaken = m_drops;
     if (m_drops) {
         m_drops->add(packet.kernelDropsBefore, packet.flags);
     }

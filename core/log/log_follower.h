@@ -40,6 +40,9 @@ public:
     /// only records of that. Known once the next packet is taken.
     DropSums takeUnseen() { return std::exchange(m_unseen, {}); }
 
+    /// What was dropped before the packet that was taken last, seen or not; nothing where nobody knows.
+    [[nodiscard]] const std::optional<DropSums>& dropsBeforeTaken() const { return m_dropsBeforeTaken; }
+
     /// Number of the next packet.
     [[nodiscard]] std::uint64_t position() const { return m_next; }
     /// Packets that waited at the last refresh().
@@ -60,7 +63,8 @@ private:
     std::uint64_t m_overtaken = 0;
     std::uint64_t m_overtakenSince = 0;
     std::optional<DropSums> m_drops; ///< before the next packet, seen or not; nothing where nobody knows
-    bool m_mayHaveDrops = false;     ///< packets were passed over since the last one that was taken
+    std::optional<DropSums> m_dropsBeforeTaken;
+    bool m_mayHaveDrops = false; ///< packets were passed over since the last one that was taken
     DropSums m_unseen;
 };
 

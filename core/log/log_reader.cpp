@@ -49,12 +49,22 @@ std::optional<DropSums> LogReader::dropsBefore(std::uint64_t number) {
         return DropSums();
     }
     if (number > m_end || !enterChunk(number)) {
-        return std::nullopt;
+        return dropsBeforeInPast(number);
     }
     DropSums drops = m_currentDrops;
     for (std::uint64_t below = m_currentFirst; below < number; ++below) {
         const Packet packet = view(below);
         drops.add(packet.kernelDropsBefore, packet.flags);
+    }
+    return drops;
+}
+
+std::optional<DropSums> LogReader::dropsBeforeInPast(std::uint64_t number) const {
+    const auto part = m_past->find(number);
+    std::optional<DropSums> drops = part ? part->drops : std::nullopt;
+    for (std::uint64_t before = 0; drops && before < number - part->first; ++before) {
+        const Arrival& arrival = part->places[before].arrival;
+        drops->add(arrival.kernelDropsBefore, arrival.flags);
     }
     return drops;
 }

@@ -44,7 +44,7 @@ public:
     }
 
     /// What this computer dropped before a packet, or before what comes next. Nothing where the packet is not
-    /// in memory any more.
+    /// there any more, or nobody knows.
     [[nodiscard]] std::optional<DropSums> dropsBefore(std::uint64_t number);
 
     /// The packet of that number, or else the next one that is there.
@@ -53,6 +53,7 @@ public:
 private:
     std::optional<Packet> packetElsewhere(std::uint64_t number);
     [[nodiscard]] bool enterChunk(std::uint64_t number);
+    [[nodiscard]] std::optional<DropSums> dropsBeforeInPast(std::uint64_t number) const;
 
     [[nodiscard]] Packet view(std::uint64_t number) const {
         const Record& record = m_current->record(static_cast<std::size_t>(number - m_currentFirst));

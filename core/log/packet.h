@@ -62,6 +62,18 @@ struct Arrival {
     PacketFlags flags{};
 };
 
+/// What this computer dropped before a packet of the log.
+struct DropSums {
+    std::uint64_t datagrams = 0; ///< the sum of kernelDropsBefore
+    std::uint64_t records = 0;   ///< packets that are none, and only tell of that: PacketFlags::isDropRecord
+
+    void add(std::uint32_t drops, PacketFlags flags) {
+        datagrams += drops;
+        records += flags.isDropRecord ? 1 : 0;
+    }
+    friend bool operator==(const DropSums&, const DropSums&) = default;
+};
+
 /// A view of one packet of the log. How long `bytes` stays valid, the LogReader that gave it says.
 struct Packet {
     std::uint64_t number = 0; ///< position in the log: always grows, without gaps, in the order of arrival

@@ -107,6 +107,9 @@ void PastWriter::note(std::uint64_t number, Past::Place place, std::span<const s
         place.offset = m_kept.size();
         m_kept.insert(m_kept.end(), kept.begin(), kept.end());
     }
+    if (m_places.empty()) {
+        m_drops = m_dropsBefore;
+    }
     m_places.push_back(place);
     if (m_heldIds.insert(place.arrival.sender).second) {
         if (auto held = m_senders.find(place.arrival.sender)) {
@@ -119,7 +122,7 @@ void PastWriter::finish() {
     if (m_places.empty()) {
         return;
     }
-    Past::Part part{m_first, m_places.size(), {}, {}, m_file, std::exchange(m_held, {})};
+    Past::Part part{m_first, m_places.size(), {}, {}, m_file, std::exchange(m_held, {}), m_drops};
     const std::shared_ptr<std::byte[]> memory =
         m_past.scratch()->bytes(m_places.size() * sizeof(Past::Place));
     part.places = {memory, reinterpret_cast<Past::Place*>(memory.get())};

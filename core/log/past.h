@@ -43,6 +43,7 @@ public:
         std::shared_ptr<std::byte[]> kept; ///< null where all lies in the file
         std::shared_ptr<const ByteStore> file;
         std::vector<SenderTable::Held> senders;
+        std::optional<DropSums> drops; ///< before its first packet; nothing where nobody knows
 
         [[nodiscard]] std::uint64_t end() const { return first + count; }
     };
@@ -118,6 +119,9 @@ public:
     /// One whose bytes do not, in one piece.
     void keep(std::uint64_t number, const Arrival& arrival, std::span<const std::byte> bytes);
 
+    /// What this computer dropped before the packet that is noted next, seen or not.
+    void noteDrops(const std::optional<DropSums>& before) { m_dropsBefore = before; }
+
     /// There is enough for a part.
     [[nodiscard]] bool isFull() const {
         return m_places.size() >= Past::kPacketsOfPart || m_kept.size() >= Past::kKeptBytesOfPart;
@@ -132,6 +136,8 @@ private:
     const SenderTable& m_senders;
     std::shared_ptr<const ByteStore> m_file;
     std::uint64_t m_first = 0;
+    std::optional<DropSums> m_dropsBefore; ///< the packet that is noted next
+    std::optional<DropSums> m_drops;       ///< before m_first
     std::vector<Past::Place> m_places;
     std::vector<std::byte> m_kept;
     std::vector<SenderTable::Held> m_held;

@@ -50,6 +50,8 @@ protected:
             }
             const auto bytes = pattern(sizeOf(m_next), m_next);
             m_log.writer().append(bytes, arrivalOf(m_next));
+            m_writer.noteDrops(m_dropped);
+            m_dropped.add(arrivalOf(m_next).kernelDropsBefore, arrivalOf(m_next).flags);
             if (isInPast && m_next % 7 == 3) {
                 m_writer.keep(m_next, arrivalOf(m_next), bytes);
             } else if (isInPast) {
@@ -77,6 +79,7 @@ protected:
     PastWriter m_writer{m_log.past(), m_log.senders(), m_file};
     LogReader m_reader{m_log};
     std::uint64_t m_next = 0;
+    DropSums m_dropped; ///< before that
 };
 
 TEST_F(PastTest, EveryPacketIsAsItWasWhereverItLies) {
@@ -169,6 +172,30 @@ TEST_F(PastTest, WhatMemoryDroppedBeforeItWasWrittenIsPassedOverAndCounted) {
     EXPECT_FALSE(m_reader.packet(9'000));
     EXPECT_TRUE(isAsItWas(100));
     EXPECT_TRUE(isAsItWas(16'000));
+}
+
+TEST_F(PastTest, KnowsWhatWasDroppedBeforeAPacketThatLiesInAFile) {
+    append(5'000);
+    append(10'000, false);
+    append(10'000);
+    LogFollower follower(m_log, 0);
+    std::uint64_t seen = 0;
+    std::uint64_t unseen = 0;
+    while (const auto packet = follower.next()) {
+        seen += packet->kernelDropsBefore;
+        unseen += follower.takeUnseen().datagrams;
+    }
+    EXPECT_GT(unseen, 9'000U);
+    EXPECT_EQ(seen + unseen, m_dropped.datagrams);
+    m_log.past().dropBefore(20'000); // the oldest files go
+    LogFollower behind(m_log, 0);
+    const auto first = behind.next();
+    ASSERT_TRUE(first && first->number > 15'000);
+    std::uint64_t before = 0;
+    for (std::uint64_t number = 0; number < first->number; ++number) {
+        before += arrivalOf(number).kernelDropsBefore;
+    }
+    EXPECT_EQ(behind.takeUnseen().datagrams, before);
 }
 
 TEST_F(PastTest, FindsTheNextPacketBehindWhatIsMissing) {
