@@ -23,6 +23,8 @@ constexpr double kFullBuffer = 0.5;
 constexpr double kMuchFollowing = 0.5;
 /// At the design load, 9,600 datagrams a second, this much lasts for 50 ms without the receiving thread.
 constexpr std::int64_t kSmallBuffer = std::int64_t{1} << 20;
+/// Behind what is received.
+constexpr log::Duration kLate = std::chrono::milliseconds(250);
 constexpr log::Duration kLongDelay = std::chrono::milliseconds(100);
 
 struct Source {
@@ -121,10 +123,14 @@ PropertyValue accounting(const Source& from) {
     const MonitorHealth health = from.program.monitorHealth();
     const QString each =
         health.followUsPerPacket > 0 ? tr("%1 µs a packet").arg(fixed(health.followUsPerPacket, 2)) : dash();
-    return {tr("%1 · %2").arg(each, percent(health.followShare, 1)),
-            health.followShare > kMuchFollowing ? Health::Warning : Health::Unknown,
+    const log::Duration behind = from.view.behind();
+    const bool isLate = behind >= kLate;
+    const QString late = isLate ? tr(" · %1 s behind").arg(fixed(log::secondsOf(behind), 1)) : QString();
+    return {tr("%1 · %2").arg(each, percent(health.followShare, 1)) + late,
+            isLate || health.followShare > kMuchFollowing ? Health::Warning : Health::Unknown,
             tr("Time to decode, count and index a packet, and the share of the window's time that takes; "
-               "receiving does not wait for it")};
+               "receiving does not wait for it. Where more comes than can be looked at, how old the newest "
+               "packet is that was")};
 }
 
 /// What the session keeps, and the viewport.
@@ -185,7 +191,7 @@ PropertyValue delay(const Source& from) {
 }
 
 PropertyValue history(const Source& from) {
-    const log::LogFigures figures = from.view.figures();
+    const log::LogFigures figures = from.view.log().figures();
     return {
         tr("%1 of %2").arg(grouped(figures.memoryInUse >> 20), megabytes(figures.memoryCap)), Health::Unknown,
         tr("Memory of the newest packets and of their index, and its limit; at the limit the oldest go from "

@@ -32,7 +32,7 @@ std::optional<double> historySeconds(model::SessionView& session) {
 }
 
 QString historyText(model::SessionView& session) {
-    const log::LogFigures figures = session.figures();
+    const log::LogFigures figures = session.log().figures();
     QString text =
         HealthBar::tr("%1 of %2 MB").arg(inMegabytes(figures.memoryInUse), inMegabytes(figures.memoryCap));
     if (const auto seconds = historySeconds(session)) {

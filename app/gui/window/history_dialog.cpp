@@ -20,7 +20,7 @@ QString historyText(SessionDriver& driver) {
     const auto first = driver.live().packet(live.begin());
     const QString inMemory =
         HistoryDialog::tr("In memory: %1 of at most %2.")
-            .arg(megabytes(live.figures().memoryInUse), megabytes(live.figures().memoryCap));
+            .arg(megabytes(live.log().figures().memoryInUse), megabytes(live.log().figures().memoryCap));
     const log::DiskHistory* disk = driver.diskHistory();
     const auto failure = disk != nullptr ? disk->failure() : std::nullopt;
     QString onDisk = disk != nullptr ? HistoryDialog::tr("On disk: %1.").arg(megabytes(disk->figures().bytes))

@@ -270,7 +270,7 @@ QString diagnosticsText(model::SessionView& session, const ReceivingState& recei
         << QGuiApplication::platformName() << '\n';
     out << "OpenGL: " << (rendererName.isEmpty() ? QStringLiteral("none") : rendererName) << '\n';
     writeReceiving(out, receiving);
-    const log::LogFigures figures = session.figures();
+    const log::LogFigures figures = session.log().figures();
     out << "history: packets " << figures.begin << " to " << figures.end << ", " << figures.memoryInUse
         << " of " << figures.memoryCap << " bytes\n";
     writeSenders(out, session);

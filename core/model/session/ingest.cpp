@@ -96,6 +96,11 @@ void Ingest::passTime(log::Stamp until) {
     }
 }
 
+log::Duration Ingest::behind() const {
+    return m_isLive && m_follower.lag() != 0 ? std::max(m_now - m_observed, log::Duration())
+                                             : log::Duration();
+}
+
 void Ingest::advance(log::Stamp stamp) {
     m_attribution->advance(stamp - kUnderWay);
     m_incidents->advance(stamp);

@@ -151,6 +151,8 @@ public:
     [[nodiscard]] const FormerSender* former(log::SenderId id) const;
     /// Datagrams of streams and characters beyond what is followed: they are in the log, and nowhere else.
     [[nodiscard]] std::uint64_t unfollowed() const { return m_unfollowed; }
+    /// See SessionView.
+    [[nodiscard]] log::Duration behind() const;
     /// Packets that the log had dropped before they were looked at.
     [[nodiscard]] std::uint64_t overtaken() const { return m_follower.overtaken() - m_dropRecordsUnseen; }
     /// Datagrams that this computer dropped among those: of no sender that is known.

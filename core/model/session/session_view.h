@@ -102,11 +102,12 @@ public:
     [[nodiscard]] std::uint64_t end() const { return m_ingest.end(); }
     [[nodiscard]] std::uint64_t begin() const { return m_ingest.begin(); }
     [[nodiscard]] log::Stamp now() const { return m_ingest.now(); }
+    /// How old the newest packet is that was looked at, where others wait; 0 where none do, and of a file.
+    [[nodiscard]] log::Duration behind() const { return m_ingest.behind(); }
     /// Of the first packet that was followed, also where the log has dropped it; 0 before there is one.
     [[nodiscard]] log::Stamp firstStamp() const { return m_ingest.firstStamp(); }
     /// What the receiving computer's clock showed: for times of day. All else is by stamps.
     [[nodiscard]] log::WallTime wallOf(log::Stamp stamp) const { return log().timeline().wallOf(stamp); }
-    [[nodiscard]] log::LogFigures figures() const { return log().figures(); }
     /// For readers on other threads.
     [[nodiscard]] const log::PacketLog& log() const { return m_ingest.log(); }
     /// Nothing where the log has dropped it. The bytes are valid until the session follows the log again.

@@ -201,6 +201,19 @@ TakeVerdict onPoses(const SessionView& session, const PoseDoubt& doubt,
     return verdict;
 }
 
+/// Nothing where this computer keeps up: else nobody knows yet how it is now.
+std::optional<TakeVerdict> ifBehind(const SessionView& session) {
+    constexpr log::Duration kLong = std::chrono::seconds(1);
+    const log::Duration behind = session.behind();
+    if (behind < kLong) {
+        return std::nullopt;
+    }
+    const std::string time = std::to_string(behind / std::chrono::seconds(1)) + " s behind";
+    return lasting(TakeVerdict::State::Warning,
+                   "Not quite good: this computer is " + time + " what it receives", time,
+                   session.now() - behind);
+}
+
 TakeVerdict withoutIncident(const SessionView& session, const std::optional<CharacterKey>& only,
                             log::Stamp since) {
     std::vector<const Character*> characters;
@@ -223,6 +236,9 @@ TakeVerdict withoutIncident(const SessionView& session, const std::optional<Char
     }
     if (first) {
         return onPoses(session, *first, doubtful, since);
+    }
+    if (auto late = ifBehind(session)) {
+        return *std::move(late);
     }
     const std::string who =
         only ? session.displayName(*only).shown() : counted(characters.size(), "character");

@@ -54,6 +54,21 @@ TEST_F(VerdictTest, SaysOfWhatHappenedOnceThatItIsOverHoweverLongItWas) {
     EXPECT_TRUE(verdict().isOver) << verdict().text;
 }
 
+TEST_F(VerdictTest, SaysThatThisComputerIsBehind) {
+    poses(1, 300);
+    ASSERT_EQ(verdict().state, State::Good) << verdict().text;
+    const log::Stamp until = m_at;
+    poses(301, 900);
+    while (m_session.now() < until + 1s) {
+        m_session.follow(m_session.now() + 200ms, 5); // fewer than come
+    }
+    m_session.follow(m_at, 5);
+    const TakeVerdict late = verdictOf(m_session, recentSpan(m_session));
+    EXPECT_EQ(late.state, State::Warning);
+    EXPECT_EQ(late.text, "Not quite good: this computer is 5 s behind what it receives");
+    EXPECT_EQ(verdict().state, State::Good) << "it has caught up: " << verdict().text;
+}
+
 TEST_F(VerdictTest, IsAsBadOfAllAsOfTheOneThatItIsAbout) {
     for (std::uint32_t sample = 1; sample <= 840; ++sample, m_at += 10ms) {
         const bool isLost = sample > 500 && sample % (sample < 600 ? 20 : 100) == 0;
