@@ -43,8 +43,10 @@ def pose(sample):
 
 
 def capture(folder, writer):
-    """A stream with a gap, a datagram twice, one that is cut, and one of something else."""
-    payloads = [pose(sample) for sample in range(400) if not 200 <= sample < 205]
+    """A stream with a gap, a sample that was lost for a while, a datagram twice, one that is cut, and one of something else."""
+    samples = [sample for sample in range(400) if sample != 100 and not 200 <= sample < 205]
+    samples.insert(175, 100)
+    payloads = [pose(sample) for sample in samples]
     payloads[300:300] = [payloads[299], pose(1)[:30], b"something else"]
     packets = [(1_700_000_000_000_000_000 + place * 4_000_000, writer.udp_packet(payload))
                for place, payload in enumerate(payloads)]
