@@ -196,76 +196,67 @@ TEST_F(LifecycleTest, StreamsOfASenderBeyondTheLimitAreCounted) {
 }
 
 /// A log that a session is too late for.
-TEST(Overtaken, PacketsAreThisComputersLossToTheSample) {
-    log::PacketLog small({.memoryCap = 1, .chunkSize = std::size_t{256} << 10});
-    Session session(small);
-    const auto sender = small.senders().intern({"a:1", log::Transport::Udp, 9763});
-    wire::Datagram datagram{{}, wire::CentreOfMass{}, {}};
-    log::Stamp stamp{100s};
-    std::uint32_t sample = 0;
-    const auto send = [&](int count) {
-        for (int i = 0; i < count; ++i, stamp += 4ms) {
-            datagram.header.sampleCounter = ++sample;
+class OvertakenTest : public testing::Test {
+protected:
+    void send(int count, std::uint32_t dropsBefore = 0) {
+        for (int i = 0; i < count; ++i, m_stamp += 4ms) {
+            m_sample += 1 + dropsBefore;
+            wire::Datagram datagram{{}, wire::CentreOfMass{}, {}};
+            datagram.header.sampleCounter = m_sample;
             datagram.header.datagramCounter = 0x80;
             wire::completeHeader(datagram, wire::HeaderEra::Counted);
-            small.writer().append(*wire::encode(datagram), {.stamp = stamp, .sender = sender});
+            m_log.writer().append(*wire::encode(datagram), {m_stamp, m_sender, dropsBefore});
         }
-        small.writer().publish();
-    };
+        m_log.writer().publish();
+    }
+
+    log::PacketLog m_log{{.memoryCap = 1, .chunkSize = std::size_t{256} << 10}};
+    Session m_session{m_log};
+    log::SenderId m_sender = m_log.senders().intern({"a:1", log::Transport::Udp, 9763});
+    log::Stamp m_stamp{100s};
+    std::uint32_t m_sample = 0;
+};
+
+TEST_F(OvertakenTest, PacketsAreThisComputersLossToTheSample) {
     send(200);
-    session.follow(stamp);
+    m_session.follow(m_stamp);
     send(20'000); // more than the log holds
-    session.follow(stamp);
-    const Stream& stream = session.streams().front();
+    m_session.follow(m_stamp);
+    const Stream& stream = m_session.streams().front();
     const StreamCounts counts = stream.accounting.counts();
-    EXPECT_GT(session.overtaken(), 0U);
-    EXPECT_EQ(session.senders().front().datagrams + session.overtaken(), 20'200U);
-    EXPECT_EQ(counts.lost, session.overtaken());
+    EXPECT_GT(m_session.overtaken(), 0U);
+    EXPECT_EQ(m_session.senders().front().datagrams + m_session.overtaken(), 20'200U);
+    EXPECT_EQ(counts.lost, m_session.overtaken());
     EXPECT_EQ(counts.samples + counts.lost, 20'200U);
     EXPECT_EQ(stream.lostByCause()[static_cast<std::size_t>(LossCause::ThisComputer)], counts.lost);
-    ASSERT_EQ(session.gaps().size(), 1U);
-    EXPECT_EQ(session.gaps().front().evidence, Gap::Evidence::Overtaken);
-    const auto told = std::ranges::find(session.incidents().all(), IncidentKind::Overtaken, &Incident::kind);
-    ASSERT_NE(told, session.incidents().all().end());
-    EXPECT_EQ(static_cast<std::uint64_t>(told->value), session.overtaken());
-    EXPECT_EQ(session.addressOf(told->sender), "this computer");
+    ASSERT_EQ(m_session.gaps().size(), 1U);
+    EXPECT_EQ(m_session.gaps().front().evidence, Gap::Evidence::Overtaken);
+    const auto told =
+        std::ranges::find(m_session.incidents().all(), IncidentKind::Overtaken, &Incident::kind);
+    ASSERT_NE(told, m_session.incidents().all().end());
+    EXPECT_EQ(static_cast<std::uint64_t>(told->value), m_session.overtaken());
+    EXPECT_EQ(m_session.addressOf(told->sender), "this computer");
 }
 
-TEST(Overtaken, PacketsTakeTheDropsThatTheyTellOfWithThem) {
-    log::PacketLog small({.memoryCap = 1, .chunkSize = std::size_t{256} << 10});
-    Session session(small);
-    const auto sender = small.senders().intern({"a:1", log::Transport::Udp, 9763});
-    wire::Datagram datagram{{}, wire::CentreOfMass{}, {}};
-    log::Stamp stamp{100s};
-    std::uint32_t sample = 0;
-    const auto send = [&](int count, std::uint32_t dropsBefore) {
-        for (int i = 0; i < count; ++i, stamp += 4ms) {
-            sample += 1 + dropsBefore;
-            datagram.header.sampleCounter = sample;
-            datagram.header.datagramCounter = 0x80;
-            wire::completeHeader(datagram, wire::HeaderEra::Counted);
-            small.writer().append(*wire::encode(datagram), {stamp, sender, dropsBefore});
-        }
-        small.writer().publish();
-    };
-    send(200, 0);
-    session.follow(stamp);
+TEST_F(OvertakenTest, PacketsTakeTheDropsThatTheyTellOfWithThem) {
+    send(200);
+    m_session.follow(m_stamp);
     send(10'000, 1);
-    small.writer().append({}, {stamp, sender, 7, {.skipped = true, .isDropRecord = true}});
-    sample += 7;
-    send(10'000, 0); // more than the log holds
-    session.follow(stamp);
-    const StreamCounts counts = session.streams().front().accounting.counts();
-    EXPECT_EQ(session.dropsUnseen(), 10'007U);
-    EXPECT_EQ(session.allSenders().kernelDrops, 10'007U);
-    EXPECT_EQ(session.allSenders().datagrams + session.overtaken() + session.allSenders().kernelDrops,
-              sample);
+    m_log.writer().append({}, {m_stamp, m_sender, 7, {.skipped = true, .isDropRecord = true}});
+    m_sample += 7;
+    send(10'000); // more than the log holds
+    m_session.follow(m_stamp);
+    const StreamCounts counts = m_session.streams().front().accounting.counts();
+    EXPECT_EQ(m_session.dropsUnseen(), 10'007U);
+    EXPECT_EQ(m_session.allSenders().kernelDrops, 10'007U);
+    EXPECT_EQ(m_session.allSenders().datagrams + m_session.overtaken() + m_session.allSenders().kernelDrops,
+              m_sample);
     EXPECT_EQ(counts.restarts, 0U);
-    EXPECT_EQ(counts.lost, session.overtaken() + session.dropsUnseen());
-    EXPECT_EQ(counts.samples + counts.lost, sample);
-    const auto told = std::ranges::find(session.incidents().all(), IncidentKind::Local, &Incident::kind);
-    ASSERT_NE(told, session.incidents().all().end());
-    EXPECT_EQ(static_cast<std::uint64_t>(told->value), session.dropsUnseen());
+    EXPECT_EQ(counts.lost, m_session.overtaken() + m_session.dropsUnseen());
+    EXPECT_EQ(counts.samples + counts.lost, m_sample);
+    const auto told = std::ranges::find(m_session.incidents().all(), IncidentKind::Local, &Incident::kind);
+    ASSERT_NE(told, m_session.incidents().all().end());
+    EXPECT_EQ(static_cast<std::uint64_t>(told->value), m_session.dropsUnseen());
 }
 
 TEST(Dropped, PacketsAreThisComputersLossToTheSampleHoweverMany) {
