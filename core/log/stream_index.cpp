@@ -2,6 +2,8 @@
 #include "core/log/stream_index.h"
 
 #include <algorithm>
+#include <bit>
+#include <memory>
 
 namespace posewire::log {
 namespace {
@@ -41,10 +43,27 @@ void StreamEntries::append(StreamEntry entry) {
         entry.stamp = std::max(entry.stamp, back().stamp);
     }
     if (m_end == m_blocks.size() * kBlock) {
-        m_blocks.push_back(m_scratch->make<Block>());
+        addBlock();
     }
     (*m_blocks.back())[m_end % kBlock] = entry;
     ++m_end;
+}
+
+/// The more there are, the more are made at once: who owns them takes as much as an eighth of a small one.
+void StreamEntries::addBlock() {
+    constexpr std::size_t kMostAtOnce = 64;
+    if (m_spare.count == 0) {
+        const std::size_t count = std::bit_floor(
+            std::clamp<std::size_t>(m_blocks.size() / 8, 1, kMostAtOnce)); // few sizes, to be used again
+        m_spare.owner = m_scratch->bytes(count * sizeof(Block));
+        m_spare.next = reinterpret_cast<Block*>(m_spare.owner.get());
+        m_spare.count = count;
+        std::uninitialized_default_construct_n(m_spare.next, count);
+    }
+    m_blocks.emplace_back(m_spare.owner, m_spare.next++);
+    if (--m_spare.count == 0) {
+        m_spare.owner.reset();
+    }
 }
 
 void StreamEntries::dropBefore(std::uint64_t packet) {

@@ -75,11 +75,20 @@ public:
 
 private:
     static constexpr std::size_t kBlock = 21;       // small: most streams of a flood have few
-    static constexpr std::size_t kBesideBlock = 64; // who owns it
+    static constexpr std::size_t kBesideBlock = 64; // who owns it, at most
     using Block = std::array<StreamEntry, kBlock>;
+    /// Blocks that were made together, of which some are not in use yet.
+    struct Spare {
+        std::shared_ptr<std::byte[]> owner;
+        Block* next = nullptr;
+        std::size_t count = 0;
+    };
+
+    void addBlock();
 
     std::shared_ptr<Scratch> m_scratch;
     std::deque<std::shared_ptr<Block>> m_blocks;
+    Spare m_spare;
     std::size_t m_begin = 0; ///< of the first block, before this all are forgotten
     std::size_t m_end = 0;   ///< counted from the beginning of the first block
 };

@@ -14,7 +14,7 @@ constexpr log::Duration kReadTime = std::chrono::milliseconds(8); // of each tic
 
 void SessionDriver::compareWith(const QString& path) {
     qCInfo(filesLog).noquote() << "comparing with" << path;
-    m_comparing.open(path, newScratch());
+    m_comparing.open(path, scratchOfFile());
     m_isChanged = true;
     m_tableTick = {};
     emit comparisonChanged({});

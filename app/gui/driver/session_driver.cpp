@@ -42,16 +42,16 @@ std::uint64_t freeBytes(const QString& folder) {
     return failed ? 0 : space.available;
 }
 
-/// The most that something of ours takes in a folder.
-std::uint64_t tenthOfFree(const QString& folder) {
-    return freeBytes(folder) / 10;
-}
+/// Of the free space: the most that what is received takes, and what is kept of each packet of a file. That
+/// is a tenth of most files, and gone when the file is closed.
+constexpr std::uint64_t kShareOfLive = 10;
+constexpr std::uint64_t kShareOfFile = 2;
 
-std::shared_ptr<log::Scratch> scratchIn(const QString& folder) {
+std::shared_ptr<log::Scratch> scratchIn(const QString& folder, std::uint64_t share) {
     if (folder.isEmpty() || !QDir().mkpath(folder)) {
         return std::make_shared<log::Scratch>();
     }
-    return std::make_shared<log::Scratch>(QFile::encodeName(folder).toStdString(), tenthOfFree(folder));
+    return std::make_shared<log::Scratch>(QFile::encodeName(folder).toStdString(), freeBytes(folder) / share);
 }
 
 /// The performer as a sender beside the window, until it is asked to stop.
@@ -92,7 +92,7 @@ SessionDriver::SessionDriver(const log::Clock& clock, QString cacheFolder, QObje
     : QObject(parent),
       m_clock(clock),
       m_cacheFolder(std::move(cacheFolder)),
-      m_log({}, newScratch()),
+      m_log({}, scratchIn(m_cacheFolder, kShareOfLive)),
       m_live(m_log),
       m_receiving(m_log, clock) {
     m_timer.setTimerType(Qt::PreciseTimer);
@@ -118,8 +118,8 @@ void SessionDriver::hasten() {
     }
 }
 
-std::shared_ptr<log::Scratch> SessionDriver::newScratch() const {
-    return scratchIn(m_cacheFolder);
+std::shared_ptr<log::Scratch> SessionDriver::scratchOfFile() const {
+    return scratchIn(m_cacheFolder, kShareOfFile);
 }
 
 void SessionDriver::tick() {
@@ -224,7 +224,7 @@ QString SessionDriver::keepHistory(std::uint64_t most) {
     const QString application =
         QCoreApplication::applicationName() + u' ' + QCoreApplication::applicationVersion();
     const log::DiskHistoryChoice choice{QFile::encodeName(m_cacheFolder).toStdString(),
-                                        std::min(most, tenthOfFree(m_cacheFolder))};
+                                        std::min(most, freeBytes(m_cacheFolder) / kShareOfLive)};
     if (freeBytes(m_cacheFolder) < choice.leaveFree) {
         return tr("Less than 1 GB is free on the disk of %1: only what is in memory can be looked back at.")
             .arg(m_cacheFolder);
@@ -241,7 +241,7 @@ QString SessionDriver::keepHistory(std::uint64_t most) {
 void SessionDriver::openFile(const QString& path) {
     closeFile();
     qCInfo(filesLog).noquote() << "opening" << path;
-    m_file = std::make_unique<OpenedFile>(m_clock, path, newScratch());
+    m_file = std::make_unique<OpenedFile>(m_clock, path, scratchOfFile());
     m_file->session().setThresholds(m_live.thresholds());
 }
 

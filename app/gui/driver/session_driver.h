@@ -247,7 +247,7 @@ private:
     [[nodiscard]] static bool isReading(const OpenedFile* file) {
         return file != nullptr && file->isReading();
     }
-    [[nodiscard]] std::shared_ptr<log::Scratch> newScratch() const;
+    [[nodiscard]] std::shared_ptr<log::Scratch> scratchOfFile() const;
     void followComparison();
     void stopReadingCompared();
     /// True if there was anything new of the file.
