@@ -76,12 +76,30 @@ void PacketsPanel::connectParts() {
 void PacketsPanel::fitColumns() {
     const bool isSinceFirst = m_packets.timeMode() == PacketModel::TimeMode::SinceFirst;
     m_list->header().setSamples(
-        {QStringLiteral("9 999 999"),
+        {grouped(m_greatestNumber),
          isSinceFirst ? QStringLiteral("9999.9999") : QStringLiteral("2026-11-21 10:42:17.508123"),
          QStringLiteral("9999.99"), QStringLiteral("192.168.10.21:52011"),
-         QStringLiteral("22 Angular kinematics"), QStringLiteral("● 0 Mira Lin"), QStringLiteral("99 999"),
+         QStringLiteral("22 Angular kinematics"), QStringLiteral("● 0 Mira Lin"), grouped(m_greatestSample),
          QStringLiteral("1/1"), QStringLiteral("9 999"), QString()},
         QStringLiteral("▲ network: 1 lost"));
+}
+
+/// Numbers are whole, however many there are: one more digit, and the columns are fitted again.
+void PacketsPanel::keepNumbersWhole() {
+    const auto newest = m_view.end() == 0 ? std::nullopt : m_view.packet(m_view.end() - 1);
+    const auto header = newest ? wire::decodeHeader(newest->bytes) : tl::unexpected(wire::WireError{});
+    const auto grow = [](std::uint64_t& greatest, std::uint64_t number) {
+        const std::uint64_t before = greatest;
+        while (greatest < number) {
+            greatest = greatest * 10 + 9;
+        }
+        return greatest != before;
+    };
+    const bool isNumberLonger = grow(m_greatestNumber, m_view.end());
+    const bool isSampleLonger = grow(m_greatestSample, header ? header->sampleCounter : 0);
+    if (isNumberLonger || isSampleLonger) {
+        fitColumns();
+    }
 }
 
 void PacketsPanel::refresh() {
@@ -92,6 +110,7 @@ void PacketsPanel::refresh() {
         takeMatches();
     }
     m_packets.refresh();
+    keepNumbersWhole();
     // Where everything comes from one sender its address says nothing, and the note has the room.
     m_list->header().setUseful(PacketModel::kSender, m_view.senders().size() > 1);
     followSelection();

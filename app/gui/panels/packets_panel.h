@@ -52,6 +52,7 @@ private:
 
     void connectParts();
     void fitColumns();
+    void keepNumbersWhole();
     void followFilter();
     /// The list holds to a range from when it is selected until a packet beyond it is.
     void followRange();
@@ -111,6 +112,8 @@ private:
     std::optional<model::TimeRange> m_range;       ///< that the list holds to
     std::optional<std::uint64_t> m_selectedPacket; ///< when the range was last followed
     std::optional<model::TimeRange> m_filterRange; ///< that the filter runs with
+    std::uint64_t m_greatestNumber = 9'999'999;    ///< that has room in its column
+    std::uint64_t m_greatestSample = 99'999;       ///< likewise
     bool m_comparesLengths = false;                ///< the filter that runs
     log::Stamp m_filterFirst{};
     PositionUnits m_filterUnits; ///< that it runs with

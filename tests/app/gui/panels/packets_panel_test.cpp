@@ -64,6 +64,12 @@ protected:
     PacketsPanel m_panel{m_stage.session, m_stage.commands, nullptr};
 };
 
+TEST_F(PacketsPanelTest, KeepsLongNumbersWhole) {
+    poses(1'654'180, 1'654'183);
+    const int needed = list().fontMetrics().horizontalAdvance(QStringLiteral("1 654 182"));
+    EXPECT_GE(list().header().sectionSize(PacketModel::kSample), needed);
+}
+
 TEST_F(PacketsPanelTest, FollowsTheNewestUntilScrolledAwayAndSaysSo) {
     poses(0, 200);
     QScrollBar* bar = list().verticalScrollBar();
