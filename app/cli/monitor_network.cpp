@@ -14,10 +14,11 @@ namespace posewire::cli {
 namespace {
 
 tl::expected<std::vector<net::Endpoint>, std::string> endpointsOf(const std::vector<std::string>& texts,
-                                                                  const std::string& option) {
+                                                                  const std::string& option,
+                                                                  decltype(net::parseEndpoint)& parse) {
     std::vector<net::Endpoint> endpoints;
     for (const std::string& text : texts) {
-        auto endpoint = net::parseEndpoint(text);
+        auto endpoint = parse(text);
         if (!endpoint) {
             return tl::unexpected(option + ": " + endpoint.error().text);
         }
@@ -226,9 +227,9 @@ double watch(const MonitorOptions& options, const net::Receiver& receiver, Monit
 } // namespace
 
 tl::expected<Places, std::string> placesOf(const MonitorOptions& options) {
-    const auto udp = endpointsOf(options.udp, "--udp");
-    const auto tcpListen = endpointsOf(options.tcpListen, "--tcp-listen");
-    const auto tcp = endpointsOf(options.tcp, "--tcp");
+    const auto udp = endpointsOf(options.udp, "--udp", net::parseEndpoint);
+    const auto tcpListen = endpointsOf(options.tcpListen, "--tcp-listen", net::parseEndpoint);
+    const auto tcp = endpointsOf(options.tcp, "--tcp", net::parseTarget);
     for (const auto* list : {&udp, &tcpListen, &tcp}) {
         if (!*list) {
             return tl::unexpected(list->error());
@@ -242,10 +243,6 @@ tl::expected<Places, std::string> placesOf(const MonitorOptions& options) {
         if (endpoint.host.empty()) {
             return tl::unexpected("--tcp: " + std::to_string(endpoint.port) +
                                   " has no host; write HOST:PORT, or --tcp-listen to wait for the sender");
-        }
-        if (endpoint.port == 0) {
-            return tl::unexpected("--tcp: " + net::textOf(endpoint) +
-                                  ": nobody can listen to port 0; write one from 1 to 65535");
         }
     }
     if (udp->empty() && tcpListen->empty() && tcp->empty() && options.multicast.empty()) {

@@ -4,7 +4,6 @@
 #include "core/log/file_names.h"
 
 #include <algorithm>
-#include <cstdint>
 #include <filesystem>
 #include <system_error>
 
@@ -16,14 +15,10 @@ namespace fs = std::filesystem;
 /// Of a file that is read again where it is wanted.
 constexpr std::size_t kMemoryCap = std::size_t{64} << 20;
 
-/// What is kept of each packet of a file is a tenth of most files, and gone at the end.
 std::shared_ptr<log::Scratch> newScratch() {
-    constexpr std::uint64_t kShare = 2; // of the free space
     std::error_code error;
     const fs::path folder = fs::temp_directory_path(error);
-    const fs::space_info space = fs::space(folder, error);
-    return error ? std::make_shared<log::Scratch>()
-                 : std::make_shared<log::Scratch>(log::nameOf(folder), space.available / kShare);
+    return error ? std::make_shared<log::Scratch>() : log::scratchOfFile(folder);
 }
 
 std::shared_ptr<const log::ByteStore> storeOf(const std::string& path) {

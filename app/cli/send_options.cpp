@@ -125,13 +125,9 @@ Complaint withoutStop(const std::string& problem) {
 tl::expected<std::vector<net::SendTarget>, Complaint> targetsOf(const SendOptions& options) {
     std::vector<net::SendTarget> targets;
     for (const std::string& text : options.to) {
-        auto endpoint = net::parseEndpoint(text);
+        auto endpoint = net::parseTarget(text);
         if (!endpoint) {
             return tl::unexpected("--to: " + endpoint.error().text);
-        }
-        if (endpoint->port == 0) {
-            return tl::unexpected("--to: " + text +
-                                  ": nobody can listen to port 0; write one from 1 to 65535");
         }
         using Transport = net::SendTarget::Transport;
         targets.push_back({std::move(*endpoint), options.overTcp ? Transport::Tcp : Transport::Udp});

@@ -53,6 +53,15 @@ NetResult<Endpoint> parseEndpoint(std::string_view text) {
     return endpoint;
 }
 
+NetResult<Endpoint> parseTarget(std::string_view text) {
+    auto endpoint = parseEndpoint(text);
+    if (endpoint && endpoint->port == 0) {
+        return netError(NetError::Kind::BadEndpoint,
+                        std::string(text) + ": nobody can listen to port 0; write one from 1 to 65535");
+    }
+    return endpoint;
+}
+
 NetResult<QHostAddress> lookUp(const Endpoint& endpoint) {
     const QString host =
         QString::fromStdString(endpoint.host.empty() ? std::string("127.0.0.1") : endpoint.host);

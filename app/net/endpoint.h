@@ -54,6 +54,9 @@ struct Endpoint {
 /// "PORT", "HOST:PORT", "[IPv6]:PORT". Port 0 is accepted: the system then picks a free one.
 [[nodiscard]] NetResult<Endpoint> parseEndpoint(std::string_view text);
 
+/// The same of somebody to send or connect to, who cannot have port 0.
+[[nodiscard]] NetResult<Endpoint> parseTarget(std::string_view text);
+
 /// The address of a host, IPv4 if it has both; this computer's if the host is empty. Blocks while a name is
 /// resolved.
 [[nodiscard]] NetResult<QHostAddress> lookUp(const Endpoint& endpoint);

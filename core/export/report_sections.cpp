@@ -5,6 +5,7 @@
 #include "core/export/session_reading.h"
 #include "core/model/accounting/attribution.h"
 #include "core/model/accounting/count_history.h"
+#include "core/model/session/losses.h"
 #include "core/wire/text.h"
 #include "core/wire/type_table.h"
 
@@ -178,7 +179,6 @@ using enum model::Figure;
 
 constexpr std::array kRate{RateWhole, Datagrams, Samples, Lost, Incomplete, LossShare};
 constexpr std::array kOrder{Duplicates, Reordered, Late, Restarts};
-constexpr std::array kWhoseLoss{LostHere, LostOnNetwork, LostAtSender, LostUnknown};
 constexpr std::array kTiming{Jitter, SpacingMean, SpacingLeast, SpacingMost, SpacingDeviation,
                              Skew,   Drift,       LongestGap,   Bursts,      BurstDensity,
                              Step,   FirstSample, LastSample};
@@ -249,7 +249,7 @@ HtmlTable tableOf(const std::string& title, std::span<const model::Figure> figur
 
 std::vector<std::string> lossCells(const model::StreamFigures& figures) {
     std::vector<std::string> cells{escaped(wire::typeTitle(figures.key().type))};
-    addCells(cells, figures, kWhoseLoss);
+    addCells(cells, figures, model::kFigureOfCause);
     return cells;
 }
 
@@ -303,7 +303,7 @@ std::string streamTable(const model::SessionView& session, const model::Characte
                         const std::vector<model::StreamFigures>& figures, const ReportSteps& steps) {
     HtmlTable delivery(deliveryColumns());
     HtmlTable timing = tableOf("When it arrived", kTiming);
-    HtmlTable losses = tableOf("Whose loss", kWhoseLoss);
+    HtmlTable losses = tableOf("Whose loss", model::kFigureOfCause);
     for (const model::Stream* stream : streamsByType(session, key)) {
         const auto own = std::ranges::find(figures, stream->key, &model::StreamFigures::key);
         if (own == figures.end()) {
@@ -313,7 +313,8 @@ std::string streamTable(const model::SessionView& session, const model::Characte
         if (own->isSampled()) {
             timing.add(timingCells(*own));
         }
-        if (std::ranges::any_of(kWhoseLoss, [&](model::Figure cause) { return own->count(cause) != 0; })) {
+        if (std::ranges::any_of(model::kFigureOfCause,
+                                [&](model::Figure cause) { return own->count(cause) != 0; })) {
             losses.add(lossCells(*own));
         }
     }

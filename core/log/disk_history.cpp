@@ -111,9 +111,7 @@ DiskHistory::Result DiskHistory::write(const Packet& packet) {
     const SenderInfo* sender = m_senders.find(packet.sender);
     const Duration setBy = m_log.timeline().setByAt(packet.stamp);
     Packet written = packet; // nothing else tells who opens the file of what was passed over
-    const DropSums unseen = m_follower.takeUnseen();
-    const std::uint64_t missed = m_follower.takeOvertaken();
-    written.addDrops(missed - std::min(missed, unseen.records) + unseen.datagrams);
+    written.addDrops(m_follower.takeUnseen().missingWith(m_follower.takeOvertaken()));
     if (const auto added = m_writer->add(written, sender != nullptr ? *sender : SenderInfo{}, {}, setBy);
         !added) {
         return added;

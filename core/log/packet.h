@@ -71,6 +71,10 @@ struct DropSums {
         datagrams += drops;
         records += flags.isDropRecord ? 1 : 0;
     }
+    /// Datagrams that are missing with so many packets of the log, of which these are told: records are none.
+    [[nodiscard]] std::uint64_t missingWith(std::uint64_t packets) const {
+        return packets - std::min(packets, records) + datagrams;
+    }
     friend bool operator==(const DropSums&, const DropSums&) = default;
 };
 

@@ -67,8 +67,7 @@ Recorder::Result Recorder::writeNew() {
         if (missed > 0) {
             m_holes.push_back({std::max(packet->number - missed, m_first), packet->number});
         }
-        const DropSums unseen = m_follower.takeUnseen();
-        packet->addDrops(missed - std::min(missed, unseen.records) + unseen.datagrams);
+        packet->addDrops(m_follower.takeUnseen().missingWith(missed));
         const SenderInfo* sender = m_senders.find(packet->sender);
         const Duration setBy = m_timeline.setByAt(packet->stamp);
         if (auto added = m_writer.add(*packet, sender != nullptr ? *sender : SenderInfo{}, {}, setBy);

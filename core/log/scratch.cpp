@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "core/log/scratch.h"
 
+#include "core/log/file_names.h"
 #include "core/log/system_memory.h"
 
 #include <algorithm>
 #include <functional>
+#include <system_error>
 
 namespace posewire::log {
 namespace {
@@ -92,6 +94,13 @@ bool Scratch::isInFile(const std::byte* memory) const {
     return std::ranges::any_of(m_segments, [memory](const std::byte* segment) {
         return !std::less<>()(memory, segment) && std::less<>()(memory, segment + kSegment);
     });
+}
+
+std::shared_ptr<Scratch> scratchOfFile(const std::filesystem::path& folder) {
+    std::error_code failed;
+    const std::filesystem::space_info space = std::filesystem::space(folder, failed);
+    return failed ? std::make_shared<Scratch>()
+                  : std::make_shared<Scratch>(nameOf(folder), space.available / 2);
 }
 
 } // namespace posewire::log

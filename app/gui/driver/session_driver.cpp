@@ -42,16 +42,16 @@ std::uint64_t freeBytes(const QString& folder) {
     return failed ? 0 : space.available;
 }
 
-/// Of the free space: the most that what is received takes, and what is kept of each packet of a file. That
-/// is a tenth of most files, and gone when the file is closed.
-constexpr std::uint64_t kShareOfLive = 10;
-constexpr std::uint64_t kShareOfFile = 2;
+/// The most that something of ours takes in a folder.
+std::uint64_t tenthOfFree(const QString& folder) {
+    return freeBytes(folder) / 10;
+}
 
-std::shared_ptr<log::Scratch> scratchIn(const QString& folder, std::uint64_t share) {
+std::shared_ptr<log::Scratch> scratchIn(const QString& folder) {
     if (folder.isEmpty() || !QDir().mkpath(folder)) {
         return std::make_shared<log::Scratch>();
     }
-    return std::make_shared<log::Scratch>(QFile::encodeName(folder).toStdString(), freeBytes(folder) / share);
+    return std::make_shared<log::Scratch>(QFile::encodeName(folder).toStdString(), tenthOfFree(folder));
 }
 
 /// The performer as a sender beside the window, until it is asked to stop.
@@ -92,7 +92,7 @@ SessionDriver::SessionDriver(const log::Clock& clock, QString cacheFolder, QObje
     : QObject(parent),
       m_clock(clock),
       m_cacheFolder(std::move(cacheFolder)),
-      m_log({}, scratchIn(m_cacheFolder, kShareOfLive)),
+      m_log({}, scratchIn(m_cacheFolder)),
       m_live(m_log),
       m_receiving(m_log, clock) {
     m_timer.setTimerType(Qt::PreciseTimer);
@@ -119,7 +119,8 @@ void SessionDriver::hasten() {
 }
 
 std::shared_ptr<log::Scratch> SessionDriver::scratchOfFile() const {
-    return scratchIn(m_cacheFolder, kShareOfFile);
+    return m_cacheFolder.isEmpty() ? std::make_shared<log::Scratch>()
+                                   : log::scratchOfFile(QFile::encodeName(m_cacheFolder).toStdString());
 }
 
 void SessionDriver::tick() {
@@ -224,7 +225,7 @@ QString SessionDriver::keepHistory(std::uint64_t most) {
     const QString application =
         QCoreApplication::applicationName() + u' ' + QCoreApplication::applicationVersion();
     const log::DiskHistoryChoice choice{QFile::encodeName(m_cacheFolder).toStdString(),
-                                        std::min(most, freeBytes(m_cacheFolder) / kShareOfLive)};
+                                        std::min(most, tenthOfFree(m_cacheFolder))};
     if (freeBytes(m_cacheFolder) < choice.leaveFree) {
         return tr("Less than 1 GB is free on the disk of %1: only what is in memory can be looked back at.")
             .arg(m_cacheFolder);
