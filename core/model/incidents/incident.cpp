@@ -11,8 +11,6 @@
 namespace posewire::model {
 namespace {
 
-/// This many samples of one stream are more than a warning.
-constexpr std::uint64_t kManySamples = 10;
 /// A longer silence is more than a warning.
 constexpr double kLongSilenceS = 1;
 
@@ -106,8 +104,7 @@ IncidentSeverity Incident::severity() const {
     const bool isLoss = kind == IncidentKind::Loss;
     const bool isGrave =
         (isLoss && limit > 0 && value > limit) ||
-        (isLoss &&
-         std::ranges::any_of(parts, [](const Part& part) { return part.samples >= kManySamples; })) ||
+        (isLoss && std::ranges::any_of(parts, [](const Part& part) { return part.lastMany.has_value(); })) ||
         (kind == IncidentKind::Outage && value >= kLongSilenceS);
     return isGrave ? IncidentSeverity::Error : factsOf(kind).severity;
 }

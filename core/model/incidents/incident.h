@@ -88,8 +88,13 @@ struct Incident {
         std::uint64_t samples = 0;
         log::Stamp from{};
         log::Stamp to{};
-        bool isCurrent = true; ///< of kinds that last until they are ended
+        bool isCurrent = true;                ///< of kinds that last until they are ended
+        std::optional<log::Stamp> lastMany{}; ///< end of the newest gap of kManySamples or more
     };
+    /// So many missing in a row are seen: that is grave, whatever share of the stream they are.
+    static constexpr std::uint64_t kManySamples = 10;
+    /// Fewer samples are no share of anything.
+    static constexpr std::uint64_t kFewSamples = 3;
 
     std::uint64_t number = 0; ///< counted from the beginning of the session
     IncidentKind kind = IncidentKind::SourceUp;

@@ -12,8 +12,6 @@ namespace {
 
 /// Beyond these, what an incident touched is only in its sums.
 constexpr std::size_t kMostPartsOfOne = 1'024;
-/// Fewer samples are no share of anything.
-constexpr std::uint64_t kFew = 3;
 
 /// The newest, where it is over and was like this: a figure that hovers about its limit is one incident,
 /// however often it comes back under it.
@@ -162,6 +160,9 @@ void Incidents::add(Incident& incident, const Occurrence& one) {
         part->from = std::min(part->from, one.from);
         part->to = std::max(part->to, one.to);
         part->isCurrent = !one.isOver;
+        if (one.samples >= Incident::kManySamples) {
+            part->lastMany = std::max(part->lastMany.value_or(one.to), one.to);
+        }
     }
     changed(incident);
 }
@@ -194,6 +195,7 @@ void Incidents::takeBack(std::uint64_t number, const Incident::Part& part, std::
         if (own.character == part.character && own.type == part.type) {
             take(own.samples, samples);
             take(own.count, gaps);
+            own.lastMany = own.samples < Incident::kManySamples ? std::nullopt : own.lastMany;
         }
     }
     m_parts -= std::erase_if(place->parts, [](const Incident::Part& own) {
@@ -209,8 +211,11 @@ void Incidents::takeBack(std::uint64_t number, const Incident::Part& part, std::
 
 void Incidents::noteLimit(const Occurrence& one) {
     for (const Incident* known : currentOf(one.sender)) {
-        if (known->kind == IncidentKind::Loss && known->samples >= kFew &&
-            known->concerns(*one.character, *one.type) && one.value > known->value) {
+        const bool isOfFew = std::ranges::none_of(known->parts, [&](const Incident::Part& part) {
+            return part.character == one.character && part.type == one.type &&
+                   part.samples >= Incident::kFewSamples;
+        });
+        if (known->kind == IncidentKind::Loss && !isOfFew && one.value > known->value) {
             Incident& incident = *findOwn(known->number);
             incident.value = one.value;
             incident.limit = one.limit;

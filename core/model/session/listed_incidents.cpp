@@ -105,10 +105,12 @@ bool isMissingStill(const SessionView& session, const Incident& incident) {
     });
 }
 
-/// What did not happen again for twice as long as it took between the times it did, or for a second: more of
-/// it would be of the same incident, but it does not go on.
+/// What did not happen again for much longer than it took between the times it did, or for a second: more of
+/// it would be of the same incident, but it does not go on. What comes at random pauses for so long once in
+/// 150 times.
 bool hasCeased(const SessionView& session, const Incident& incident) {
     constexpr log::Duration kLeast = std::chrono::seconds(1);
+    constexpr int kPatience = 5;
     const auto repeats = static_cast<std::int64_t>(std::max<std::uint64_t>(1, incident.count) - 1);
     const log::Duration between =
         repeats == 0 ? log::Duration() : (incident.lastStamp - incident.firstStamp) / repeats;
@@ -118,7 +120,7 @@ bool hasCeased(const SessionView& session, const Incident& incident) {
     const bool isLoss = incident.kind == IncidentKind::Loss || incident.kind == IncidentKind::Local;
     const log::Stamp known = isLoss ? session.judgedUntil() : session.now();
     return !factsOf(incident.kind).lasts &&
-           known - incident.lastStamp >= std::clamp(2 * between, kLeast, Incidents::kQuiet);
+           known - incident.lastStamp >= std::clamp(kPatience * between, kLeast, Incidents::kQuiet);
 }
 
 /// Incidents that are not listed any more.

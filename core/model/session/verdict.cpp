@@ -81,7 +81,8 @@ public:
     [[nodiscard]] bool isAboveLimit(const Incident& incident) {
         return std::ranges::any_of(incident.parts, [&](const Incident::Part& part) {
             const FaultCounts counts = countsOf(incident.sender, part);
-            return 100 * counts.shareOf(counts.total()) > incident.limit;
+            return counts.total() >= Incident::kFewSamples &&
+                   100 * counts.shareOf(counts.total()) > incident.limit;
         });
     }
 
@@ -249,10 +250,15 @@ bool isPast(const ListedIncident& one, const VerdictSpan& span) {
     return isOnlyComing(one) || (one.state == State::Over && one.incident.lastStamp < span.from);
 }
 
-/// How bad it is: loss that was above its limit need not be any more.
-double lastingValueOf(RecentLosses& losses, const Incident& incident) {
-    const bool isLimited = incident.kind == IncidentKind::Loss && incident.limit > 0;
-    return isLimited && !losses.isAboveLimit(incident) ? 0 : incident.value;
+/// How bad it is in the span: loss that was above its limit, or of many at once, need not be any more.
+void easeTo(const VerdictSpan& span, RecentLosses& losses, Incident& incident) {
+    if (incident.kind != IncidentKind::Loss) {
+        return;
+    }
+    incident.value = incident.limit > 0 && !losses.isAboveLimit(incident) ? 0 : incident.value;
+    for (Incident::Part& part : incident.parts) {
+        part.lastMany = part.lastMany && *part.lastMany < span.from ? std::nullopt : part.lastMany;
+    }
 }
 
 /// What of it is to one character: that may be over while others still have it.
@@ -291,7 +297,7 @@ public:
                 continue;
             }
             ListedIncident mine = character ? ofOne(m_session, one, character->character) : one;
-            mine.incident.value = lastingValueOf(m_losses, mine.incident);
+            easeTo(m_span, m_losses, mine.incident);
             const bool isMeant = !character || !isPast(mine, m_span);
             if (isMeant && (!worst || rankOf(*worst) < rankOf(mine))) {
                 worst = std::move(mine);

@@ -3,6 +3,10 @@
 
 #include "tests/core/model/session/verdict_fixture.h"
 
+#include <random>
+#include <utility>
+#include <vector>
+
 /// How much and whose the headline says it is.
 namespace posewire::model {
 namespace {
@@ -52,6 +56,46 @@ TEST_F(VerdictTest, SaysOfWhatHappenedOnceThatItIsOverHoweverLongItWas) {
     poses(601, 720);
     EXPECT_NE(verdict().text.find("stood still for 3.0 s"), std::string::npos) << verdict().text;
     EXPECT_TRUE(verdict().isOver) << verdict().text;
+}
+
+TEST_F(VerdictTest, KeepsToOneAnswerWhileAFewOfManyAreLostAtRandom) {
+    constexpr std::uint32_t kOneIn = 200;
+    std::minstd_rand random(7);
+    std::vector<std::pair<State, bool>> answers;
+    for (std::uint32_t sample = 1; sample <= 18'000; ++sample, m_at += 10ms) {
+        const bool isFirst = sample < 100; // none is good before there is any
+        if (isFirst || random() % kOneIn != 0) {
+            pose(sample);
+        }
+        if (isFirst || random() % kOneIn != 0) {
+            poseOfOther(sample);
+        }
+        const TakeVerdict now = sample % 10 == 0 ? verdict() : TakeVerdict();
+        EXPECT_NE(now.state, State::Bad) << "half a percent: " << now.text;
+        if (const std::pair answer(now.state, now.isOver);
+            now.state == State::Warning && (answers.empty() || answers.back() != answer)) {
+            answers.push_back(answer);
+        }
+    }
+    EXPECT_LE(answers.size(), 9U) << "in three minutes of about 180 losses";
+}
+
+TEST_F(VerdictTest, IsBadForTenSecondsOfManyThatWereLostAtOnce) {
+    poses(1, 1'000);
+    m_at += 100ms;
+    std::uint32_t next = 1'011;
+    const auto loseOneIn120 = [&](int times) {
+        for (int time = 0; time < times; ++time, next += 120) {
+            poses(next, next + 118);
+            m_at += 10ms;
+        }
+    };
+    loseOneIn120(4);
+    EXPECT_EQ(verdict().state, State::Bad) << verdict().text;
+    loseOneIn120(8);
+    EXPECT_EQ(verdict().state, State::Warning) << "fewer than one in a hundred since: " << verdict().text;
+    EXPECT_FALSE(verdict().isOver) << verdict().text;
+    EXPECT_EQ(of(IncidentKind::Loss)[0].severity(), IncidentSeverity::Error) << "as an incident it was grave";
 }
 
 TEST_F(VerdictTest, SaysThatThisComputerIsBehind) {
