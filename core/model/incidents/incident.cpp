@@ -162,6 +162,7 @@ Incident Incident::of(std::uint8_t which) const {
             own.samples += part.samples;
             own.count += part.count;
         }
+        own.times = std::ranges::max(own.parts, {}, &Part::times).times;
         own.firstStamp = std::ranges::min(own.parts, {}, &Part::from).from;
         own.lastStamp = std::ranges::max(own.parts, {}, &Part::to).to;
         own.isCurrent = isCurrent && std::ranges::any_of(own.parts, &Part::isCurrent);

@@ -90,7 +90,9 @@ struct Incident {
         log::Stamp to{};
         bool isCurrent = true;                ///< of kinds that last until they are ended
         std::optional<log::Stamp> lastMany{}; ///< end of the newest gap of kManySamples or more
+        std::uint64_t times = 1;              ///< at which it happened, kApart or more from each other
     };
+    static constexpr log::Duration kApart = std::chrono::milliseconds(100);
     /// So many missing in a row are seen: that is grave, whatever share of the stream they are.
     static constexpr std::uint64_t kManySamples = 10;
     /// Fewer samples are no share of anything.
@@ -105,6 +107,7 @@ struct Incident {
     std::uint64_t firstPacket = 0;
     std::uint64_t lastPacket = 0;
     std::uint64_t count = 0;   ///< how often it happened
+    std::uint64_t times = 1;   ///< at which it did, kApart or more from each other: a burst is one
     std::uint64_t samples = 0; ///< lost for good: Loss, Local, Outage
     double value = 0;          ///< the worst; see Occurrence
     double limit = 0;

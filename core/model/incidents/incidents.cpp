@@ -140,6 +140,7 @@ Incident& Incidents::begin(const Occurrence& one) {
 }
 
 void Incidents::add(Incident& incident, const Occurrence& one) {
+    incident.times += one.from > incident.lastStamp + Incident::kApart && incident.count != 0 ? 1 : 0;
     incident.firstStamp = std::min(incident.firstStamp, one.from);
     incident.firstPacket = std::min(incident.firstPacket, one.fromPacket);
     incident.lastStamp = std::max(incident.lastStamp, one.to);
@@ -155,6 +156,7 @@ void Incidents::add(Incident& incident, const Occurrence& one) {
         incident.detail = clippedText(one.detail, kMostDetailBytes);
     }
     if (Incident::Part* part = partOf(incident, one)) {
+        part->times += one.from > part->to + Incident::kApart ? 1 : 0;
         part->count += one.count;
         part->samples += one.samples;
         part->from = std::min(part->from, one.from);

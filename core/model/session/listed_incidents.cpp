@@ -111,7 +111,7 @@ bool isMissingStill(const SessionView& session, const Incident& incident) {
 bool hasCeased(const SessionView& session, const Incident& incident) {
     constexpr log::Duration kLeast = std::chrono::seconds(1);
     constexpr int kPatience = 5;
-    const auto repeats = static_cast<std::int64_t>(std::max<std::uint64_t>(1, incident.count) - 1);
+    const auto repeats = static_cast<std::int64_t>(incident.times - 1);
     const log::Duration between =
         repeats == 0 ? log::Duration() : (incident.lastStamp - incident.firstStamp) / repeats;
     if (incident.kind == IncidentKind::Step && isMissingStill(session, incident)) {

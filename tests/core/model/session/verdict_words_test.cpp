@@ -80,6 +80,23 @@ TEST_F(VerdictTest, KeepsToOneAnswerWhileAFewOfManyAreLostAtRandom) {
     EXPECT_LE(answers.size(), 9U) << "in three minutes of about 180 losses";
 }
 
+TEST_F(VerdictTest, BurstsThatComeAgainAndAgainAreNotOverBetweenTwo) {
+    std::uint32_t next = 1;
+    for (int burst = 0; burst < 5; ++burst) {
+        poses(next, next + 249);
+        next += 250;
+        for (int lost = 0; lost < 10; ++lost, next += 2) { // every second one
+            m_at += 10ms;
+            pose(next + 1);
+            m_at += 10ms;
+        }
+    }
+    poses(next, next + 240);
+    EXPECT_FALSE(verdict().isOver) << "2.4 s after the last of five: " << verdict().text;
+    poses(next + 241, next + 740);
+    EXPECT_TRUE(verdict().isOver) << verdict().text;
+}
+
 TEST_F(VerdictTest, IsBadForTenSecondsOfManyThatWereLostAtOnce) {
     poses(1, 1'000);
     m_at += 100ms;
