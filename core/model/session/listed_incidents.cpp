@@ -19,6 +19,9 @@ namespace {
 
 using State = ListedIncident::State;
 
+/// Of less time a share says little: a burst of a few datagrams is most of what came meanwhile.
+constexpr log::Duration kLeastOfShare = std::chrono::seconds(1);
+
 constexpr std::size_t kUnknownCause = static_cast<std::size_t>(LossCause::Unknown);
 
 /// "03:28:07", as the receiving computer's clock shows it.
@@ -183,7 +186,8 @@ std::string amountOf(const SessionView& session, const Incident& incident, std::
                                                     incident.lastStamp + CountHistory::kFirstWidth);
         }
     }
-    return lossAmount(incident.samples, incident.isOfMessages() ? 0 : sum.expected(), noun);
+    const bool isShort = incident.lastStamp - incident.firstStamp < kLeastOfShare;
+    return lossAmount(incident.samples, isShort || incident.isOfMessages() ? 0 : sum.expected(), noun);
 }
 
 std::string causeOf(const Incident& incident) {

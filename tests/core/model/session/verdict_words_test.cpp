@@ -32,6 +32,16 @@ TEST_F(VerdictTest, SaysOfWhatIsOverOrJustBeganHowMuchOfItsOwnTimeIsLost) {
     EXPECT_TRUE(verdict().brief.starts_with("20 % lost, ")) << verdict().brief;
 }
 
+TEST_F(VerdictTest, CountsWhatWasLostInAMomentAndIsNoShareOfAnything) {
+    for (std::uint32_t sample = 1; sample <= 460; ++sample, m_at += 10ms) {
+        if (sample <= 300 || sample > 380 || sample % 8 == 0) {
+            pose(sample);
+            poseOfOther(sample);
+        }
+    }
+    EXPECT_NE(verdict().text.find("140 samples lost on "), std::string::npos) << verdict().text;
+}
+
 TEST_F(VerdictTest, SaysOfWhatIsOverOnlyWhatWasLostSinceTheReset) {
     for (std::uint32_t sample = 1; sample <= 700; ++sample, m_at += 10ms) {
         if (sample == 590) {
