@@ -4,12 +4,12 @@
 
 #include "tests/core/log/log_fixture.h"
 #include "tests/core/log/recording_fixture.h"
+#include "tests/support/temporary_folder.h"
 
 #include <gmock/gmock.h>
 
 #include <filesystem>
 #include <fstream>
-#include <random>
 #include <sstream>
 #include <thread>
 
@@ -21,10 +21,15 @@
 namespace posewire::log {
 namespace {
 
+/// Names of files in a folder that goes away with the process.
 std::string newFile() {
-    // Every test is a process of its own, and they run side by side.
-    static std::random_device random;
-    return testing::TempDir() + "recording_" + std::to_string(random()) + ".pcapng";
+    struct Folder {
+        std::filesystem::path path = test::newTemporaryFolder("recording");
+        ~Folder() { std::filesystem::remove_all(path); }
+    };
+    static const Folder folder;
+    static int number = 0;
+    return (folder.path / ("recording_" + std::to_string(++number) + ".pcapng")).string();
 }
 
 std::vector<Recorded> recordedInFile(const std::string& path) {

@@ -25,10 +25,11 @@ def start_again():
     system = "/usr/bin/python3"  # it has what the distribution packages
     interpreter = system if os.path.exists(system) else sys.executable
     for _ in range(4):  # the registry of accessible programs sometimes ends as it begins
-        environment = dict(os.environ, POSEWIRE_AT_SPI="1", QT_LINUX_ACCESSIBILITY_ALWAYS_ON="1",
-                           QT_QPA_PLATFORM="xcb", XDG_RUNTIME_DIR=tempfile.mkdtemp(prefix="runtime_"))
-        code = subprocess.run(["xvfb-run", "-a", "-s", "-screen 0 1600x1000x24", "dbus-run-session", "--",
-                               interpreter, *sys.argv], env=environment, timeout=240).returncode
+        with tempfile.TemporaryDirectory(prefix="runtime_", ignore_cleanup_errors=True) as runtime:
+            environment = dict(os.environ, POSEWIRE_AT_SPI="1", QT_LINUX_ACCESSIBILITY_ALWAYS_ON="1",
+                               QT_QPA_PLATFORM="xcb", XDG_RUNTIME_DIR=runtime)
+            code = subprocess.run(["xvfb-run", "-a", "-s", "-screen 0 1600x1000x24", "dbus-run-session", "--",
+                                   interpreter, *sys.argv], env=environment, timeout=240).returncode
         if code != NO_BUS:
             break
     sys.exit(code)
@@ -200,8 +201,7 @@ def check_live(window):
     assert times, "nothing says the time that is shown"
 
 
-def main():
-    folder = tempfile.mkdtemp(prefix="screen_reader_")
+def main(folder):
     port = free_port()
     Atspi.init()
     Atspi.get_desktop(0).get_child_count()  # starts the registry
@@ -233,4 +233,5 @@ try:
 except (ImportError, ValueError) as problem:
     print("skipped:", problem)
     sys.exit(SKIPPED)
-main()
+with tempfile.TemporaryDirectory(prefix="screen_reader_") as own:
+    main(own)
