@@ -22,6 +22,8 @@ constexpr std::size_t kLeastParts = 8;
 /// of a time code that runs at a speed of its own.
 constexpr double kMostErrorPpm = 50;
 constexpr double kMostErrorShare = 0.05;
+/// The least delay itself is not the same at both ends: kernels, schedulers and switches are so restless.
+constexpr double kRestlessMs = 0.05;
 /// A skew that is less than so many of its errors is not seen.
 constexpr double kLeastErrors = 2;
 
@@ -128,7 +130,7 @@ ClockSkew ClockFit::skew() const {
     const double product = sums.products - sums.seconds * sums.ms / count;
     const double slope = -product / square;
     const double unexplained = std::max(0.0, sums.squaresMs - sums.ms * sums.ms / count + slope * product);
-    const double error = std::sqrt(unexplained / (count - 2) / square);
+    const double error = std::hypot(std::sqrt(unexplained / (count - 2) / square), kRestlessMs / lastSeconds);
     if (error > std::max(kMostErrorPpm * 1e-3, kMostErrorShare * std::abs(slope))) {
         return {};
     }

@@ -212,6 +212,18 @@ TEST(ClockFit, SaysNothingWhileItsErrorIsMoreThanClocksDiffer) {
     EXPECT_NEAR(fittedThroughUnrest(-500'000).skewPpm, -500'000, 25'000);
 }
 
+TEST(ClockFit, TakesNoLessWorkAtTheEndForADriftOfClocks) {
+    for (const log::Duration span : {10s, 60s}) {
+        ClockFit fit(span);
+        for (log::Duration time{}; time <= span; time += 10ms) {
+            fit.add(sentAt(50s + time), 0.04 * log::secondsOf(time) / log::secondsOf(span)); // 40 µs in all
+        }
+        EXPECT_EQ(fit.skew().skewPpm, 0);
+        EXPECT_NEAR(fit.skew().errorPpm, 50 / log::secondsOf(span), 0.5);
+    }
+    EXPECT_NE(fitted(20, 60s, 10ms).skewPpm, 0) << "clocks that differ as clocks do";
+}
+
 TEST(TimeCodeStep, IsThatOfTheClockAtMidnightToo) {
     constexpr std::uint32_t day = 86'400'000;
     EXPECT_EQ(timeCodeStep(1'000, 1'017), 17);
