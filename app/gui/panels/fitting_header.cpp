@@ -49,6 +49,11 @@ void FittingHeader::keepOpenFor(const QString& text) {
     }
 }
 
+void FittingHeader::wishOpenFor(const QString& text) {
+    m_wishedOpen = text;
+    fit();
+}
+
 void FittingHeader::setUseful(int column, bool isUseful) {
     if (m_useless.contains(column) == isUseful) {
         isUseful ? static_cast<void>(m_useless.removeAll(column)) : m_useless.append(column);
@@ -192,7 +197,9 @@ void FittingHeader::shareOut(int open) {
         const bool isThere = isShown[static_cast<std::size_t>(one.column)];
         needed += isThere ? sampleWidth(one.column) - soonWidth(one.column) : 0;
     }
-    fitElastic(width - needed);
+    const int spare = width - needed;
+    const int wished = std::max(0, textWidth(m_wishedOpen) - leastOpenWidth());
+    fitElastic(spare > 0 ? std::max(0, spare - wished) : spare);
     const int others = length() - sectionSize(open);
     // One that is kept for what it says gets narrower before all of it is scrolled away.
     const int least = m_kept == Kept::Open ? textWidth(QStringLiteral("123456")) : leastOpenWidth();

@@ -29,6 +29,8 @@ public:
     void setSamples(std::vector<QString> samples, const QString& leastOpen = {});
     /// Makes the column that takes the room left never narrower than `text` needs, where it would be.
     void keepOpenFor(const QString& text);
+    /// Makes the column that takes the room left as wide as `text` needs before elastic ones get wider.
+    void wishOpenFor(const QString& text);
     /// Columns that say nothing are left out altogether.
     void setUseful(int column, bool isUseful);
     /// Where not all columns fit, these give way to the one that takes the room left, the first one first.
@@ -92,6 +94,7 @@ private:
     Kept m_kept;
     std::vector<QString> m_samples;
     QString m_leastOpen;
+    QString m_wishedOpen;
     std::vector<int> m_givingWay;
     std::vector<Elastic> m_elastic;
     QList<int> m_useless;

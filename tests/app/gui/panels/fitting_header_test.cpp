@@ -66,6 +66,23 @@ TEST_F(FittingHeaderTest, MakesNamesNarrowerBeforeItCutsTheVerdict) {
     EXPECT_FALSE(scrolls());
 }
 
+TEST_F(FittingHeaderTest, MakesTheVerdictWiderBeforeNamesWhereThatIsWished) {
+    const char* words = "10.0 % lost, network, since 10:42:17";
+    const int room = widthOf(words) - widthOf(kVerdictSample);
+    makeWide(2000);
+    int width = 2000;
+    while (!m_table.isColumnHidden(kAge)) {
+        makeWide(--width);
+    }
+    makeWide(width + 1 + room);
+    EXPECT_LT(m_table.columnWidth(kVerdict), widthOf(words)) << "names have the room";
+    m_table.columns().wishOpenFor(words);
+    EXPECT_GE(m_table.columnWidth(kVerdict), widthOf(words));
+    EXPECT_GE(m_table.columnWidth(kName), widthOf("A performer's name"));
+    makeWide(2000);
+    EXPECT_GE(m_table.columnWidth(kName), widthOf("A performer's name that is long"));
+}
+
 TEST_F(FittingHeaderTest, KeepsTheVerdictAsWideAsItOnceHadToBe) {
     makeWide(300);
     const char* words = "10.0 % lost, network, over";
