@@ -105,9 +105,19 @@ TimecodePanel::TimecodePanel(model::SessionView& view, Commands& commands, QWidg
     layout->addLayout(choices);
     layout->addWidget(m_table);
     m_table->showFacts(m_facts, QStringLiteral("Frame rate mm"));
-    m_table->fixHeight();
     connect(m_large, &ClockWidget::fullScreenToggled, this, [this] { setFullScreen(true); });
     showClock();
+}
+
+/// In a low dock the clock keeps a third of the height, and what else there is to know of it is scrolled.
+void TimecodePanel::resizeEvent(QResizeEvent* event) {
+    constexpr int kLeastRows = 2;
+    Panel::resizeEvent(event);
+    const int choices = layout()->itemAt(1)->sizeHint().height();
+    const int rows = (height() - choices - height() / 3) / m_table->heightForRows(1);
+    const int all = m_table->model()->rowCount();
+    m_table->setFixedHeight(m_table->heightForRows(std::clamp(rows, kLeastRows, all)));
+    m_table->setVerticalScrollBarPolicy(rows < all ? Qt::ScrollBarAsNeeded : Qt::ScrollBarAlwaysOff);
 }
 
 QToolButton* TimecodePanel::addChoice(const QString& text, ClockChoice choice) {

@@ -288,6 +288,19 @@ TEST_F(PanelsTest, ClockFillsTheScreenAndLeavesItByEscape) {
     EXPECT_NE(panel->fullScreenClock(), nullptr);
 }
 
+TEST_F(PanelsTest, ClockStaysLargeInALowDock) {
+    const auto panel = open<TimecodePanel>();
+    auto* clock = panel->findChild<ClockWidget*>();
+    auto* table = panel->findChild<TableView*>();
+    panel->resize(600, 600);
+    EXPECT_EQ(table->height(), table->heightForRows(table->model()->rowCount()));
+    panel->resize(600, 200);
+    QApplication::processEvents(); // the layout
+    EXPECT_GE(clock->height(), 200 / 3);
+    EXPECT_LT(table->height(), table->heightForRows(table->model()->rowCount()));
+    EXPECT_EQ(table->verticalScrollBarPolicy(), Qt::ScrollBarAsNeeded);
+}
+
 TEST_F(PanelsTest, ShowsThePastWhilePaused) {
     performer::Performer performer(sending(1, {2, 12, 23}));
     m_stage.perform(performer, 0, 240);
