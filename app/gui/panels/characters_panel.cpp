@@ -220,6 +220,7 @@ void CharactersPanel::keepRoom() {
         verdict = said.size() > verdict.size() ? said : verdict;
         name = called.size() > name.size() ? called : name;
     }
+    m_table->columns().keepFigures();
     m_table->columns().keepOpenFor(verdict.left(kMostOfVerdict));
     m_table->columns().keepElasticFor(CharacterModel::kName, QStringLiteral("         ") + name);
 }

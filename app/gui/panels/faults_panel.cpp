@@ -49,18 +49,17 @@ FaultsPanel::FaultsPanel(model::SessionView& view, Commands& commands, QWidget* 
 }
 
 void FaultsPanel::fitColumns() {
-    const QString count = QStringLiteral("9 999 <0.1 %");
+    const QString count = m_number + QStringLiteral(" <0.1 %");
     m_table->setColumnSamples(
         {QString(), count, count, count, count, QStringLiteral("▲ ") + count, QStringLiteral("99 999 999")},
         QStringLiteral("    ● All characters"));
     // Shares give way to names; whose fault it was stays longest.
-    const QString number = QStringLiteral("9 999");
     for (const int column : {FaultModel::kThisComputer, FaultModel::kUnknown, FaultModel::kSender,
                              FaultModel::kNetwork, FaultModel::kLost}) {
         const QString title = m_faults.headerData(column, Qt::Horizontal, Qt::DisplayRole).toString();
-        const QString least = column == FaultModel::kLost    ? QStringLiteral("▲ ") + number
-                              : title.size() > number.size() ? title
-                                                             : number;
+        const QString least = column == FaultModel::kLost      ? QStringLiteral("▲ ") + m_number
+                              : title.size() > m_number.size() ? title
+                                                               : m_number;
         m_table->columns().addElastic(column, least, count, least);
     }
     m_givingWay.clear();
@@ -87,6 +86,16 @@ void FaultsPanel::chooseCauses() {
     }
 }
 
+/// Once a number needs it, there is room for all of it, and stays.
+void FaultsPanel::keepNumbers() {
+    const QModelIndex all = m_faults.index(0, 0);
+    const QString most = all.isValid() ? grouped(m_faults.row(all).counts.total()) : QString();
+    if (most.size() > m_number.size()) {
+        m_number = most;
+        fitColumns();
+    }
+}
+
 /// Names are whole before shares are shown, but for very long ones.
 void FaultsPanel::keepNames() {
     constexpr qsizetype kLongest = 16;
@@ -109,6 +118,7 @@ void FaultsPanel::connectParts() {
 void FaultsPanel::refresh() {
     m_choice->refresh();
     m_faults.refresh();
+    keepNumbers();
     chooseCauses();
     keepNames();
     const QString span = spanText(m_view);

@@ -34,6 +34,7 @@ protected:
 private:
     void connectParts();
     void fitColumns();
+    void keepNumbers();
     void chooseCauses();
     void keepNames();
     void addActions(QMenu& menu, const QModelIndex& index);
@@ -46,7 +47,8 @@ private:
     SpanBar* m_choice;
     TableView* m_table;
     PassingMessage* m_message;
-    std::vector<int> m_givingWay; ///< columns, the first one first
+    QString m_number = QStringLiteral("9 999"); ///< as long as numbers have become
+    std::vector<int> m_givingWay;               ///< columns, the first one first
     // While the model is reset:
     std::vector<FaultRow> m_opened;
     std::optional<FaultRow> m_current;

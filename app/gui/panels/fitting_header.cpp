@@ -49,6 +49,27 @@ void FittingHeader::keepOpenFor(const QString& text) {
     }
 }
 
+void FittingHeader::keepFigures() {
+    bool isWider = false;
+    const QAbstractItemModel& rows = *model();
+    for (int column = 0; column < columns(); ++column) {
+        if (isSectionHidden(column) || column == openColumn() || isElastic(column) || !isOfFigures(column)) {
+            continue;
+        }
+        QString& sample = m_samples[static_cast<std::size_t>(column)];
+        for (int row = 0; row < rows.rowCount(); ++row) {
+            const QString text = rows.data(rows.index(row, column), Qt::DisplayRole).toString();
+            if (text.size() > sample.size() && textWidth(text) > sampleWidth(column)) {
+                sample = text;
+                isWider = true;
+            }
+        }
+    }
+    if (isWider) {
+        measure();
+    }
+}
+
 void FittingHeader::wishOpenFor(const QString& text) {
     m_wishedOpen = text;
     fit();
@@ -144,6 +165,14 @@ bool FittingHeader::isWanted(int column) const {
     return column == kept || (isUsual && !m_useless.contains(column));
 }
 
+bool FittingHeader::isElastic(int column) const {
+    return std::ranges::find(m_elastic, column, &Elastic::column) != m_elastic.end();
+}
+
+bool FittingHeader::isOfFigures(int column) const {
+    return model()->headerData(column, Qt::Horizontal, Qt::TextAlignmentRole).isValid();
+}
+
 void FittingHeader::measure() {
     if (model() == nullptr || m_isFitting) {
         return; // sections that change their size ask for this again
@@ -152,8 +181,7 @@ void FittingHeader::measure() {
         const QScopedValueRollback guard(m_isFitting, true);
         for (int column = 0; column < columns(); ++column) {
             // What fit() sizes is not sized twice: scroll bars would come and go, and begin all over.
-            const bool isElastic = std::ranges::find(m_elastic, column, &Elastic::column) != m_elastic.end();
-            if (column != openColumn() && !isElastic) {
+            if (column != openColumn() && !isElastic(column)) {
                 resizeSection(column, sampleWidth(column));
             }
         }
@@ -224,9 +252,8 @@ int FittingHeader::titlesEnd() const {
         return 0;
     }
     const int left = sectionViewportPosition(last);
-    const bool isAtRight = model()->headerData(last, Qt::Horizontal, Qt::TextAlignmentRole).isValid();
     const QString title = model()->headerData(last, Qt::Horizontal, Qt::DisplayRole).toString();
-    return isAtRight
+    return isOfFigures(last)
                ? left + sectionSize(last)
                : left + std::min(sectionSize(last), fontMetrics().horizontalAdvance(title) + kTitleSpace);
 }

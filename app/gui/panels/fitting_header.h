@@ -31,6 +31,9 @@ public:
     void keepOpenFor(const QString& text);
     /// Makes the column that takes the room left as wide as `text` needs before elastic ones get wider.
     void wishOpenFor(const QString& text);
+    /// Makes columns of figures, but elastic ones, as wide as what stands in the first level of rows, where
+    /// they are not: a figure that is cut would be another one. Once there, the width stays.
+    void keepFigures();
     /// Columns that say nothing are left out altogether.
     void setUseful(int column, bool isUseful);
     /// Where not all columns fit, these give way to the one that takes the room left, the first one first.
@@ -81,6 +84,8 @@ private:
     [[nodiscard]] int columns() const { return static_cast<int>(m_samples.size()); }
     [[nodiscard]] int openColumn() const;
     [[nodiscard]] bool isWanted(int column) const;
+    [[nodiscard]] bool isElastic(int column) const;
+    [[nodiscard]] bool isOfFigures(int column) const;
     [[nodiscard]] int textWidth(const QString& text) const;
     [[nodiscard]] int sampleWidth(int column) const;
     /// Of one that gets narrower soon, when it has.

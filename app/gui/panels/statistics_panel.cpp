@@ -91,6 +91,7 @@ void StatisticsPanel::refresh() {
     m_range->refresh();
     m_filterToRange->setEnabled(m_view.range().has_value());
     m_streams.refresh();
+    m_table->columns().keepFigures();
     foldEnded();
     m_computer.refresh();
 }

@@ -66,6 +66,22 @@ TEST_F(FittingHeaderTest, MakesNamesNarrowerBeforeItCutsTheVerdict) {
     EXPECT_FALSE(scrolls());
 }
 
+TEST_F(FittingHeaderTest, NeverCutsAFigure) {
+    m_model.setHeaderData(kRate, Qt::Horizontal, QVariant(Qt::AlignRight), Qt::TextAlignmentRole);
+    m_model.appendRow({new QStandardItem("Name"), new QStandardItem("good"), new QStandardItem("60.0"),
+                       new QStandardItem("0.1")});
+    makeWide(800);
+    const int usual = m_table.columnWidth(kRate);
+    m_table.columns().keepFigures();
+    EXPECT_EQ(m_table.columnWidth(kRate), usual);
+    m_model.item(0, kRate)->setText("10 062 457.0");
+    m_table.columns().keepFigures();
+    EXPECT_GE(m_table.columnWidth(kRate), widthOf("10 062 457.0"));
+    m_model.item(0, kRate)->setText("1.0");
+    m_table.columns().keepFigures();
+    EXPECT_GE(m_table.columnWidth(kRate), widthOf("10 062 457.0")) << "nothing jumps";
+}
+
 TEST_F(FittingHeaderTest, MakesTheVerdictWiderBeforeNamesWhereThatIsWished) {
     const char* words = "10.0 % lost, network, since 10:42:17";
     const int room = widthOf(words) - widthOf(kVerdictSample);
