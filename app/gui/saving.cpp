@@ -44,16 +44,19 @@ log::OutputRules replacing() {
     return {.mayReplace = true, .inUse = filesInUse()};
 }
 
-QString withSuffix(const QString& path, const QString& filter) {
-    static const QRegularExpression pattern(QStringLiteral("\\*(\\.\\w+)\\)"));
-    const QString suffix = pattern.match(filter).captured(1);
-    return path.isEmpty() || !QFileInfo(path).suffix().isEmpty() ? path : path + suffix;
+QString withSuffix(const QString& path, const QString& filter, const QString& filters) {
+    static const QRegularExpression pattern(QStringLiteral("\\*(\\.\\w+)"));
+    bool isOne = path.isEmpty();
+    for (const QRegularExpressionMatch& known : pattern.globalMatch(filters)) {
+        isOne = isOne || path.endsWith(known.captured(1), Qt::CaseInsensitive);
+    }
+    return isOne ? path : path + pattern.match(filter.isEmpty() ? filters : filter).captured(1);
 }
 
 QString askWhereToSave(QWidget* parent, const QString& title, const QString& name, const QString& filters) {
     QString filter;
     const QString chosen = QFileDialog::getSaveFileName(parent, title, name, filters, &filter);
-    const QString path = withSuffix(chosen, filter.isEmpty() ? filters : filter);
+    const QString path = withSuffix(chosen, filter, filters);
     const bool isOther = path != chosen && QFileInfo::exists(path); // the dialog has not asked about that
     return isOther && !wantsToReplace(parent, title, path) ? QString() : path;
 }

@@ -21,16 +21,17 @@ class QWidget;
 namespace posewire::gui {
 
 /// Asks where to save, and before a file is replaced. `name` is proposed, without anything in it that leads
-/// to another folder. A path without a suffix gets that of the chosen filter; where there is such a file that
-/// is asked about too. Empty where it was cancelled.
+/// to another folder. A path without a suffix of the filters gets that of the chosen one; where there is such
+/// a file that is asked about too. Empty where it was cancelled.
 [[nodiscard]] QString askWhereToSave(QWidget* parent, const QString& title, const QString& name,
                                      const QString& filters);
 /// Asks whether a file that is there is to be replaced.
 [[nodiscard]] bool wantsToReplace(QWidget* parent, const QString& title, const QString& path);
 /// For what the operator was asked about: files may be replaced, but none that is open as an input.
 [[nodiscard]] log::OutputRules replacing();
-/// The path with the suffix of a filter such as "JSON (*.json)", where it has none of its own.
-[[nodiscard]] QString withSuffix(const QString& path, const QString& filter);
+/// The path with the suffix of `filter`, such as "JSON (*.json)", or of the first of `filters` where it is
+/// empty; unless it has one of `filters` already. So the suffix always says what is in the file.
+[[nodiscard]] QString withSuffix(const QString& path, const QString& filter, const QString& filters);
 
 /// Writes a file whole or not at all: what was there stays until all is written. For a path that the operator
 /// chose in askWhereToSave(), or that is the program's own. Returns what went wrong as a sentence for the

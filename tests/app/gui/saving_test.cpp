@@ -59,11 +59,15 @@ TEST_F(SavingTest, WritesOverAFileAgainOnceNobodyHasItOpen) {
     EXPECT_EQ(content("take.pcapng"), "new");
 }
 
-TEST(Suffix, IsThatOfTheFilterWhereThereIsNone) {
-    EXPECT_EQ(withSuffix("events", "JSON (*.json)"), "events.json");
-    EXPECT_EQ(withSuffix("events", "CSV (*.csv);;JSON (*.json)"), "events.csv");
-    EXPECT_EQ(withSuffix("events.txt", "JSON (*.json)"), "events.txt");
-    EXPECT_EQ(withSuffix("", "JSON (*.json)"), "");
+TEST(Suffix, SaysWhatIsInTheFile) {
+    const QString filters = "CSV (*.csv);;JSON (*.json);;Pictures (*.png *.jpg)";
+    EXPECT_EQ(withSuffix("events", "JSON (*.json)", filters), "events.json");
+    EXPECT_EQ(withSuffix("events", "", filters), "events.csv");
+    EXPECT_EQ(withSuffix("take 1.5", "JSON (*.json)", filters), "take 1.5.json");
+    EXPECT_EQ(withSuffix("events.html", "JSON (*.json)", filters), "events.html.json") << "it is no HTML";
+    EXPECT_EQ(withSuffix("events.CSV", "JSON (*.json)", filters), "events.CSV") << "as somebody typed it";
+    EXPECT_EQ(withSuffix("picture.jpg", "CSV (*.csv)", filters), "picture.jpg");
+    EXPECT_EQ(withSuffix("", "JSON (*.json)", filters), "");
 }
 
 TEST_F(SavingTest, ReadsNothingThatHasNoEnd) {
