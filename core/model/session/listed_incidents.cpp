@@ -207,10 +207,18 @@ std::string conflictHeadline(const SessionView& session, const Incident& inciden
            session.addressOf(incident.sender).shown() + " and also " + incident.detail;
 }
 
+/// Until when there is something to know: a recording knows nothing of the time after its last packet.
+log::Stamp knownUntil(const SessionView& session) {
+    const auto newest =
+        session.isRecording() && session.end() != 0 ? session.packet(session.end() - 1) : std::nullopt;
+    return newest ? newest->stamp : session.now();
+}
+
 /// Of an outage: "no data for 1.2 s".
 std::string silenceOf(const SessionView& session, const ListedIncident& listed) {
-    const log::Stamp end = listed.state == State::Over ? listed.incident.lastStamp
-                                                       : std::max(session.now(), listed.incident.lastStamp);
+    const log::Stamp end = listed.state == State::Over
+                               ? listed.incident.lastStamp
+                               : std::max(knownUntil(session), listed.incident.lastStamp);
     const double seconds = log::secondsOf(end - listed.incident.firstStamp);
     return "no data for " + fixedText(seconds, seconds < 10 ? 1 : 0) + " s";
 }

@@ -105,6 +105,19 @@ TEST_F(ConditionTest, OfARecordingIsThatOfAllOfIt) {
         << m_session.verdict(key()).brief;
 }
 
+TEST_F(ConditionTest, OfARecordingCountsSilenceToItsEndWheneverItIsRead) {
+    poses(1, 300);
+    m_at += 2s;
+    wire::Datagram other{{}, standingAt(0), {}};
+    other.header.character = 1;
+    wire::completeHeader(other, wire::HeaderEra::Counted);
+    sendBytes(*wire::encode(other), m_at);
+    while (m_session.followFile(m_at + 10'000h)) {
+    }
+    m_session.endFile();
+    EXPECT_EQ(m_session.verdict(key()).brief, "no data for 2.0 s");
+}
+
 TEST_F(ConditionTest, FindsAContradictionAtTheSamePacketHoweverMuchIsFollowedAtOnce) {
     poses(1, 100);
     poses(101, 100, wire::HeaderEra::Reserved);
