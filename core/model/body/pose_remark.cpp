@@ -4,6 +4,7 @@
 #include "core/model/text.h"
 
 #include <algorithm>
+#include <array>
 
 namespace posewire::model {
 namespace {
@@ -66,8 +67,49 @@ void addMissing(const CharacterPose& pose, PoseRemark& remark) {
     remark.brief = remark.isAssumed ? "partly assumed" : !solved.empty() ? "partly solved" : "";
 }
 
+/// How long arms and legs are between the joints that were sent, against the body: the median of their bones,
+/// since joints open; 1 where most are not known.
+double limbScale(const CharacterPose& pose, const BodyOrigins& body) {
+    using namespace segment;
+    constexpr std::array kEnds{kRightForeArm,  kRightHand, kLeftForeArm,  kLeftHand,
+                               kRightLowerLeg, kRightFoot, kLeftLowerLeg, kLeftFoot};
+    const auto isSent = [&pose](std::size_t i) {
+        return i < pose.sources.size() && pose.sources[i].position == Provenance::Sent;
+    };
+    std::vector<double> scales;
+    for (const auto end : kEnds) {
+        const auto to = static_cast<std::size_t>(end);
+        const std::size_t from = parentOf(to);
+        const double length = (body.places[to] - body.places[from]).norm();
+        if (isSent(from) && isSent(to) && length > 0) {
+            scales.push_back((pose.segments[to].position - pose.segments[from].position).norm() / length);
+        }
+    }
+    if (2 * scales.size() <= kEnds.size()) {
+        return 1;
+    }
+    const auto middle = scales.begin() + static_cast<std::ptrdiff_t>(scales.size() / 2);
+    std::ranges::nth_element(scales, middle);
+    return *middle;
+}
+
+/// A scale message that was lost or mixed up: the skin hangs on bones that the joints contradict.
+void addContradiction(const CharacterPose& pose, const BodyOrigins& body, PoseRemark& remark) {
+    constexpr double kAnother = 1.08; // joints open by 1 %
+    const double scale = limbScale(pose, body);
+    if (scale > 1 / kAnother && scale < kAnother) {
+        return;
+    }
+    remark.lines.push_back("The scale message is of another body: its arms and legs are " +
+                           std::string(scale < 1 ? "longer" : "shorter") + " than in the poses");
+    remark.reason = remark.isAssumed ? remark.reason : remark.lines.back();
+    remark.isAssumed = true;
+    remark.brief = "wrong scale";
+}
+
 void addBody(const CharacterPose& pose, const BodyOrigins& body, PoseRemark& remark) {
     if (body.source == BodySource::NullPose) {
+        addContradiction(pose, body, remark);
         return;
     }
     const bool isMeasured = body.source == BodySource::Poses;

@@ -10,7 +10,8 @@ namespace posewire::model {
 
 /// What is to be said of a pose that was not sent as it is shown: the one place for these words.
 struct PoseRemark {
-    /// Something of it rests on nothing that was sent: it is not to be called good.
+    /// Something of it rests on nothing that was sent, or on a scale message that contradicts it: it is not
+    /// to be called good.
     bool isAssumed = false;
     std::string reason; ///< why it is assumed: one of the lines
     std::string brief;  ///< "assumed", "solved", "2 objects"; empty where there is nothing to say

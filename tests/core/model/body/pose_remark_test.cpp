@@ -91,6 +91,35 @@ TEST(PoseRemarks, TellWhoseBodyIsDrawn) {
     EXPECT_FALSE(remarkOn(standingFrom({5}), body).isAssumed);
 }
 
+TEST(PoseRemarks, DoubtAScaleMessageThatThePosesContradict) {
+    BodyOrigins body = scaled();
+    for (const double scale : {0.95, 1.0, 1.05}) { // joints are open
+        body.places = referenceOrigins();
+        for (Eigen::Vector3d& place : body.places) {
+            place *= scale;
+        }
+        EXPECT_TRUE(remarkOn(standingFrom({2}), body).isEmpty()) << scale;
+    }
+    for (Eigen::Vector3d& place : body.places) {
+        place *= 1.6;
+    }
+    for (const std::vector<std::uint8_t>& types : {std::vector<std::uint8_t>{2}, {1}, {21}, {21, 22}}) {
+        const PoseRemark remark = remarkOn(standingFrom(types), body);
+        EXPECT_TRUE(remark.isAssumed);
+        EXPECT_EQ(remark.lines.back(),
+                  "The scale message is of another body: its arms and legs are longer than in the poses");
+        EXPECT_EQ(remark.brief, "wrong scale");
+    }
+    CharacterPose solved = standingFrom({22});
+    for (SegmentSource& source : solved.sources) {
+        source.position = Provenance::Solved;
+    }
+    EXPECT_EQ(remarkOn(solved, body).brief, "partly solved") << "its joints stand on these bones";
+    CharacterPose one = standingFrom({2});
+    one.segments[segment::kLeftHand].position.x() += 1; // a joint that jumps
+    EXPECT_TRUE(remarkOn(one, scaled()).isEmpty());
+}
+
 TEST(PoseRemarks, TellOfABodyBelowTheFloor) {
     CharacterPose pose = standingFrom({2});
     EXPECT_FALSE(isBelowFloor(pose));
