@@ -5,7 +5,9 @@
 #include "render/picking.h"
 
 #include <QLineF>
+#include <QPolygonF>
 
+#include <algorithm>
 #include <limits>
 
 namespace posewire::gui {
@@ -61,6 +63,28 @@ std::optional<PickedSegment> pickIn(const SceneFrame& frame, const model::Sessio
     const auto pick =
         render::pickSegment(frame.camera.rayThrough(screenPoint(pointer, view), aspect), targets);
     return pick ? std::optional(PickedSegment{frame.figures[pick->id].key, pick->segment}) : std::nullopt;
+}
+
+QRectF roomOf(const SceneFrame& frame, const model::CharacterKey& key, const QSizeF& view) {
+    const auto figure = std::ranges::find(frame.figures, key, &Figure::key);
+    if (figure == frame.figures.end() || figure->bounds.isEmpty()) {
+        return {};
+    }
+    const auto aspect = static_cast<float>(view.width() / view.height());
+    QPolygonF corners;
+    for (unsigned corner = 0; corner < 8; ++corner) {
+        glm::vec3 place = figure->bounds.min;
+        for (int axis = 0; axis < 3; ++axis) {
+            place[axis] =
+                (corner >> static_cast<unsigned>(axis) & 1U) != 0 ? figure->bounds.max[axis] : place[axis];
+        }
+        const auto screen = frame.camera.project(place, aspect);
+        if (!screen) {
+            return {};
+        }
+        corners << pointerAt(*screen, view);
+    }
+    return corners.boundingRect() & QRectF(QPointF(), view);
 }
 
 } // namespace posewire::gui

@@ -4,6 +4,7 @@
 #include "app/gui/viewport/scene.h"
 
 #include <QPointF>
+#include <QRectF>
 #include <QSizeF>
 
 #include <optional>
@@ -21,5 +22,9 @@ struct PickedSegment {
 /// origin is near, else the nearest segment of a body.
 [[nodiscard]] std::optional<PickedSegment> pickIn(const SceneFrame& frame, const model::SessionView& session,
                                                   const QPointF& pointer, const QSizeF& view);
+
+/// The rectangle that a figure takes in a picture of that size; empty where it is not in it, or partly behind
+/// the eye.
+[[nodiscard]] QRectF roomOf(const SceneFrame& frame, const model::CharacterKey& key, const QSizeF& view);
 
 } // namespace posewire::gui

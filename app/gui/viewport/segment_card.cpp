@@ -97,18 +97,35 @@ QSizeF SegmentCard::wantedSize() const {
             std::ceil(rows * rowHeight(metrics) + source.height() + 2 * kMargin)};
 }
 
+QRect SegmentCard::cornerFor(const QSize& size, bool isLeft) const {
+    const QRect room = parentWidget()->rect().adjusted(kEdge, kEdge, -kEdge, -kEdge);
+    QRect card(QPoint(), size);
+    card.moveBottomRight(room.bottomRight());
+    if (isLeft) {
+        card.moveLeft(room.left());
+    }
+    if (m_banner.isVisible() && m_banner.geometry().intersects(card)) {
+        card.moveBottom(m_banner.y() - kEdge);
+    }
+    return card;
+}
+
 void SegmentCard::place() {
     if (!m_facts) {
+        m_isLeft = false;
         hide();
         return;
     }
     constexpr double kMost = 0.6;
+    constexpr double kBetter = 0.5; // of what it covers: a figure that moves does not make it jump
+    const QSize size = wantedSize().toSize();
     const QRect room = parentWidget()->rect().adjusted(kEdge, kEdge, -kEdge, -kEdge);
-    QRect card(QPoint(), wantedSize().toSize());
-    card.moveBottomRight(room.bottomRight());
-    if (m_banner.isVisible() && m_banner.geometry().intersects(card)) {
-        card.moveBottom(m_banner.y() - kEdge);
-    }
+    const auto covered = [&](bool isLeft) {
+        const QRectF common = QRectF(cornerFor(size, isLeft)) & m_seen;
+        return common.width() * common.height();
+    };
+    m_isLeft = covered(!m_isLeft) < kBetter * covered(m_isLeft) ? !m_isLeft : m_isLeft;
+    const QRect card = cornerFor(size, m_isLeft);
     setGeometry(card);
     setVisible(card.width() <= kMost * room.width() && card.height() <= kMost * room.height());
 }

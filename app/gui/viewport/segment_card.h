@@ -3,6 +3,7 @@
 
 #include "app/gui/viewport/segment_facts.h"
 
+#include <QRectF>
 #include <QWidget>
 
 #include <optional>
@@ -20,7 +21,10 @@ public:
     /// Nothing hides it.
     void setFacts(std::optional<SegmentFacts> facts);
     [[nodiscard]] const std::optional<SegmentFacts>& facts() const { return m_facts; }
-    /// At the lower right, where mostly floor is; it is not shown where it would cover most of the viewport.
+    /// Where what it tells of is seen, in the viewport: it goes to the other side where it would lie on that.
+    void keepClearOf(const QRectF& seen) { m_seen = seen; }
+    /// At the lower right, where mostly floor is, or at the lower left; it is not shown where it would cover
+    /// most of the viewport.
     void place();
 
 protected:
@@ -38,9 +42,13 @@ private:
     [[nodiscard]] Columns columns() const;
     [[nodiscard]] QSizeF wantedSize() const;
     void paintFacts(QPainter& painter, qreal top) const;
+    /// At the lower edge, above the banner where that is in the way.
+    [[nodiscard]] QRect cornerFor(const QSize& size, bool isLeft) const;
 
     const QWidget& m_banner;
     std::optional<SegmentFacts> m_facts;
+    QRectF m_seen;
+    bool m_isLeft = false;
 };
 
 } // namespace posewire::gui

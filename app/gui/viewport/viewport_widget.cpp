@@ -219,6 +219,10 @@ void ViewportWidget::updateCard() {
     const bool isWanted = m_hasCard && about && !m_session->isHidden(about->key);
     const model::CharacterPose* pose = isWanted ? m_session->pose(about->key) : nullptr;
     const bool isThere = pose != nullptr && pose->isPresent(static_cast<std::size_t>(about->segment));
+    if (isThere && m_shown != nullptr) {
+        const QRect pane = m_look.panes.place(m_look.panes.active(), size());
+        m_card->keepClearOf(roomOf(*m_shown, about->key, pane.size()).translated(pane.topLeft()));
+    }
     m_card->setFacts(isThere ? std::optional(segmentFacts({*m_session, about->key, *pose}, about->segment))
                              : std::nullopt);
 }

@@ -110,6 +110,27 @@ TEST_F(SegmentFactsTest, AreSpokenByTheCard) {
     EXPECT_TRUE(card.isHidden());
 }
 
+TEST_F(SegmentFactsTest, StandAsideOfTheBodyThatTheyAreAbout) {
+    perform({2, 13});
+    QWidget viewport;
+    viewport.resize(900, 700);
+    QWidget banner(&viewport);
+    banner.hide();
+    SegmentCard card(&viewport, banner);
+    card.keepClearOf({100, 100, 100, 580});
+    card.setFacts(facts(model::segment::kHead));
+    EXPECT_GT(card.x(), 450) << "at the right, where mostly floor is";
+    card.keepClearOf({650, 100, 150, 580});
+    card.place();
+    EXPECT_LT(card.geometry().right(), 450);
+    card.keepClearOf({}); // nowhere near
+    card.place();
+    EXPECT_LT(card.geometry().right(), 450) << "it does not jump about";
+    card.keepClearOf({100, 100, 150, 580});
+    card.place();
+    EXPECT_GT(card.x(), 450);
+}
+
 TEST_F(SegmentFactsTest, ATrackedObjectIsPickedByItsOrigin) {
     wire::PoseQuaternion objects;
     objects.segments = {{1, {0.5F, 0, 1}, {1, 0, 0, 0}}, {2, {-0.5F, 0, 1}, {1, 0, 0, 0}}};
