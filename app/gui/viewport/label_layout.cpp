@@ -40,6 +40,14 @@ qreal distanceTo(const QRectF& plate, const QPointF& point) {
     return std::hypot(x, y);
 }
 
+/// From what a plate belongs to: the point above a head, or the head, which is large where the eye is near.
+qreal awayFrom(const LabelPlace& place, const QRectF& plate) {
+    const QRectF& head = place.head;
+    const qreal x = std::max({plate.left() - head.right(), head.left() - plate.right(), 0.0});
+    const qreal y = std::max({plate.top() - head.bottom(), head.top() - plate.bottom(), 0.0});
+    return std::min(distanceTo(plate, place.anchor), std::hypot(x, y));
+}
+
 QRectF plateAt(const LabelPlace& place, const QSizeF& size, const QPointF& offset, const QRectF& view) {
     const QPointF middle = place.anchor + offset;
     QRectF plate(std::round(middle.x() - size.width() / 2), std::round(middle.y() - size.height()),
@@ -63,7 +71,7 @@ std::vector<Candidate> candidatesOf(const LabelPlace& place, const QSizeF& size,
     std::vector<Candidate> all;
     const auto add = [&](const QPointF& offset) {
         const QRectF plate = plateAt(place, size, offset, view);
-        if (distanceTo(plate, place.anchor) <= most * size.height()) {
+        if (awayFrom(place, plate) <= most * size.height()) {
             all.push_back({plate, offset, costOf(place, plate)});
         }
     };
@@ -101,7 +109,8 @@ public:
                 }
             }
         }
-        const bool isBehind = isOnHead(QRectF(own.anchor - QPointF(4, 4), QSizeF(8, 8)), which, true);
+        const QRectF mark(own.anchor - QPointF(4, 4), QSizeF(8, 8));
+        const bool isBehind = isOnHead(mark, which, true) || isTaken(mark);
         return {QRectF(own.anchor, QSizeF()), isBehind ? LabelForm::None : LabelForm::Mark, {}};
     }
 
@@ -144,8 +153,10 @@ private:
     /// Whether it lies on nothing that it must not lie on.
     [[nodiscard]] bool isFree(const QRectF& plate, std::size_t which, qreal spare) const {
         const QRectF wide = plate.adjusted(-kApart - spare, -kApart, kApart + spare, kApart);
-        return std::ranges::none_of(m_taken, [&](const QRectF& other) { return other.intersects(wide); }) &&
-               !m_places[which].head.intersects(plate) && !isOnHead(plate, which, true);
+        return !isTaken(wide) && !m_places[which].head.intersects(plate) && !isOnHead(plate, which, true);
+    }
+    [[nodiscard]] bool isTaken(const QRectF& room) const {
+        return std::ranges::any_of(m_taken, [&](const QRectF& other) { return other.intersects(room); });
     }
     /// On the head of somebody else; `isNearer`: only of somebody as near or nearer.
     [[nodiscard]] bool isOnHead(const QRectF& plate, std::size_t which, bool isNearer) const {

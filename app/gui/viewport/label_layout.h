@@ -19,7 +19,7 @@ enum class LabelForm : std::uint8_t {
     Whole, ///< name and state
     Brief, ///< initials, and the symbol of the state
     Mark,  ///< the mark alone, above the head
-    None,  ///< nothing: the head is out of sight, or behind a nearer one
+    None,  ///< nothing: the head is out of sight, behind a nearer one or under a label or button
 };
 
 struct PlacedLabel {

@@ -156,6 +156,22 @@ TEST(LabelLayout, IsNotThereWhereTheHeadIsOutOfSight) {
     EXPECT_EQ(placeLabels(std::vector{labelAt(-5, 200, 5)}, kViewport, {})[0].form, LabelForm::None);
 }
 
+TEST(LabelLayout, StandsBesideAHeadThatReachesUpToTheButtons) {
+    const QRectF buttons(0, 0, 640, 50);
+    LabelPlace close = labelAt(320, 45, 0.3);
+    close.head = QRectF(230, 60, 180, 240);
+    const auto placed = placeLabels(std::vector{close}, kViewport, {buttons});
+    EXPECT_EQ(placed[0].form, LabelForm::Whole);
+    EXPECT_FALSE(placed[0].plate.intersects(close.head));
+    EXPECT_FALSE(placed[0].plate.intersects(buttons));
+}
+
+TEST(LabelLayout, HasNoMarkUnderAButton) {
+    const QRectF everything(0, 0, 640, 390);
+    EXPECT_EQ(placeLabels(std::vector{labelAt(300, 200, 5)}, kViewport, {everything})[0].form,
+              LabelForm::None);
+}
+
 TEST(LabelLayout, InitialsTellNamesApart) {
     EXPECT_EQ(initialsOf("Mira Lindqvist"), "ML");
     EXPECT_EQ(initialsOf("Mira Lindqvist 2"), "ML2");
