@@ -49,7 +49,7 @@ Body::Body() {
     m_parts.push_back(makePart(0.030, &kLeg, kLegBlends));
     m_parts.push_back(makePart(0.035, &kFoot, kFootBlends));
     m_parts.back().hasSole = true;
-    m_parts.push_back(makePart(0.006, &kSole, {}));
+    m_parts.push_back(makePart(0.016, &kSole, {}));
     m_parts.back().hasSole = true;
 }
 

@@ -104,9 +104,9 @@ inline constexpr std::array<LoftStation, 12> kFootStations{{
     {0.100, 0.0825, 0.0310, 0.0425, 0.0310},
     {0.140, 0.0825, 0.0255, 0.0465, 0.0255},
     {0.170, 0.0815, 0.0215, 0.0445, 0.0215},
-    {0.192, 0.0795, 0.0185, 0.0370, 0.0180},
-    {0.207, 0.0775, 0.0160, 0.0250, 0.0130},
-    {0.215, 0.0760, 0.0150, 0.0100, 0.0060},
+    {0.192, 0.0795, 0.0205, 0.0370, 0.0205},
+    {0.207, 0.0775, 0.0195, 0.0270, 0.0185},
+    {0.216, 0.0760, 0.0185, 0.0130, 0.0120},
 }};
 
 // place x, then centre y and z, radius y and z; a slab as wide as the shoe and a little more
@@ -119,8 +119,8 @@ inline constexpr std::array<LoftStation, 10> kSoleStations{{
     {0.100, 0.0825, 0.0100, 0.0445, 0.0120},
     {0.145, 0.0825, 0.0105, 0.0475, 0.0115},
     {0.180, 0.0810, 0.0115, 0.0430, 0.0110},
-    {0.206, 0.0780, 0.0125, 0.0290, 0.0105},
-    {0.219, 0.0760, 0.0130, 0.0120, 0.0090},
+    {0.206, 0.0780, 0.0130, 0.0310, 0.0115},
+    {0.218, 0.0760, 0.0145, 0.0150, 0.0110},
 }};
 
 // place z, then centre x and y, radius x and y: a standing collar, wide where it sinks into the shoulders
@@ -136,7 +136,7 @@ inline constexpr LoftShape kLeg{Axis::Z, kLegStations, 2.0, 0.020};
 inline constexpr LoftShape kArm{Axis::Y, kArmStations, 2.0, 0.012};
 inline constexpr LoftShape kPalm{Axis::Y, kPalmStations, 2.5, 0.008};
 inline constexpr LoftShape kFoot{Axis::X, kFootStations, 2.2, 0.004};
-inline constexpr LoftShape kSole{Axis::X, kSoleStations, 4.0, 0.004};
+inline constexpr LoftShape kSole{Axis::X, kSoleStations, 2.6, 0.010};
 inline constexpr LoftShape kCollar{Axis::Z, kCollarStations, 2.0, 0.002};
 
 inline constexpr std::array<Blend, 7> kTrunkBlends{{

@@ -17,6 +17,10 @@ double headScale(double z) {
 double footScale(double z) {
     return 1.0 - 0.25 * (1.0 - smoothstep(0.06, 0.16, z));
 }
+/// Shoes end in tight curves: cells are finer there along and across, too.
+double shoeScale(double z) {
+    return 1.0 - 0.18 * (1.0 - smoothstep(0.05, 0.14, z));
+}
 
 /// Cells at the mirror plane must be narrower than the gap between the thighs.
 constexpr double kWidestMiddleCell = 0.008;
@@ -25,6 +29,20 @@ constexpr double kMiddleWidth = 0.10;
 double middleScale(double y, double step) {
     const double narrowest = std::min(1.0, kWidestMiddleCell / step);
     return narrowest + (1.0 - narrowest) * smoothstep(0.0, kMiddleWidth, y);
+}
+
+/// Cells below this, which hold the edge of the sole, are half as high.
+constexpr double kSoleCells = 0.045;
+
+std::vector<double> halvedAtTheSole(const std::vector<double>& places) {
+    std::vector<double> halved{places.front()};
+    for (std::size_t i = 1; i < places.size(); ++i) {
+        if (places[i] < kSoleCells) {
+            halved.push_back((places[i - 1] + places[i]) / 2.0);
+        }
+        halved.push_back(places[i]);
+    }
+    return halved;
 }
 
 template <typename Scale>
@@ -38,12 +56,12 @@ std::vector<double> ticks(double from, double to, double step, Scale scale) {
 
 } // namespace
 
-// The head contracts x to half: without the generous range in x the skull would stick out of the grid.
-Lattice::Lattice(double step) : m_x(ticks(-0.26, 0.30, step, [](double) { return 1.0; })) {
+// Head and shoes contract x: without the generous range in x they would stick out of the grid.
+Lattice::Lattice(double step) : m_x(ticks(-0.26, 0.33, step, [](double) { return 1.0; })) {
     const double middle = std::min(step, kWidestMiddleCell) / 2.0;
     m_y = ticks(middle, 0.90, step, [&](double y) { return handScale(y) * middleScale(y, step); });
     m_y.insert(m_y.begin(), -middle);
-    m_z = ticks(-0.03, 1.77, step, [](double z) { return headScale(z) * footScale(z); });
+    m_z = halvedAtTheSole(ticks(-0.03, 1.77, step, [](double z) { return headScale(z) * footScale(z); }));
 }
 
 glm::dvec3 Lattice::node(std::size_t i, std::size_t j, std::size_t k) const {
@@ -52,7 +70,8 @@ glm::dvec3 Lattice::node(std::size_t i, std::size_t j, std::size_t k) const {
     const double hand = handScale(std::abs(y));
     // The arms, as high as the neck, keep their width.
     const double head = headScale(z) + (1.0 - headScale(z)) * smoothstep(0.16, 0.40, std::abs(y));
-    return {m_x[i] * hand * head, y * head, kShoulderHeight + (z - kShoulderHeight) * hand};
+    const double shoe = shoeScale(z);
+    return {m_x[i] * hand * head * shoe, y * head * shoe, kShoulderHeight + (z - kShoulderHeight) * hand};
 }
 
 } // namespace posewire::render::mannequin

@@ -142,7 +142,7 @@ void showProvenance(inout Paint paint, vec2 solvedAndAssumed, float metresPerPix
     float solved = solvedAndAssumed.x;
     float assumed = solvedAndAssumed.y;
     vec3 plain = mix(colour * 0.86 + 0.10, kPlainCloth, 0.72);
-    paint.colour = mix(paint.colour, plain, 0.87 * solved);
+    paint.colour = mix(paint.colour, plain, 0.74 * solved);
     float plainness = max(solved, assumed);
     paint.gloss *= 1.0 - 0.9 * plainness;
     paint.mirror *= 1.0 - plainness;

@@ -200,6 +200,25 @@ TEST_P(MannequinTest, IsAPersonOf175CentimetresAndSome65Litres) {
     EXPECT_LT(volumeOf(m_mesh), 0.070);
 }
 
+TEST_P(MannequinTest, HasWholeShoesWithTheirSolesOnTheFloor) {
+    float toe = 0;
+    float heel = 0;
+    double sole = 0; // square metres, of both
+    for (std::size_t i = 0; i + 2 < m_mesh.indices.size(); i += 3) {
+        const glm::vec3& a = m_mesh.positions[m_mesh.indices[i]];
+        const glm::vec3& b = m_mesh.positions[m_mesh.indices[i + 1]];
+        const glm::vec3& c = m_mesh.positions[m_mesh.indices[i + 2]];
+        toe = std::max({toe, a.x, b.x, c.x});
+        heel = std::min(heel, a.z < 0.03F ? a.x : 0.0F);
+        const glm::vec3 face = 0.5F * glm::cross(b - a, c - a);
+        const bool isSole = std::max({a.z, b.z, c.z}) < 0.012F && face.z < -0.8F * glm::length(face);
+        sole += isSole ? static_cast<double>(-face.z) : 0.0;
+    }
+    EXPECT_NEAR(toe, 0.220F, 0.004F);
+    EXPECT_NEAR(heel, -0.069F, 0.004F);
+    EXPECT_GT(sole, 2 * 0.0150);
+}
+
 TEST_P(MannequinTest, HasItsSegmentsWhereTheReferenceNullPosePutsThem) {
     // Each vertex lies near the bone that moves it most: a wrong joint order would put it far away.
     for (std::size_t i = 0; i < m_mesh.vertexCount(); ++i) {
