@@ -8,6 +8,7 @@
 #include <QBuffer>
 #include <QCryptographicHash>
 #include <QFile>
+#include <QFileInfo>
 #include <QImageReader>
 
 #include <algorithm>
@@ -105,8 +106,9 @@ ReadCharacter readCharacterFile(const QString& path) {
     sum.addData(&file);
     auto imported = render::importCharacter(QFile::encodeName(path).toStdString());
     if (!imported) {
-        return tl::unexpected(tr("%1 is no character that can be used: %2")
-                                  .arg(path, shown(model::ForeignText(imported.error()))));
+        return tl::unexpected(
+            tr("%1 is no character that can be used: %2")
+                .arg(QFileInfo(path).fileName(), shown(model::ForeignText(imported.error()))));
     }
     auto read = std::make_shared<CharacterFile>();
     read->path = path;

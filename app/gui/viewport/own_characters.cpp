@@ -183,8 +183,9 @@ void OwnCharacters::finish(const QString& name, const ReadCharacter& file) {
             emit changed();
         } else {
             // What was chosen is kept: the file may be on a disk that is not there now.
-            emit failed(tr("The mannequin stands in for %1: %2")
-                            .arg(QFileInfo(kept->second["file"].toString()).fileName(), body.error()));
+            emit failed(file ? tr("The mannequin stands in for %1: %2")
+                                   .arg(QFileInfo(kept->second["file"].toString()).fileName(), body.error())
+                             : tr("The mannequin stays: %1").arg(body.error()));
         }
     }
     restoreNext();

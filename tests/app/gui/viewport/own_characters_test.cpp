@@ -128,6 +128,8 @@ TEST_F(OwnCharactersTest, AMissingFileLeavesTheMannequinAndIsSaidAndRemembered) 
     next.restoreState(state);
     ASSERT_TRUE(waitFor(next));
     ASSERT_EQ(failed.size(), 1);
+    EXPECT_TRUE(failed[0][0].toString().startsWith("The mannequin stays: "))
+        << failed[0][0].toString().toStdString();
     EXPECT_TRUE(failed[0][0].toString().contains("moved.glb"));
     EXPECT_EQ(next.wardrobe().of("Alice"), nullptr);
     EXPECT_EQ(next.state(), state) << "the disk may come back";
