@@ -23,6 +23,7 @@ namespace {
 
 constexpr qreal kRadius = 5;
 constexpr QLatin1String kButtons("viewportButtons");
+constexpr int kByButtons = 4; // pixels
 constexpr double kBackgroundOpacity = 0.9;
 
 void paintPlate(QPainter& painter, const QRectF& plate, const QColor& border, qreal radius,
@@ -254,7 +255,10 @@ std::vector<QRectF> ViewportOverlay::takenRoom() const {
         const bool isSmall = other->width() < width() || other->height() < height();
         const bool isOverlay = qobject_cast<const ViewportOverlay*>(other) != nullptr;
         if (!isOverlay && other->isVisible() && isSmall) {
-            taken.push_back(other->geometry().translated(-pos()));
+            const bool isRow = other->objectName() == kButtons; // with a margin of its own
+            const QRect room = isRow ? other->childrenRect().adjusted(-kByButtons, 0, kByButtons, kByButtons)
+                                     : other->rect();
+            taken.push_back(room.translated(other->pos() - pos()));
         }
     }
     return taken;

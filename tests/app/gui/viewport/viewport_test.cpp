@@ -319,5 +319,30 @@ TEST_F(Viewport, ButtonsWithoutRoomAreInAMenu) {
     }
 }
 
+TEST_F(Viewport, LabelsStandAboveHeadsRightBelowTheButtons) {
+    addViewportButtons(viewport);
+    auto* buttons = viewport.findChild<QWidget*>("viewportButtons");
+    ASSERT_NE(buttons, nullptr);
+    buttons->show();
+    QTest::qWait(1);
+    ViewportOverlay overlay(&viewport);
+    overlay.setGeometry(viewport.rect());
+    overlay.show();
+    ViewportLabel label;
+    label.name = QStringLiteral("Mira");
+    const int plate = overlay.fontMetrics().height() + 8;
+    const int below = buttons->y() + buttons->childrenRect().bottom();
+    label.anchor = QPointF(150, below + plate + 9);
+    label.head = QRectF(130, label.anchor.y() + 4, 40, 50);
+    label.depth = 4;
+    overlay.setLabels({label});
+    overlay.grab();
+    ASSERT_EQ(overlay.placed().size(), 1U);
+    const QRectF placed = overlay.placed().front().plate;
+    EXPECT_EQ(overlay.placed().front().form, LabelForm::Whole);
+    EXPECT_LE(placed.bottom(), label.head.top()) << "above it, not beside it";
+    EXPECT_GT(placed.top(), below);
+}
+
 } // namespace
 } // namespace posewire::gui
