@@ -10,6 +10,7 @@
 #include "app/gui/viewport/overlays/drawing.h"
 #include "app/gui/viewport/overlays/overlays.h"
 #include "core/model/body/null_pose_measures.h"
+#include "core/model/body/pose_remark.h"
 #include "core/model/body/reference_body.h"
 
 #include <algorithm>
@@ -176,15 +177,15 @@ float dimFor(double ageSeconds) {
 }
 
 std::shared_ptr<const FigureBody> SceneBuilder::fitOf(const model::SessionView& session,
-                                                      const model::CharacterKey& key) {
+                                                      const model::CharacterKey& key, double scale) {
     render::NullPose performer{};
     const model::BodyOrigins& origins = session.bodyOrigins(key);
     static_assert(std::tuple_size_v<decltype(origins.places)> == std::tuple_size_v<render::NullPose>);
     std::ranges::transform(origins.places, performer.begin(),
-                           [](const Eigen::Vector3d& origin) { return pointOf(origin); });
+                           [&](const Eigen::Vector3d& origin) { return pointOf(scale * origin); });
     const model::NullPose* nullPose = session.nullPose(key);
-    return nullPose == nullptr ? m_bodies.of(performer)
-                               : m_bodies.of(performer, fingerOriginsOf(*nullPose, origins));
+    return nullPose == nullptr || scale != 1 ? m_bodies.of(performer)
+                                             : m_bodies.of(performer, fingerOriginsOf(*nullPose, origins));
 }
 
 bool SceneBuilder::isUnderWay() const {
@@ -266,7 +267,7 @@ Figure SceneBuilder::bodyOf(const model::SessionView& session, const model::Char
                             const model::CharacterPose& pose) {
     Figure figure;
     figure.key = key;
-    figure.body = fitOf(session, key);
+    figure.body = fitOf(session, key, model::scaleInPose(pose, session.bodyOrigins(key)));
     makePalette(pose, figure);
     const glm::vec3 head = figure.body->fit.origins[render::Head];
     figure.labelPosition =
@@ -330,7 +331,7 @@ void SceneBuilder::addObjects(const model::Character& character, const model::Ch
     }
 }
 
-void SceneBuilder::addGhost(const Figure& figure, const model::CharacterPose& pose, SceneFrame& frame) const {
+void SceneBuilder::addGhost(const Figure& figure, const model::CharacterPose& pose, SceneFrame& frame) {
     const model::NullPose* nullPose = m_session.nullPose(figure.key);
     if (nullPose == nullptr || !pose.isPresent(render::Pelvis)) {
         return;
@@ -341,7 +342,8 @@ void SceneBuilder::addGhost(const Figure& figure, const model::CharacterPose& po
     const glm::quat turn = glm::angleAxis(heading, glm::vec3(0, 0, 1));
     const glm::vec3 place(static_cast<float>(pelvis.position.x()), static_cast<float>(pelvis.position.y()),
                           0.0F);
-    const render::NullPose& origins = figure.body->fit.origins;
+    const std::shared_ptr<const FigureBody> body = fitOf(m_session, figure.key, 1); // as it was sent
+    const render::NullPose& origins = body->fit.origins;
     const glm::vec3 stand(origins[render::Pelvis].x, origins[render::Pelvis].y,
                           static_cast<float>(model::measure(*nullPose).floor));
     std::array<glm::vec3, render::kSegmentCount> positions{};
@@ -353,21 +355,16 @@ void SceneBuilder::addGhost(const Figure& figure, const model::CharacterPose& po
     PosedHands hands{{}, {}, true, true};
     hands.orientations.fill(turn);
     for (std::size_t i = 0; i < hands.positions.size(); ++i) {
-        hands.positions[i] = place + turn * (figure.body->fit.fingerOrigins[i] - stand);
+        hands.positions[i] = place + turn * (body->fit.fingerOrigins[i] - stand);
     }
     Figure ghost;
     ghost.key = figure.key;
-    ghost.body = figure.body;
+    ghost.body = body;
     ghost.look.colour = figure.look.colour;
     ghost.look.opacity = kGhostOpacity;
     ghost.look.selectedSegment = figure.look.selectedSegment;
-    const render::PaletteJob job{positions,
-                                 orientations,
-                                 origins,
-                                 ghost.palette,
-                                 hands.left(),
-                                 hands.right(),
-                                 figure.body->fit.fingerOrigins};
+    const render::PaletteJob job{positions,     orientations,           origins, ghost.palette, hands.left(),
+                                 hands.right(), body->fit.fingerOrigins};
     if (job.validate()) {
         job.run();
         frame.ghosts.push_back(std::move(ghost));

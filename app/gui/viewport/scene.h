@@ -149,8 +149,9 @@ public:
     [[nodiscard]] const OwnFigures& ownFigures() const { return m_ownFigures; }
 
 private:
+    /// To what is known of the performer, times `scale`.
     [[nodiscard]] std::shared_ptr<const FigureBody> fitOf(const model::SessionView& session,
-                                                          const model::CharacterKey& key);
+                                                          const model::CharacterKey& key, double scale);
     /// With body, palette and place, as yet without a look.
     [[nodiscard]] Figure bodyOf(const model::SessionView& session, const model::CharacterKey& key,
                                 const model::CharacterPose& pose);
@@ -159,7 +160,7 @@ private:
     void addFigure(const model::Character& character, const model::CharacterPose& pose, SceneFrame& frame);
     void addObjects(const model::Character& character, const model::CharacterPose& pose, SceneFrame& frame);
     /// On the floor under the live pelvis, turned as it is; nothing where no null pose was sent.
-    void addGhost(const Figure& figure, const model::CharacterPose& pose, SceneFrame& frame) const;
+    void addGhost(const Figure& figure, const model::CharacterPose& pose, SceneFrame& frame);
     /// The bodies of the second recording, and how far the segments of the compared one are apart.
     void addCompared(SceneFrame& frame);
     void addDifferences(const model::CharacterPose& first, const model::CharacterPose& second,

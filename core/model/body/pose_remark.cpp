@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace posewire::model {
 namespace {
@@ -95,13 +96,13 @@ double limbScale(const CharacterPose& pose, const BodyOrigins& body) {
 
 /// A scale message that was lost or mixed up: the skin hangs on bones that the joints contradict.
 void addContradiction(const CharacterPose& pose, const BodyOrigins& body, PoseRemark& remark) {
-    constexpr double kAnother = 1.08; // joints open by 1 %
-    const double scale = limbScale(pose, body);
-    if (scale > 1 / kAnother && scale < kAnother) {
+    const double scale = scaleInPose(pose, body);
+    if (scale == 1) {
         return;
     }
     remark.lines.push_back("The scale message is of another body: its arms and legs are " +
-                           std::string(scale < 1 ? "longer" : "shorter") + " than in the poses");
+                           std::string(scale < 1 ? "longer" : "shorter") +
+                           " than in the poses, in whose size it is drawn");
     remark.reason = remark.isAssumed ? remark.reason : remark.lines.back();
     remark.isAssumed = true;
     remark.brief = "wrong scale";
@@ -127,6 +128,13 @@ void addBody(const CharacterPose& pose, const BodyOrigins& body, PoseRemark& rem
 }
 
 } // namespace
+
+double scaleInPose(const CharacterPose& pose, const BodyOrigins& body) {
+    constexpr double kAnother = 1.08; // joints open by 1 %
+    constexpr double kSteps = 50;
+    const double scale = body.source == BodySource::NullPose ? limbScale(pose, body) : 1;
+    return scale > 1 / kAnother && scale < kAnother ? 1 : std::round(scale * kSteps) / kSteps;
+}
 
 bool isBelowFloor(const CharacterPose& pose) {
     constexpr double kDeep = -0.3;

@@ -24,6 +24,10 @@ struct PoseRemark {
 /// Whether a body reaches below the floor, as recordings without one do: there the pelvis is at z = 0.
 [[nodiscard]] bool isBelowFloor(const CharacterPose& pose);
 
+/// How large a body is between its joints that were sent, against `body`, in steps of 2 %; 1 where the joints
+/// are those of `body`, as they are unless the scale message is of somebody else.
+[[nodiscard]] double scaleInPose(const CharacterPose& pose, const BodyOrigins& body);
+
 [[nodiscard]] PoseRemark remarkOn(const CharacterPose& pose, const BodyOrigins& body);
 
 } // namespace posewire::model

@@ -237,6 +237,29 @@ TEST_F(SceneBuilderTest, TheMeshIsMadeOnceForANullPose) {
     EXPECT_EQ(build().figures[0].body, build().figures[0].body);
 }
 
+TEST_F(SceneBuilderTest, ABodyThatItsScaleMessageContradictsHasTheSizeOfItsPoses) {
+    perform(sending(1, {12, 13}));
+    wire::PoseQuaternion child;
+    std::uint32_t id = 0;
+    for (const Eigen::Vector3d& place : model::referenceOrigins()) {
+        const Eigen::Vector3f position = (0.6 * place).cast<float>();
+        child.segments.push_back({++id, {position.x(), position.y(), position.z()}, {1, 0, 0, 0}});
+    }
+    for (std::uint32_t sample = 10; sample < 14; ++sample) {
+        stage.send(child, sample, 4 * sample, stage.now + 4ms);
+    }
+    stage.follow();
+    stage.session.setGhostShown(true);
+    stage.session.setSelection({stage.sender(), stage.key(), 0});
+    const SceneFrame frame = build();
+    const auto thigh = [](const Figure& figure) {
+        const render::NullPose& origins = figure.body->fit.origins;
+        return glm::distance(origins[render::RightUpperLeg], origins[render::RightLowerLeg]);
+    };
+    EXPECT_NEAR(thigh(frame.figures.at(0)), 0.6 * 0.4285, 0.025);
+    EXPECT_GT(thigh(frame.ghosts.at(0)), 0.38) << "the ghost is the scale message as it was sent";
+}
+
 TEST(DimFor, IsNothingForLiveDataAndNeverFalls) {
     EXPECT_EQ(dimFor(0), 0.0F);
     EXPECT_EQ(dimFor(kSilentAge - 0.01), 0.0F);

@@ -99,6 +99,7 @@ TEST(PoseRemarks, DoubtAScaleMessageThatThePosesContradict) {
             place *= scale;
         }
         EXPECT_TRUE(remarkOn(standingFrom({2}), body).isEmpty()) << scale;
+        EXPECT_EQ(scaleInPose(standingFrom({2}), body), 1);
     }
     for (Eigen::Vector3d& place : body.places) {
         place *= 1.6;
@@ -106,8 +107,9 @@ TEST(PoseRemarks, DoubtAScaleMessageThatThePosesContradict) {
     for (const std::vector<std::uint8_t>& types : {std::vector<std::uint8_t>{2}, {1}, {21}, {21, 22}}) {
         const PoseRemark remark = remarkOn(standingFrom(types), body);
         EXPECT_TRUE(remark.isAssumed);
-        EXPECT_EQ(remark.lines.back(),
-                  "The scale message is of another body: its arms and legs are longer than in the poses");
+        EXPECT_EQ(remark.lines.back(), "The scale message is of another body: its arms and legs are longer "
+                                       "than in the poses, in whose size it is drawn");
+        EXPECT_NEAR(scaleInPose(standingFrom(types), body), 1 / (1.05 * 1.6), 0.011);
         EXPECT_EQ(remark.brief, "wrong scale");
     }
     CharacterPose solved = standingFrom({22});
