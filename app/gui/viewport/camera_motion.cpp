@@ -144,7 +144,8 @@ void CameraMotion::follow(std::span<const render::Bounds> boxes, float aspect, d
         kLost * wanted.distance) {
         m_camera = wanted;
     }
-    const auto share = static_cast<float>(1 - std::exp(-std::clamp(seconds, 0.0, 1.0) / kFollowSeconds));
+    const double glide = std::isinf(seconds) ? seconds : std::clamp(seconds, 0.0, 1.0);
+    const auto share = static_cast<float>(1 - std::exp(-glide / kFollowSeconds));
     m_camera.target += share * (wanted.target - m_camera.target);
     if (wanted.distance > m_camera.distance || wanted.distance * kTooFar < m_camera.distance) {
         m_camera.distance += share * (wanted.distance - m_camera.distance);

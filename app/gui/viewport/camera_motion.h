@@ -47,7 +47,8 @@ public:
     /// Shows a box and stays there.
     void show(const render::Bounds& box, float aspect);
     /// Shows the first boxes at once. From then on it holds still as long as all are well in the picture, and
-    /// glides to where they are when they are not. Nothing after a pan or zoom.
+    /// glides to where they are when they are not; after infinite `seconds`, as between two moments of a
+    /// recording, it is there. Nothing after a pan or zoom.
     void follow(std::span<const render::Bounds> boxes, float aspect, double seconds);
 
 private:

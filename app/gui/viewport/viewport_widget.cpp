@@ -19,6 +19,7 @@
 #include <QWheelEvent>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace posewire::gui {
@@ -146,7 +147,13 @@ void ViewportWidget::drawNext() {
     frame->height = std::max(1, qRound(height() * devicePixelRatioF()));
     m_builder->setInterpolating(m_isInterpolating);
     m_builder->setComparison(m_comparison);
-    const double seconds = log::secondsOf(m_session->now() - m_followed);
+    // Between two moments at rest no pictures come in which the camera could glide.
+    const model::Cursor& cursor = m_session->cursor();
+    const bool isElsewhere =
+        cursor.mode == model::Cursor::Mode::Paused && cursor.speed == 0 && cursor.packet != m_followedPacket;
+    const double seconds =
+        isElsewhere ? std::numeric_limits<double>::infinity() : log::secondsOf(m_session->now() - m_followed);
+    m_followedPacket = cursor.packet;
     if (m_look.panes.isSplit()) {
         m_look.fillPanes(*m_builder, seconds, size(), *frame);
     } else {

@@ -14,6 +14,7 @@
 #include <QTimer>
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <optional>
 
@@ -174,7 +175,8 @@ private:
     std::shared_ptr<const SceneFrame> m_shown;
     bool m_isOutdated = true;
     log::Stamp m_followed{};
-    log::Stamp m_drawingBuilt{}; ///< the session's time of m_drawing
+    std::uint64_t m_followedPacket = 0; ///< of a moment at rest
+    log::Stamp m_drawingBuilt{};        ///< the session's time of m_drawing
     log::Stamp m_shownBuilt{};
     bool m_hasPicture = false;
     QPointF m_pressed;

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace posewire::gui {
 namespace {
@@ -127,6 +128,19 @@ TEST(CameraMotion, IsBackAtOnceFromFarAway) {
     motion.follow(person, kAspect, 0.016);
     EXPECT_NEAR(motion.camera().distance, before.distance, 0.1 * static_cast<double>(before.distance));
     EXPECT_LT(glm::distance(motion.camera().target, before.target), 0.1F);
+}
+
+TEST(CameraMotion, IsThereAtOnceAfterAJumpInTime) {
+    constexpr double kJump = std::numeric_limits<double>::infinity();
+    CameraMotion motion;
+    motion.follow(std::array{personAt(0, 0)}, kAspect, 0);
+    const render::Camera before = motion.camera();
+    const std::array there{personAt(3, 1)};
+    motion.follow(there, kAspect, kJump);
+    EXPECT_LT(glm::distance(motion.camera().target, fitted(before, there, kAspect).target), 0.05F);
+    const render::Camera after = motion.camera();
+    motion.follow(std::array{personAt(3.05F, 1)}, kAspect, kJump);
+    EXPECT_EQ(motion.camera(), after) << "who is well in the picture moves nothing";
 }
 
 TEST(CameraMotion, OrbitKeepsFollowing) {

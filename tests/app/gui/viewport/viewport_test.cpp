@@ -201,6 +201,21 @@ TEST_F(Viewport, FramesACharacterAsItWasBeforeARestart) {
     EXPECT_FALSE(cameraOf(viewport)["following"].toBool());
 }
 
+TEST_F(Viewport, ShowsTheBodyWhereverAPausedMomentHasIt) {
+    performer::Performer performer(sending(1, {2, 12, 13}));
+    stage.perform(performer, 3, 1'200);
+    stage.follow();
+    const std::uint64_t end = stage.session.end();
+    for (const std::uint64_t packet : {end / 2, end - 1, end / 4, std::uint64_t{20}}) {
+        stage.session.setCursor({model::Cursor::Mode::Paused, packet});
+        viewport.refresh();
+        ASSERT_TRUE(settle());
+        ASSERT_EQ(viewport.overlay().labels().size(), 1U);
+        const double x = viewport.overlay().labels().front().anchor.x();
+        EXPECT_NEAR(x, viewport.width() / 2.0, 0.4 * viewport.width()) << packet;
+    }
+}
+
 TEST_F(Viewport, TwoViewsOfOneSessionDrawAtOnce) {
     ViewportWidget other(stage.session, stage.commands);
     other.resize(320, 240);
