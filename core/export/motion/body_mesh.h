@@ -15,7 +15,7 @@ namespace posewire::exporting {
 struct BodyMesh {
     std::vector<std::array<float, 3>> positions;
     std::vector<std::array<float, 3>> normals;                     ///< of unit length, one for each position
-    std::vector<std::array<std::uint8_t, 4>> segments;             ///< body segments that move it, likewise
+    std::vector<std::array<std::uint8_t, 4>> segments;             ///< body segments that move it, each once
     std::vector<std::array<float, 4>> weights;                     ///< of these; sum 1
     std::vector<std::uint32_t> indices;                            ///< three for each triangle
     std::array<Eigen::Vector3d, model::kBodySegmentCount> origins; ///< of the segments that it was made for

@@ -48,6 +48,23 @@ TEST(MannequinBody, IsAWholeSkinOfBodySegments) {
     EXPECT_EQ(std::ranges::count(moves, true), model::kBodySegmentCount);
 }
 
+/// As glTF demands: it has no vertex that one joint moves twice, and weights add up to the last digit.
+TEST(MannequinBody, IsMovedByEachSegmentOnce) {
+    const exporting::BodyMesh body = mannequinBody(tall(1));
+    for (std::size_t i = 0; i < body.segments.size(); ++i) {
+        std::array<int, model::kBodySegmentCount> times{};
+        float sum = 0;
+        for (std::size_t k = 0; k < 4; ++k) {
+            const bool moves = body.weights[i][k] > 0;
+            times[body.segments[i][k]] += moves ? 1 : 0;
+            EXPECT_TRUE(moves || body.segments[i][k] == 0) << i;
+            sum += body.weights[i][k];
+        }
+        EXPECT_LE(std::ranges::max(times), 1) << i;
+        EXPECT_NEAR(sum, 1, 4e-7) << i;
+    }
+}
+
 TEST(MannequinBody, IsAsTallAsThePerformer) {
     EXPECT_NEAR(heightOf(mannequinBody(tall(1))), 1.75, 0.02);
     EXPECT_NEAR(heightOf(mannequinBody(tall(1.1))), 1.925, 0.02);
