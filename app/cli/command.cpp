@@ -264,7 +264,7 @@ ExitStatus readingStatus(const tl::expected<void, log::FileError>& result, const
         return ExitStatus::Fine;
     }
     console.complain(result.error().text);
-    return result.error().kind == Kind::Cut ? ExitStatus::Faults : ExitStatus::Unusable;
+    return result.error().leavesABeginning() ? ExitStatus::Faults : ExitStatus::Unusable;
 }
 
 } // namespace posewire::cli

@@ -18,11 +18,15 @@ struct FileError {
     enum class Kind : std::uint8_t {
         Failed,
         Cut,       ///< a capture ends amidst a packet; all before it was read
+        Damaged,   ///< a capture makes no sense from some byte on; all before it was read
         Cancelled, ///< whoever reads wants no more
         Unread,    ///< whoever read what was written has gone
     };
     std::string text;
     Kind kind = Kind::Failed;
+
+    /// What comes before the fault is as good as a whole file.
+    [[nodiscard]] bool leavesABeginning() const { return kind == Kind::Cut || kind == Kind::Damaged; }
 };
 
 /// Bytes in order, from wherever.

@@ -83,7 +83,8 @@ public:
     void reportDamage(const char* what) {
         m_result =
             tl::unexpected(FileError{m_source.name() + ": is damaged at byte " + std::to_string(m_offset) +
-                                     " (" + what + "); what comes before it was read"});
+                                         " (" + what + "); what comes before it was read",
+                                     FileError::Kind::Damaged});
     }
     /// Why reading ended, unless at the end of the file.
     [[nodiscard]] const tl::expected<void, FileError>& result() const { return m_result; }

@@ -42,10 +42,11 @@ using NotesVisitor = std::function<void(std::span<const std::string_view>)>;
 
 /// Reads a file of any format that is known, found by its content: datagrams back to back, as on TCP; pcap
 /// (microseconds or nanoseconds, either byte order); pcapng. In captures it finds what Reassembly finds. A
-/// capture that is cut off is read up to its last whole packet, and fails then with FileError::Kind::Cut and
-/// the byte where it ends. What PcapngWriter has written comes back as it was. A time before 1740 or after
-/// 2260, or 146 years from the first one of the file, is none: all others can be subtracted from each other
-/// and from now. `visitNotes` is called for what a pcapng file says about itself, mostly at its end.
+/// capture that is cut off or damaged is read up to there, and fails then with FileError::Kind::Cut or
+/// Damaged and the byte where that is. What PcapngWriter has written comes back as it was. A time before 1740
+/// or after 2260, or 146 years from the first one of the file, is none: all others can be subtracted from
+/// each other and from now. `visitNotes` is called for what a pcapng file says about itself, mostly at its
+/// end.
 tl::expected<void, FileError> readFile(ByteSource& source, const FileVisitor& visit,
                                        const NotesVisitor& visitNotes = {});
 

@@ -225,6 +225,14 @@ TEST_F(ExportCommand, ExportsWhatIsWholeOfACutFile) {
     EXPECT_GT(lines(textOfFile(output("take.csv"))), 50);
 }
 
+TEST_F(ExportCommand, ExportsWhatComesBeforeDamage) {
+    const std::string damaged = textOfFile(performance(60)) + std::string(64, '\xff');
+    const ProgramRun run = exported(fileWith(damaged), output("take.csv"));
+    EXPECT_EQ(run.status, 1);
+    EXPECT_THAT(run.err, HasSubstr("is damaged at byte"));
+    EXPECT_EQ(lines(textOfFile(output("take.csv"))), 121);
+}
+
 #ifndef _WIN32 // where no test can press Ctrl+C in a console that it has not
 TEST_F(ExportCommand, LeavesNothingWhenItIsInterrupted) {
     const std::string endless = newPath(); // nobody writes into it, and nobody closes it

@@ -101,6 +101,7 @@ TEST(RecordingFile, ADamagedCaptureIsNamedNotMisread) {
     EXPECT_TRUE(records(*readingFrom(stream, "walk.pcapng"), result).empty());
     ASSERT_FALSE(result.has_value());
     EXPECT_THAT(result.error().text, HasSubstr("walk.pcapng: is damaged"));
+    EXPECT_EQ(result.error().kind, FileError::Kind::Damaged);
 }
 
 TEST(RecordingFile, MissingFileAndFolderAreClearErrors) {
