@@ -20,17 +20,19 @@ std::uint16_t wordAt(Frame frame, std::size_t place) {
     return wire::load16(frame.data() + place);
 }
 
-/// Where the network layer begins: after the EtherType at `place`, over VLAN tags.
-std::optional<std::size_t> afterEtherType(Frame frame, std::size_t place) {
-    while (frame.size() >= place + 2) {
+/// Where the network layer begins, of a frame of the EtherType at `place` with its content at `content`:
+/// behind VLAN tags.
+std::optional<std::size_t> afterEtherType(Frame frame, std::size_t place, std::size_t content) {
+    while (frame.size() >= content) {
         const std::uint16_t type = wordAt(frame, place);
         if (type == kIpv4 || type == kIpv6) {
-            return place + 2;
+            return content;
         }
-        if (type != 0x8100 && type != 0x88a8) {
+        if (type != 0x8100 && type != 0x88a8 && type != 0x9100) { // the last one before it was standardised
             return std::nullopt;
         }
-        place += 4;
+        place = content + 2;
+        content += 4;
     }
     return std::nullopt;
 }
@@ -42,7 +44,7 @@ std::optional<std::size_t> networkOf(std::uint32_t linkType, Frame frame) {
     case 108: // OpenBSD loopback
         return 4;
     case 1: // Ethernet
-        return afterEtherType(frame, 12);
+        return afterEtherType(frame, 12, 14);
     case 12: // raw IP, by three numbers
     case 14:
     case 101:
@@ -50,11 +52,9 @@ std::optional<std::size_t> networkOf(std::uint32_t linkType, Frame frame) {
     case 229: // IPv6
         return 0;
     case 113: // Linux cooked
-        return afterEtherType(frame, 14);
+        return afterEtherType(frame, 14, 16);
     case 276: // Linux cooked, version 2
-        return frame.size() >= 20 && (wordAt(frame, 0) == kIpv4 || wordAt(frame, 0) == kIpv6)
-                   ? std::optional<std::size_t>(20)
-                   : std::nullopt;
+        return afterEtherType(frame, 0, 20);
     default:
         return std::nullopt;
     }

@@ -12,6 +12,7 @@ constexpr std::uint32_t kEthernet = 1;
 constexpr std::uint32_t kRawIp = 101;
 constexpr std::uint16_t kVlan = 0x8100;
 constexpr std::uint16_t kServiceVlan = 0x88a8;
+constexpr std::uint16_t kOldServiceVlan = 0x9100; // of switches older than the standard
 
 ByteVector content() {
     return udp(poseDatagram(1, 1));
@@ -34,8 +35,11 @@ ByteVector tagged(const std::vector<std::uint16_t>& tags, std::uint16_t type, co
 }
 
 TEST(IpPacketInEthernet, IsFoundBehindAnyVlanTags) {
-    for (const std::vector<std::uint16_t>& tags :
-         {std::vector<std::uint16_t>{}, {kVlan}, {kServiceVlan, kVlan}, {kVlan, kVlan, kVlan, kVlan}}) {
+    for (const std::vector<std::uint16_t>& tags : {std::vector<std::uint16_t>{},
+                                                   {kVlan},
+                                                   {kServiceVlan, kVlan},
+                                                   {kOldServiceVlan, kVlan},
+                                                   {kVlan, kVlan, kVlan, kVlan}}) {
         const ByteVector four = tagged(tags, 0x0800, ipv4(content()));
         EXPECT_EQ(payloadOf(kEthernet, four), poseDatagram(1, 1)) << tags.size();
         EXPECT_EQ(ipPacketOf({kEthernet, four})->offset, 14 + 4 * tags.size() + 20);
@@ -231,6 +235,18 @@ TEST(IpPacket, IsNothingInCookedFramesOfOtherProtocols) {
     EXPECT_EQ(payloadOf(276, six), poseDatagram(1, 1));
     for (std::size_t size = 0; size < 20; ++size) {
         EXPECT_FALSE(ipPacketOf({276, std::span(six).first(size)})) << size;
+    }
+}
+
+TEST(IpPacket, IsFoundBehindVlanTagsInCookedFrames) {
+    const ByteVector tags = CaptureBytes().number(5, 2).number(kVlan, 2).number(7, 2).number(0x0800, 2).all();
+    const ByteVector packet = joined({tags, ipv4(content())});
+    EXPECT_EQ(payloadOf(113, CaptureBytes().zeros(14).number(kServiceVlan, 2).bytes(packet).all()),
+              poseDatagram(1, 1));
+    const ByteVector second = CaptureBytes().number(kServiceVlan, 2).zeros(18).bytes(packet).all();
+    EXPECT_EQ(payloadOf(276, second), poseDatagram(1, 1));
+    for (std::size_t size = 0; size < 20 + tags.size(); ++size) {
+        EXPECT_FALSE(ipPacketOf({276, std::span(second).first(size)})) << size;
     }
 }
 
