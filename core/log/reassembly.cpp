@@ -38,6 +38,7 @@ void IpFragments::add(const IpPacket& fragment) {
     if (fragment.bytes.empty() || fragment.fragmentOffset + fragment.bytes.size() > kLargest) {
         return;
     }
+    giveUpOld(fragment.time);
     Pending& pending = pendingOf(fragment);
     if (!fragment.hasMoreFragments) {
         pending.size = fragment.fragmentOffset + static_cast<std::uint32_t>(fragment.bytes.size());
@@ -66,6 +67,16 @@ void IpFragments::finish() {
         give(pending);
     }
     m_pending.clear();
+}
+
+void IpFragments::giveUpOld(std::optional<WallTime> now) {
+    std::erase_if(m_pending, [&](const Pending& pending) {
+        const bool isOld = now && pending.packet.time && *now - *pending.packet.time > kLongestWait;
+        if (isOld) {
+            give(pending);
+        }
+        return isOld;
+    });
 }
 
 IpFragments::Pending& IpFragments::pendingOf(const IpPacket& fragment) {

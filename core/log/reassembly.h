@@ -20,6 +20,9 @@ public:
 
     /// At most this many packets may be incomplete at a time; the oldest is given up first.
     static constexpr std::size_t kMostPending = 32;
+    /// Whose fragments have not gone on for longer is given up: its identification may soon belong to another
+    /// packet, within seconds at the rates of many performers (RFC 4963).
+    static constexpr Duration kLongestWait = std::chrono::seconds(1);
 
     /// The visitor gets a packet when it is complete, or given up: then its beginning, if that was there.
     explicit IpFragments(Visitor visit) : m_visit(std::move(visit)) {}
@@ -37,6 +40,7 @@ private:
         std::optional<std::uint32_t> size;                      ///< known from the last fragment
     };
 
+    void giveUpOld(std::optional<WallTime> now);
     Pending& pendingOf(const IpPacket& fragment);
     static bool isWhole(const Pending& pending);
     void give(const Pending& pending) const;

@@ -38,6 +38,7 @@ protected:
         m_stamp += 1ms;
     }
     void finish() { m_fragments.finish(); }
+    void pass(Duration time) { m_stamp += time; }
     static IpPacket headersOf(std::uint32_t identity) {
         IpPacket packet;
         packet.protocol = kUdp;
@@ -85,6 +86,21 @@ TEST_F(IpFragmentsTest, AreWholeExactlyWhenEveryByteIsThere) {
         EXPECT_EQ(m_seen[0].bytes, content);
         EXPECT_EQ(m_seen[0].identity, identity);
     }
+}
+
+/// RFC 4963: identifications come round while a packet of which a fragment was lost still waits for it.
+TEST_F(IpFragmentsTest, OfPacketsOfOneIdentificationAreNotMixedAfterAWhile) {
+    const ByteVector lost = pattern(64, 1);
+    const ByteVector later = pattern(64, 2);
+    add(lost, 0, 32);
+    pass(900ms);
+    add(lost, 32, 48); // goes on
+    pass(1'100ms);
+    add(later, 0, 32);
+    add(later, 32, 64);
+    ASSERT_EQ(m_seen.size(), 2U);
+    EXPECT_EQ(m_seen[0].bytes, beginningOf(lost, 48));
+    EXPECT_EQ(m_seen[1].bytes, later);
 }
 
 /// A router on another path may cut the same packet into larger pieces.
