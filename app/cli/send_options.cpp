@@ -155,6 +155,7 @@ tl::expected<performer::PerformerSettings, Complaint> performerOf(const SendOpti
 
 tl::expected<performer::FaultSettings, Complaint> faultsOf(const SendOptions& options) {
     performer::FaultSettings faults = options.faults;
+    faults.isRecorded = !options.file.empty();
     faults.seed = options.performer.seed;
     faults.rateHz = options.performer.rateHz;
     if (const auto read = readGilbertElliott(options.gilbertElliott, faults); !read) {

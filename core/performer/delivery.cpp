@@ -29,8 +29,8 @@ bool QuietTimes::contains(log::Duration time) const {
         moments, [&](log::Duration moment) { return time >= moment - width && time <= moment + width; });
 }
 
-Delivery::Delivery(log::Duration period, QuietTimes quiet)
-    : m_period(std::max(period, log::Duration(1))), m_quiet(std::move(quiet)) {}
+Delivery::Delivery(log::Duration period, QuietTimes quiet, bool makesClear)
+    : m_period(std::max(period, log::Duration(1))), m_quiet(std::move(quiet)), m_makesClear(makesClear) {}
 
 void Delivery::push(Sending sending) {
     m_heap.push_back({std::move(sending), m_pushed++});
@@ -101,7 +101,7 @@ Delivery::Judgement Delivery::begin(Front& front, const Sending& sending, std::u
 
 Delivery::Judgement Delivery::judge(Sending& sending, bool isAtEnd) {
     const auto header = wire::decodeHeader(sending.bytes);
-    if (!sending.isReadable || !header || !wire::isSampled(header->type())) {
+    if (!m_makesClear || !sending.isReadable || !header || !wire::isSampled(header->type())) {
         return Judgement::Deliver;
     }
     const Origin& origin = sending.origin;

@@ -30,7 +30,8 @@ struct QuietTimes {
 ///   has gone on, and is given up at the end of the stream.
 class Delivery {
 public:
-    Delivery(log::Duration period, QuietTimes quiet);
+    /// Where it does not make that clear, all comes out when it is due.
+    Delivery(log::Duration period, QuietTimes quiet, bool makesClear = true);
 
     void push(Sending sending);
     /// Comes out after `count` more have been pushed or noted.
@@ -86,6 +87,7 @@ private:
 
     log::Duration m_period;
     QuietTimes m_quiet;
+    bool m_makesClear;
     std::vector<Entry> m_heap;
     std::vector<Counted> m_counted;
     std::map<std::pair<std::uint8_t, std::uint8_t>, Front> m_fronts;

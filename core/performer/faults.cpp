@@ -162,7 +162,8 @@ Faults::Faults(const FaultSettings& settings)
       m_random(KeyedRandom(settings.seed).fork(0xfa17)),
       m_quiet(quietTimes(settings)),
       m_loss(settings, m_random.fork(Loss)),
-      m_delivery(log::Duration(static_cast<std::int64_t>(1e9 / settings.rateHz)), m_quiet) {}
+      m_delivery(log::Duration(static_cast<std::int64_t>(1e9 / settings.rateHz)), m_quiet,
+                 !settings.isRecorded) {}
 
 bool Faults::isPaused(log::Duration due) const {
     const auto& pause = m_settings.pause;

@@ -53,6 +53,10 @@ struct FaultSettings {
         std::uint32_t step = 2;
     };
     std::optional<Reduction> reduction; ///< from then on every step-th sample
+
+    /// What is sent was received once, with faults of its own: these stay as they are, so that nothing is
+    /// delayed or given up for the sake of what a receiver counts, and no Truth can be told.
+    bool isRecorded = false;
 };
 
 /// What is wrong with the settings, as one sentence; empty when Faults can be made of them.

@@ -53,6 +53,43 @@ TEST(SendCommand, SendsEveryDatagramOfAFileOnceAndUnchanged) {
     EXPECT_TRUE(listener.datagrams() == expected);
 }
 
+/// Of type 02, with this sample counter.
+std::string numbered(std::uint32_t sample) {
+    std::string bytes = asText(posewire::test::golden("02_quaternion_counted").bytes);
+    for (std::size_t i = 0; i < 4; ++i) {
+        bytes[6 + i] = static_cast<char>(sample >> (24 - 8 * i) & 0xffU);
+    }
+    return bytes;
+}
+
+TEST(SendCommand, SendsTheFaultsOfARecordingAsTheyWere) {
+    std::string file;
+    std::vector<std::string> expected;
+    const auto add = [&](std::uint32_t sample) {
+        expected.push_back(numbered(sample));
+        file += expected.back();
+    };
+    for (std::uint32_t sample = 10; sample <= 200; sample += 10) { // a socket's buffer holds them twice
+        add(sample);
+    }
+    add(30); // far behind, and twice
+    add(50);
+    add(50);
+    for (std::uint32_t sample = 10; sample <= 50; sample += 10) { // restarted
+        add(sample);
+    }
+    Listener listener;
+    const ProgramRun run = runProgram({"send", "--to", listener.place(), "--file", fileWith(file), "--loop",
+                                       "--rate", "1000", "--speed", "10", "--duration", "0.005"});
+    EXPECT_EQ(run.status, 0) << run.err;
+    for (std::size_t i = 0; i < 20; ++i) {
+        expected.push_back(std::string(expected[i]));
+    }
+    std::vector<std::string> received = listener.datagrams();
+    received.resize(std::min(received.size(), expected.size()));
+    EXPECT_TRUE(received == expected) << received.size() << " of " << expected.size();
+}
+
 TEST(SendCommand, PerformsTheTypesAndCharactersThatWereAskedFor) {
     Listener listener;
     const ProgramRun run = runProgram({"send", "--to", listener.place(), "--types", "02,12", "--characters",
