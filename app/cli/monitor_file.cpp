@@ -135,10 +135,8 @@ ExitStatus monitorFile(const MonitorOptions& options, Console& console) {
     reading = &replay;
     const auto read =
         log::readFile(**file, std::ref(replay), [&replay](std::span<const std::string_view> notes) {
-            for (const std::string_view note : notes) {
-                if (const auto reception = log::parseReception(note)) {
-                    replay.takeReception(*reception);
-                }
+            if (const auto reception = log::receptionIn(notes)) {
+                replay.takeReception(*reception);
             }
         });
     replay.end();

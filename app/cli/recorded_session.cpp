@@ -2,6 +2,7 @@
 #include "app/cli/recorded_session.h"
 
 #include "core/log/file_names.h"
+#include "core/log/pcapng_writer.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -47,18 +48,22 @@ RecordedSession::RecordedSession(const std::string& path)
 
 tl::expected<void, log::FileError> RecordedSession::read(log::ByteSource& source,
                                                          const std::function<void(double share)>& progress) {
-    auto result = log::readFile(source, [&](const log::FileRecord& record) {
-        take(record);
-        if (m_packets % kPacketsAtOnce == 0 || m_bytesWaiting >= kBytesAtOnce) {
-            follow();
-            progress(m_size > 0 ? std::min(1.0, static_cast<double>(record.offset) / m_size) : 0);
-        }
-    });
+    std::optional<log::Reception> reception;
+    auto result = log::readFile(
+        source,
+        [&](const log::FileRecord& record) {
+            take(record);
+            if (m_packets % kPacketsAtOnce == 0 || m_bytesWaiting >= kBytesAtOnce) {
+                follow();
+                progress(m_size > 0 ? std::min(1.0, static_cast<double>(record.offset) / m_size) : 0);
+            }
+        },
+        [&](std::span<const std::string_view> notes) { reception = log::receptionIn(notes); });
     follow();
     if (m_past) {
         m_past->finish();
     }
-    m_session.endFile();
+    m_session.endFile(reception ? reception->afterLast : log::Duration());
     return result;
 }
 

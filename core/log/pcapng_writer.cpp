@@ -259,6 +259,15 @@ std::optional<Reception> parseReception(std::string_view note) {
     return reception;
 }
 
+std::optional<Reception> receptionIn(std::span<const std::string_view> notes) {
+    std::optional<Reception> found;
+    for (const std::string_view note : notes) {
+        const auto reception = parseReception(note);
+        found = reception ? reception : found;
+    }
+    return found;
+}
+
 std::string markText(const RecordedMark& mark) {
     std::string text(kMark);
     text.append(std::to_string(mark.packet));

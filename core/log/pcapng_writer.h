@@ -77,6 +77,8 @@ struct Reception {
 
 /// The inverse; nothing where somebody else wrote the note, or it tells of more than a year.
 [[nodiscard]] std::optional<Reception> parseReception(std::string_view note);
+/// The last one of the notes of a recording.
+[[nodiscard]] std::optional<Reception> receptionIn(std::span<const std::string_view> notes);
 
 /// What an operator said of a packet while it was recorded. In a note of the recording, in words: "Mark on
 /// packet 12 at 03:28:07.123: left hand jumps".

@@ -36,7 +36,8 @@ private:
     log::RawPace::Nanoseconds m_time{};
 };
 
-/// Reads a file from its beginning to its end, or to where it is cut off: then the answer says so.
+/// Reads a file from its beginning to its end, or to where it is cut off or damaged: then the answer
+/// says so.
 ImportResult visitFile(const QString& path, const log::FileVisitor& visit,
                        const log::IsCancelled& isCancelled, const log::NotesVisitor& visitNotes = {}) {
     const auto source = log::openFile(QFile::encodeName(path).toStdString(), isCancelled);
@@ -45,7 +46,7 @@ ImportResult visitFile(const QString& path, const log::FileVisitor& visit,
     }
     const auto read = log::readFile(**source, visit, visitNotes);
     const QString text = read ? QString() : QString::fromStdString(read.error().text);
-    const bool isRead = read || read.error().kind == log::FileError::Kind::Cut;
+    const bool isRead = read || read.error().leavesABeginning();
     return isRead ? ImportResult(text) : tl::unexpected(text);
 }
 
@@ -122,7 +123,7 @@ void FileImport::run(const std::stop_token& stop, log::Stamp end) {
     };
     ImportResult result = importRawFile(
         m_path, taker, end, m_log.timeline(), [&stop] { return stop.stop_requested(); },
-        [this](std::span<const std::string_view> notes) { keepMarks(notes); });
+        [this](std::span<const std::string_view> notes) { keepNotes(notes); });
     keepStep(stop);
     m_log.writer().publish(); // also where it was stopped
     if (m_past) {
@@ -166,7 +167,7 @@ void FileImport::keepComments(const log::FileRecord& record) {
 }
 
 /// A note says whatever its writer wanted: only of packets that are there.
-void FileImport::keepMarks(std::span<const std::string_view> notes) {
+void FileImport::keepNotes(std::span<const std::string_view> notes) {
     std::vector<log::RecordedMark> marks;
     for (const std::string_view note : notes) {
         auto mark = log::parseMark(note);
@@ -175,13 +176,20 @@ void FileImport::keepMarks(std::span<const std::string_view> notes) {
             marks.push_back(std::move(*mark));
         }
     }
+    const auto reception = log::receptionIn(notes);
     const std::lock_guard lock(m_mutex);
     m_marks = std::move(marks);
+    m_afterLast = reception ? reception->afterLast : log::Duration();
 }
 
 std::vector<log::RecordedMark> FileImport::marks() const {
     const std::lock_guard lock(m_mutex);
     return m_marks;
+}
+
+log::Duration FileImport::afterLast() const {
+    const std::lock_guard lock(m_mutex);
+    return m_result && m_result->has_value() ? m_afterLast : log::Duration();
 }
 
 std::vector<FileImport::Comment> FileImport::takeComments() {

@@ -69,6 +69,8 @@ public:
     [[nodiscard]] std::vector<Comment> takeComments();
     /// What was marked while the file was recorded, as it says up to where it was read.
     [[nodiscard]] std::vector<log::RecordedMark> marks() const;
+    /// How long it was recorded after its last packet, where it says so and was read to its end.
+    [[nodiscard]] log::Duration afterLast() const;
     /// Once everything is in the log, or nothing more comes.
     [[nodiscard]] std::optional<ImportResult> result() const;
 
@@ -76,7 +78,7 @@ private:
     void run(const std::stop_token& stop, log::Stamp end);
     void take(const log::FileRecord& record, log::Arrival arrival);
     void keepComments(const log::FileRecord& record);
-    void keepMarks(std::span<const std::string_view> notes);
+    void keepNotes(std::span<const std::string_view> notes);
     /// Waits until all that was read was looked at.
     void keepStep(const std::stop_token& stop);
 
@@ -92,6 +94,7 @@ private:
     std::uint64_t m_followed = 0;
     std::vector<Comment> m_comments; ///< that nobody has taken
     std::vector<log::RecordedMark> m_marks;
+    log::Duration m_afterLast{};
     std::optional<ImportResult> m_result;
     std::jthread m_thread; ///< last: it uses all of the above
 };

@@ -85,11 +85,12 @@ void OpenedFile::takeMarks() {
 void OpenedFile::readRest() {
     takeComments();
     takeMarks();
+    const log::Duration afterLast = m_import->afterLast();
     m_import.reset();
     const bool isAtEnd = isShownAtEnd();
     while (m_session.followFile(m_log.timeline().now(m_clock))) {
     }
-    m_session.endFile();
+    m_session.endFile(afterLast);
     m_verdictEnd = 0; // its end settles what was open
     if (isAtEnd) {
         showEnd();

@@ -70,8 +70,9 @@ void Takes::stop(const model::SessionView& live) {
     }
     qCInfo(filesLog).noquote() << "recorded" << m_path;
     keepMarks(live);
+    std::vector<std::string> notes = notesOf(live);
     m_ending.push_back(std::async(std::launch::async, [recording = std::shared_ptr(std::move(m_recording)),
-                                                       notes = incidents(live)]() mutable {
+                                                       notes = std::move(notes)]() mutable {
         const auto stopped = recording->stop(std::move(notes));
         return stopped ? std::string() : stopped.error().text;
     }));
@@ -121,8 +122,8 @@ void Takes::keepMarks(const model::SessionView& live) {
     m_recording->setMarks(std::move(marks));
 }
 
-std::vector<std::string> Takes::incidents(const model::SessionView& live) const {
-    std::vector<std::string> notes;
+std::vector<std::string> Takes::notesOf(const model::SessionView& live) const {
+    std::vector<std::string> notes{log::receptionText(reception(live))};
     for (const model::ListedIncident& listed : model::listedIncidents(live, m_fromStamp)) {
         if (listed.incident.lastStamp >= m_fromStamp && !model::isOnlyComing(listed)) {
             notes.push_back(headlineOf(live, listed) + whenOf(live, listed));
@@ -130,6 +131,18 @@ std::vector<std::string> Takes::incidents(const model::SessionView& live) const 
     }
     notes.resize(std::min(notes.size(), kMostNotes));
     return notes;
+}
+
+/// Of its newest file.
+log::Reception Takes::reception(const model::SessionView& live) const {
+    const auto first = live.packet(m_recording->figures().fileBegin);
+    const auto last = live.end() == 0 ? std::nullopt : live.packet(live.end() - 1);
+    log::Reception reception;
+    reception.time = live.now() - (first ? first->stamp : m_fromStamp);
+    reception.afterLast = last ? live.now() - last->stamp : reception.time;
+    reception.time = std::max(reception.time, log::Duration());
+    reception.afterLast = std::clamp(reception.afterLast, log::Duration(), reception.time);
+    return reception;
 }
 
 } // namespace posewire::gui

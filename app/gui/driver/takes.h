@@ -40,7 +40,7 @@ public:
     QString start(const RecordingChoice& choice, const model::SessionView& live);
     /// Has the marks and comments of the take as they are now noted in its file, without waiting for it.
     void keepMarks(const model::SessionView& live);
-    /// Ends it, with the incidents of its time noted in the file too.
+    /// Ends it, with notes of how it was received and of the incidents of its time.
     void stop(const model::SessionView& live);
     [[nodiscard]] bool isRecording() const { return m_recording != nullptr; }
     [[nodiscard]] std::optional<TakeState> state(const model::SessionView& live) const;
@@ -50,7 +50,9 @@ public:
     [[nodiscard]] std::string takeProblem();
 
 private:
-    [[nodiscard]] std::vector<std::string> incidents(const model::SessionView& live) const;
+    /// How it was received, and the incidents of its time.
+    [[nodiscard]] std::vector<std::string> notesOf(const model::SessionView& live) const;
+    [[nodiscard]] log::Reception reception(const model::SessionView& live) const;
 
     const log::PacketLog& m_log;
     std::unique_ptr<log::Recording> m_recording; ///< null while none runs

@@ -126,8 +126,13 @@ void Ingest::amendGaps() {
     m_attribution->clearRecounts();
 }
 
-void Ingest::endFile() {
+void Ingest::endFile(log::Duration afterLast) {
     m_isLive = false;
+    m_fileEnd = m_observed + afterLast;
+    if (afterLast > log::Duration::zero()) {
+        passTime(m_fileEnd);
+        advance(m_fileEnd);
+    }
     settle();
     m_incidents->endFile();
 }

@@ -112,8 +112,9 @@ public:
     bool followFile(log::Stamp now, std::size_t most);
     /// Nothing more is read: what is not there by now is lost.
     void settle();
-    /// All that was read is a file that has ended: nobody in it is expected to send on.
-    void endFile();
+    /// All that was read is a file that has ended: nobody in it is expected to send on after the time that
+    /// went by after its last packet while it was recorded.
+    void endFile(log::Duration afterLast);
 
     void setThresholds(const Thresholds& thresholds);
     /// Something that no packet tells: it happened in this computer.
@@ -169,6 +170,8 @@ public:
     [[nodiscard]] log::LogReader& reader() { return m_follower.reader(); }
 
     [[nodiscard]] log::Stamp now() const { return m_now; }
+    /// Of a file its end, however long ago that was.
+    [[nodiscard]] log::Stamp knownUntil() const { return m_isFile ? std::max(m_observed, m_fileEnd) : m_now; }
     [[nodiscard]] std::uint64_t begin() const { return m_begin; }
     [[nodiscard]] std::uint64_t end() const { return m_follower.position(); }
     [[nodiscard]] log::Stamp firstStamp() const { return m_firstStamp; }
@@ -243,7 +246,8 @@ private:
     log::Stamp m_now{};
     log::Stamp m_firstStamp{};
     log::Stamp m_observed{}; ///< of the newest packet
-    log::Stamp m_moment{};   ///< at which silence after it is looked at next
+    log::Stamp m_fileEnd{};
+    log::Stamp m_moment{}; ///< at which silence after it is looked at next
     PacketDigests m_digests;
     Roster<log::SenderId, Sender> m_senders;
     Roster<CharacterKey, Character> m_characters;

@@ -46,8 +46,8 @@ std::map<log::SenderId, Untold> untoldOf(const SessionView& session) {
         Untold& own = rest[stream.key.sender];
         addLosses(own.lost, stream.lostByCause());
         if (stream.isStalled) {
-            own.stalled.push_back(
-                {stream.key.character, stream.key.type, 0, 0, stream.accounting.lastStamp(), session.now()});
+            own.stalled.push_back({stream.key.character, stream.key.type, 0, 0, stream.accounting.lastStamp(),
+                                   session.knownUntil()});
         }
     }
     for (const Incident& incident : session.incidents().all()) {
@@ -121,7 +121,7 @@ bool hasCeased(const SessionView& session, const Incident& incident) {
         return false;
     }
     const bool isLoss = incident.kind == IncidentKind::Loss || incident.kind == IncidentKind::Local;
-    const log::Stamp known = isLoss ? session.judgedUntil() : session.now();
+    const log::Stamp known = isLoss ? session.judgedUntil() : session.knownUntil();
     return !factsOf(incident.kind).lasts &&
            known - incident.lastStamp >= std::clamp(kPatience * between, kLeast, Incidents::kQuiet);
 }
@@ -207,18 +207,11 @@ std::string conflictHeadline(const SessionView& session, const Incident& inciden
            session.addressOf(incident.sender).shown() + " and also " + incident.detail;
 }
 
-/// Until when there is something to know: a recording knows nothing of the time after its last packet.
-log::Stamp knownUntil(const SessionView& session) {
-    const auto newest =
-        session.isRecording() && session.end() != 0 ? session.packet(session.end() - 1) : std::nullopt;
-    return newest ? newest->stamp : session.now();
-}
-
 /// Of an outage: "no data for 1.2 s".
 std::string silenceOf(const SessionView& session, const ListedIncident& listed) {
     const log::Stamp end = listed.state == State::Over
                                ? listed.incident.lastStamp
-                               : std::max(knownUntil(session), listed.incident.lastStamp);
+                               : std::max(session.knownUntil(), listed.incident.lastStamp);
     const double seconds = log::secondsOf(end - listed.incident.firstStamp);
     return "no data for " + fixedText(seconds, seconds < 10 ? 1 : 0) + " s";
 }

@@ -20,8 +20,9 @@ public:
     bool followFile(log::Stamp now, std::size_t most = 200'000) { return m_ingest.followFile(now, most); }
     /// Nothing more is read: what is not there by now is lost.
     void settle() { m_ingest.settle(); }
-    /// All that was read is a file that has ended: nobody in it is expected to send on.
-    void endFile() { m_ingest.endFile(); }
+    /// All that was read is a file that has ended: nobody in it is expected to send on after the time that
+    /// went by after its last packet while it was recorded.
+    void endFile(log::Duration afterLast = {}) { m_ingest.endFile(afterLast); }
 
     /// What verdicts() says is judged now and stays until this is called again, so that all that show it say
     /// the same. Without this it is judged whenever something has changed.

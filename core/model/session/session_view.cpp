@@ -73,7 +73,7 @@ void SessionView::forEachPartialLoss(
 }
 
 log::Stamp SessionView::judgedUntil() const {
-    return now() - m_ingest.attribution().patience();
+    return knownUntil() - m_ingest.attribution().patience();
 }
 
 std::uint64_t SessionView::provisionalNumber(log::SenderId sender) const {

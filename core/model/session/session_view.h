@@ -98,10 +98,10 @@ public:
     /// What is kept of all that came, decoded messages included, and its limits: one place decides.
     [[nodiscard]] MemoryFigures memory() const;
 
-    /// Packets followed so far: one past the newest packet number.
-    [[nodiscard]] std::uint64_t end() const { return m_ingest.end(); }
+    [[nodiscard]] std::uint64_t end() const { return m_ingest.end(); } ///< one past the newest packet
     [[nodiscard]] std::uint64_t begin() const { return m_ingest.begin(); }
     [[nodiscard]] log::Stamp now() const { return m_ingest.now(); }
+    [[nodiscard]] log::Stamp knownUntil() const { return m_ingest.knownUntil(); } ///< what came, and what not
     /// How old the newest packet is that was looked at, where others wait; 0 where none do, and of a file.
     [[nodiscard]] log::Duration behind() const { return m_ingest.behind(); }
     /// Of the first packet that was followed, also where the log has dropped it; 0 before there is one.

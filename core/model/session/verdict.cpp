@@ -412,7 +412,7 @@ const TakeVerdicts& SessionView::verdicts() const {
         return m_judged->verdicts;
     }
     const Judged::Basis basis{end(),
-                              isRecording() ? log::Stamp() : now(), // at rest nothing happens
+                              knownUntil(), // of a recording it is at rest
                               incidents().version(),
                               reset(),
                               retired().senders,

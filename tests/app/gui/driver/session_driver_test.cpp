@@ -147,6 +147,30 @@ TEST_F(SessionDriverTest, ATakeHasThePreRollAndWhatComesWhateverIsShown) {
     EXPECT_EQ(read.comments.at(30), "left hand jumps: look");
 }
 
+TEST_F(SessionDriverTest, ATakeTellsOfTheSilenceAtItsEnd) {
+    const QTemporaryDir folder;
+    const RecordingChoice choice{.folder = folder.path(), .pattern = "take", .freeMegabytes = 0};
+    listenAndSend(1);
+    ASSERT_EQ(driver.toggleRecording(choice), "");
+    for (int i = 0; i < 30; ++i) {
+        listenAndSend(1);
+        driver.tick();
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    const auto isBad = [](const model::TakeVerdict& one) {
+        return one.state == model::TakeVerdict::State::Bad;
+    };
+    ASSERT_TRUE(tickUntil(driver, [&] { return isBad(driver.live().verdicts().all); }));
+    EXPECT_EQ(driver.toggleRecording(choice), "");
+    ASSERT_TRUE(tickUntil(driver, [&] {
+        QFile file(folder.filePath("take.pcapng"));
+        return file.open(QIODevice::ReadOnly) && file.readAll().contains("Posewire: received for ");
+    }));
+    ASSERT_EQ(openFile(driver, folder.filePath("take.pcapng")), "");
+    EXPECT_TRUE(tickUntil(driver, [&] { return isBad(driver.session().verdicts().all); }))
+        << driver.session().verdicts().all.text;
+}
+
 TEST_F(SessionDriverTest, CommentsOfACaptureAreThoseOfItsPackets) {
     const QTemporaryDir folder;
     const QString path = folder.filePath("commented.pcapng");

@@ -118,6 +118,36 @@ TEST_F(ConditionTest, OfARecordingCountsSilenceToItsEndWheneverItIsRead) {
     EXPECT_EQ(m_session.verdict(key()).brief, "no data for 2.0 s");
 }
 
+TEST_F(ConditionTest, OfARecordingLooksNotBeyondItsEnd) {
+    poses(1, 100);
+    wire::Datagram datagram{{}, wire::MetaData{true, "name:Mira\n"}, {}}; // goes on without poses
+    wire::completeHeader(datagram, wire::HeaderEra::Counted);
+    for (int i = 0; i < 20; ++i, m_at += 100ms) {
+        sendBytes(*wire::encode(datagram), m_at);
+    }
+    while (m_session.followFile(m_at + 100h)) {
+    }
+    m_session.endFile();
+    EXPECT_EQ(m_session.verdict(key()).brief, "no data for 1.9 s");
+}
+
+TEST_F(ConditionTest, OfARecordingHasTheSilenceAtItsEnd) {
+    poses(1, 100);
+    while (m_session.followFile(m_at + 100h)) {
+    }
+    m_session.endFile(3s);
+    EXPECT_EQ(m_session.verdict(key()).brief, "no data for 3.0 s");
+    EXPECT_EQ(m_session.verdict(key()).state, State::Bad);
+}
+
+TEST_F(ConditionTest, OfARecordingKnowsOfNoSilenceThatNobodyWaitedFor) {
+    poses(1, 100);
+    while (m_session.followFile(m_at + 100h)) {
+    }
+    m_session.endFile();
+    EXPECT_EQ(m_session.verdict(key()).state, State::Good);
+}
+
 TEST_F(ConditionTest, FindsAContradictionAtTheSamePacketHoweverMuchIsFollowedAtOnce) {
     poses(1, 100);
     poses(101, 100, wire::HeaderEra::Reserved);
