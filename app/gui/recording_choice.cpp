@@ -9,7 +9,7 @@
 #include <QStandardPaths>
 
 #include <algorithm>
-#include <set>
+#include <utility>
 
 namespace posewire::gui {
 
@@ -20,21 +20,24 @@ int numberOf(const QJsonObject& object, const char* key, int usual, int most) {
     return number >= 0 && number <= most ? number : usual;
 }
 
-/// The numbers of the takes that are there, whenever they were made.
-std::set<int> takesIn(const QDir& folder, const QString& pattern) {
-    QString wanted = QRegularExpression::escape(pattern + QStringLiteral(".pcapng"));
-    for (const QLatin1String time : {QLatin1String("{date}"), QLatin1String("{time}")}) {
-        wanted.replace(QRegularExpression::escape(QString(time)), QStringLiteral(".*"));
+/// The highest number of the takes that are there, whenever they were made, and whatever somebody has added
+/// to their names; 0 where there are none.
+int newestTakeIn(const QDir& folder, const QString& pattern) {
+    QString wanted = QRegularExpression::escape(pattern);
+    for (const auto& [place, digits] :
+         {std::pair("{date}", "\\d{4}-\\d\\d-\\d\\d"), std::pair("{time}", "\\d\\d-\\d\\d-\\d\\d"),
+          std::pair("{take}", "(\\d{3,6})")}) {
+        wanted.replace(QRegularExpression::escape(QLatin1String(place)), QLatin1String(digits));
     }
-    wanted.replace(QRegularExpression::escape(QStringLiteral("{take}")), QStringLiteral("(\\d{3,})"));
-    const QRegularExpression name(QRegularExpression::anchoredPattern(wanted));
-    std::set<int> takes;
-    for (const QString& file : folder.entryList({QStringLiteral("*.pcapng")}, QDir::Files)) {
+    const QRegularExpression name(
+        QRegularExpression::anchoredPattern(wanted + QStringLiteral("(\\D.*)?\\.pcapng")));
+    int newest = 0;
+    for (const QString& file : folder.entryList({QStringLiteral("*.pcapng")}, QDir::Files | QDir::Hidden)) {
         if (const QRegularExpressionMatch match = name.match(file); match.hasMatch()) {
-            takes.insert(match.captured(1).toInt());
+            newest = std::max(newest, match.captured(1).toInt());
         }
     }
-    return takes;
+    return newest;
 }
 
 } // namespace
@@ -80,13 +83,7 @@ QString nextTakePath(const RecordingChoice& choice, const QDateTime& begin) {
         return name.replace(QLatin1String("{take}"), take) + QStringLiteral(".pcapng");
     };
     const bool isNumbered = pattern.contains(QLatin1String("{take}"));
-    int take = 1;
-    if (isNumbered) {
-        const std::set<int> taken = takesIn(folder, pattern);
-        while (taken.contains(take)) {
-            ++take;
-        }
-    }
+    const int take = isNumbered ? newestTakeIn(folder, pattern) + 1 : 1;
     const QString path = folder.filePath(named(QStringLiteral("%1").arg(take, 3, 10, QLatin1Char('0')),
                                                begin.toString(QStringLiteral("yyyy-MM-dd")),
                                                begin.toString(QStringLiteral("HH-mm-ss"))));

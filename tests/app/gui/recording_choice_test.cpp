@@ -39,6 +39,24 @@ TEST_F(RecordingChoiceTest, TakesAreNumberedWhateverTheTimeInTheirNames) {
     EXPECT_EQ(next(), "Take 002 2026-11-23 10-42-17.pcapng");
 }
 
+TEST_F(RecordingChoiceTest, TakesAreNumberedWhereNothingIsBetweenNumberAndDate) {
+    m_choice.pattern = "{take}{date}";
+    makeFile("0072026-11-22.pcapng");
+    EXPECT_EQ(next(), "0082026-11-23.pcapng");
+    m_choice.pattern = "{date}{take}";
+    makeFile("2026-11-221000.pcapng");
+    EXPECT_EQ(next(), "2026-11-231001.pcapng");
+}
+
+TEST_F(RecordingChoiceTest, NumbersOfTakesDoNotGoBack) {
+    makeFile("Take 001 2026-11-22 09-00-00.pcapng");
+    makeFile("Take 003 2026-11-22 09-10-00 part 2.pcapng");
+    EXPECT_EQ(next(), "Take 004 2026-11-23 10-42-17.pcapng");
+    makeFile("Take 004 2026-11-22 09-20-00 good.pcapng");
+    makeFile("Take 20261123 2026-11-22 09-20-00.pcapng");
+    EXPECT_EQ(next(), "Take 005 2026-11-23 10-42-17.pcapng");
+}
+
 TEST_F(RecordingChoiceTest, NoTakeIsWrittenOverAnother) {
     m_choice.pattern = "Jonas";
     EXPECT_EQ(next(), "Jonas.pcapng");
