@@ -13,8 +13,6 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kCentimetres = 100;
-/// Of a file that has one frame alone.
-constexpr double kUsualRate = 60;
 
 void appendVector(const Vector3d& vector, std::string& text) {
     for (const double value : {vector.x(), vector.y(), vector.z()}) {
@@ -47,7 +45,7 @@ public:
             addJoint(0, 0, text);
         }
         text += "MOTION\nFrames: " + std::to_string(m_survey.frames) + "\nFrame Time: ";
-        appendFixed(1 / (m_survey.rateHz > 0 ? m_survey.rateHz : kUsualRate), 8, text);
+        appendFixed(1 / m_survey.writtenRateHz(), 8, text);
         out.write(text + '\n');
     }
 

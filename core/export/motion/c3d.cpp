@@ -117,7 +117,7 @@ private:
         appendC3d(kScale, bytes);
         appendC3d(word(1 + parameterBlocks + 1), bytes);
         appendC3d(std::int16_t{0}, bytes);
-        appendC3d(static_cast<float>(m_survey.rateHz), bytes);
+        appendC3d(static_cast<float>(m_survey.writtenRateHz()), bytes);
         bytes.resize(C3dParameters::kBlock, '\0');
         return bytes;
     }
@@ -127,7 +127,7 @@ private:
         all.beginGroup("POINT");
         all.add("USED", std::array{word(m_labels.size())});
         all.add("SCALE", kScale);
-        all.add("RATE", static_cast<float>(m_survey.rateHz));
+        all.add("RATE", static_cast<float>(m_survey.writtenRateHz()));
         all.add("DATA_START", std::array{word(dataBlock)});
         all.add("FRAMES", std::array{word(m_survey.frames)});
         if (m_survey.frames > kMostInWord) {

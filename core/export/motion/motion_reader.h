@@ -37,6 +37,9 @@ struct CharacterSurvey {
     std::vector<std::uint32_t> markerIds; ///< in the order in which they were first seen
 
     static constexpr std::size_t kMostMarkers = 1024;
+
+    /// For formats that cannot do without: of a single frame, which has none, MVN's usual one.
+    [[nodiscard]] double writtenRateHz() const { return rateHz > 0 ? rateHz : 60; }
 };
 
 struct MotionSurvey {

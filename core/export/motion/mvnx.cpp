@@ -143,7 +143,7 @@ private:
 
     void addSubject(std::string& text) const {
         std::string rate;
-        appendNumber(m_survey.rateHz, rate);
+        appendNumber(m_survey.writtenRateHz(), rate);
         text += "<subject label=\"" + xmlText(m_character.name) + "\" torsoColor=\"" +
                 model::colourText(m_character.colour) + "\" frameRate=\"" + rate + "\" segmentCount=\"" +
                 std::to_string(kBody) + '"' + dateAttributes() + " configuration=\"FullBody\">\n<comment/>\n";

@@ -207,6 +207,10 @@ class Tests:
         file = self.c3d(b"".join(pose(i, 1) for i in range(66_000)))
         expect(file.frames == 66_000 and file.value("POINT", "LONG_FRAMES") == 66_000, file.frames)
 
+    def test_a_single_frame_has_a_rate(self):
+        expect(self.c3d([[pose(0)]]).rate == RATE, "C3D")
+        expect(self.mvnx([[pose(0)]]).get("frameRate") == str(RATE), "MVNX")
+
     def test_c3d_names_its_subject(self):
         file = self.c3d([[metadata(), pose(0)]] + [[pose(i)] for i in range(1, 9)])
         name = file.value("SUBJECTS", "NAMES")
