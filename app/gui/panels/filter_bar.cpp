@@ -56,6 +56,7 @@ FilterBar::FilterBar(QWidget* parent)
     m_line->setPlaceholderText(tr("Filter packets, such as type == 02 && gap > 0"));
     m_line->setClearButtonEnabled(true);
     m_line->setMaxLength(static_cast<int>(filter::Filter::kLongestText));
+    m_line->setAcceptDrops(false); // a file that is dropped on it is the window's
     m_line->installEventFilter(this);
     layOut();
     makeCompleter();

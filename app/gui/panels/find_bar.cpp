@@ -17,6 +17,7 @@ FindBar::FindBar(QWidget* parent)
     m_edit->setAccessibleName(tr("Find in packets"));
     m_edit->setFont(monospaceFont());
     m_edit->setMaxLength(1024);
+    m_edit->setAcceptDrops(false); // a file that is dropped on it is the window's
     QToolButton* previous = flatButton(QStringLiteral("↑"), tr("Find previous (Shift+F3)"), this);
     QToolButton* next = flatButton(QStringLiteral("↓"), tr("Find next (F3)"), this);
     QToolButton* hide = flatButton(QStringLiteral("×"), tr("Close (Esc)"), this);

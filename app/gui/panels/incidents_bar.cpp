@@ -49,6 +49,7 @@ IncidentBar::IncidentBar(QWidget* parent) : QWidget(parent), m_commands(new Comm
     m_text->setPlaceholderText(tr("Filter"));
     m_text->setClearButtonEnabled(true);
     m_text->setMinimumWidth(fontMetrics().averageCharWidth() * 8);
+    m_text->setAcceptDrops(false); // a file that is dropped on it is the window's
     m_text->installEventFilter(this);
     connect(m_text, &QLineEdit::textChanged, this, &IncidentBar::change);
     row->addWidget(m_commands);

@@ -8,6 +8,7 @@
 #include "app/gui/window/recording_dialog.h"
 #include "core/log/clock.h"
 
+#include <QAbstractSpinBox>
 #include <QAction>
 #include <QDialogButtonBox>
 #include <QDockWidget>
@@ -16,6 +17,7 @@
 #include <QEnterEvent>
 #include <QFile>
 #include <QLayout>
+#include <QLineEdit>
 #include <QMimeData>
 #include <QPushButton>
 #include <QTemporaryDir>
@@ -166,6 +168,16 @@ TEST_F(HelpingTest, ADialogHasAButtonAndF1) {
     QTest::keyClick(&dialog, Qt::Key_F1);
     EXPECT_EQ(place(), placeOf(HelpTopic::RecordingOptions));
     EXPECT_EQ(helpPlaceOf(dialog.findChild<QPushButton*>()), place());
+}
+
+/// Files come with their path as text, too.
+TEST_F(HelpingTest, NoLineTakesAFileThatIsDroppedForText) {
+    for (const QDockWidget* dock : window.findChildren<QDockWidget*>()) {
+        for (const QLineEdit* line : dock->findChildren<QLineEdit*>()) {
+            const bool isOfNumbers = qobject_cast<const QAbstractSpinBox*>(line->parent()) != nullptr;
+            EXPECT_TRUE(isOfNumbers || !line->acceptDrops()) << qUtf8Printable(line->accessibleName());
+        }
+    }
 }
 
 TEST_F(HelpingTest, AFileThatIsDroppedIsOpened) {
