@@ -109,6 +109,9 @@ void openInputs(MainWindow& window, const Options& options, const Settings& sett
                 },
                 Qt::SingleShotConnection);
         }
+    } else if (isToRestore(options) && !settings.file.isEmpty()) {
+        window.say(QCoreApplication::translate("main", "%1, which was open last, is not there any more.")
+                       .arg(settings.file));
     }
     openComparison(window, options, settings);
 }
