@@ -131,23 +131,29 @@ void putOnFloor(const BoneMapping& mapping, OwnBody& body) {
     body.reading.height = bounds.max.z - bounds.min.z;
 }
 
-/// The hindmost and the foremost low vertex of each part of a foot.
+/// The hindmost and the foremost low place of each part of a foot, in the middle of its width: an edge would
+/// be far below where legs are spread.
 void findSoles(OwnBody& body) {
     const float low = kSoleHeight * std::max(body.reading.height / kReferenceStature, 0.1F);
     for (const Segment segment : {RightFoot, RightToe, LeftFoot, LeftToe}) {
         std::optional<std::size_t> back;
         std::optional<std::size_t> front;
+        float right = std::numeric_limits<float>::max();
+        float left = std::numeric_limits<float>::lowest();
         for (std::size_t i = 0; i < body.mesh.vertexCount(); ++i) {
             const glm::vec3& at = body.mesh.positions[i];
             if (at.z > low || body.jointSegments[body.mesh.joints[i][0]] != segment) {
                 continue;
             }
+            right = std::min(right, at.y);
+            left = std::max(left, at.y);
             back = !back || at.x < body.mesh.positions[*back].x ? i : *back;
             front = !front || at.x > body.mesh.positions[*front].x ? i : *front;
         }
         for (const std::optional<std::size_t>& vertex : {back, front}) {
             if (vertex) {
-                body.soles.push_back({body.mesh.joints[*vertex][0], body.mesh.positions[*vertex]});
+                const glm::vec3& at = body.mesh.positions[*vertex];
+                body.soles.push_back({body.mesh.joints[*vertex][0], {at.x, 0.5F * (right + left), at.z}});
             }
         }
     }

@@ -53,7 +53,7 @@ struct OwnJoint {
     bool isRoot = false;
 };
 
-/// A vertex at the bottom of a foot.
+/// A place at the bottom of a foot.
 struct SolePoint {
     std::size_t joint = 0;
     glm::vec3 position{0.0F};
