@@ -151,9 +151,11 @@ std::vector<std::uint8_t> Incident::types() const {
     return eachOnce(parts, kTypeOf);
 }
 
-Incident Incident::of(std::uint8_t which) const {
+Incident Incident::of(std::span<const std::uint8_t> which) const {
     Incident own = *this;
-    std::erase_if(own.parts, [which](const Part& part) { return part.character.value_or(which) != which; });
+    std::erase_if(own.parts, [which](const Part& part) {
+        return part.character && std::ranges::count(which, *part.character) == 0;
+    });
     const bool isShared =
         std::ranges::any_of(parts, [](const Part& part) { return part.character.has_value(); });
     if (isShared && !own.parts.empty()) {

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -130,8 +131,9 @@ struct Incident {
     [[nodiscard]] std::string_view noun() const { return isOfMessages() ? "message" : "sample"; }
     /// What became of it: "lost"; "incomplete" of messages.
     [[nodiscard]] std::string_view fate() const { return isOfMessages() ? "incomplete" : "lost"; }
-    /// What of it was to one character; as a whole where it is of no character.
-    [[nodiscard]] Incident of(std::uint8_t character) const;
+    /// What of it was to one character, or to some; as a whole where it is of no character.
+    [[nodiscard]] Incident of(std::uint8_t character) const { return of(std::span(&character, 1)); }
+    [[nodiscard]] Incident of(std::span<const std::uint8_t> characters) const;
     /// Whether a character is touched, or all of its sender; of what lasts, whether it still is.
     [[nodiscard]] bool concerns(std::uint8_t character) const;
     [[nodiscard]] bool concerns(std::uint8_t character, std::uint8_t type) const;

@@ -303,11 +303,33 @@ public:
                 worst = std::move(mine);
             }
         }
+        if (worst && !character) {
+            worst->incident = graveOf(*worst);
+        }
         return worst ? fromIncidents(m_session, besides(*worst, character.has_value()), m_losses)
                      : withoutIncident(m_session, character, endOfTheLast(line));
     }
 
 private:
+    /// What of a loss makes it grave: who loses little beside those is not named with them, nor does what
+    /// they lose seem less.
+    [[nodiscard]] Incident graveOf(const ListedIncident& listed) const {
+        const Incident& all = listed.incident;
+        if (all.kind != IncidentKind::Loss || listed.state != State::Ongoing ||
+            all.severity() != IncidentSeverity::Error) {
+            return all;
+        }
+        std::vector<std::uint8_t> grave;
+        for (const std::uint8_t character : all.characters()) {
+            Incident own = all.of(character);
+            easeTo(m_span, m_losses, own);
+            if (own.severity() == IncidentSeverity::Error) {
+                grave.push_back(character);
+            }
+        }
+        return grave.empty() ? all : all.of(grave);
+    }
+
     /// With those of others beside an outage or a conflict, that go on as it does, or were at the same time:
     /// who is silent, or sent twice, is named whole, since the first was and until the last.
     [[nodiscard]] std::vector<ListedIncident> besides(const ListedIncident& worst, bool isOfOne) const {

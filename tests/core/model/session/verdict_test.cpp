@@ -392,7 +392,7 @@ TEST_F(VerdictTest, SaysTheSameWhileOnlyItsNumbersGrow) {
 
 TEST_F(VerdictTest, OneThatLostLittleIsNotAsBadAsOneThatIsAboveItsLimit) {
     for (std::uint32_t sample = 1; sample <= 2'000; ++sample, m_at += 10ms) {
-        if (sample != 1'500) {
+        if (sample != 1'510) {
             pose(sample);
         }
         if (sample % 50 != 0) {
@@ -402,6 +402,9 @@ TEST_F(VerdictTest, OneThatLostLittleIsNotAsBadAsOneThatIsAboveItsLimit) {
     EXPECT_EQ(verdictOn(0).state, State::Warning) << verdictOn(0).text;
     EXPECT_EQ(verdictOn(1).state, State::Bad) << verdictOn(1).text;
     EXPECT_EQ(verdict().state, State::Bad);
+    EXPECT_NE(verdict().text.find("2.0 % lost on Character 1, network, since"), std::string::npos)
+        << "and is named alone: " << verdict().text;
+    EXPECT_EQ(verdict().character, (CharacterKey{sender(), 1}));
 }
 
 TEST_F(VerdictTest, ItsFigureIsOfTheTimeThatItIsOf) {
