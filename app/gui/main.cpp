@@ -99,6 +99,9 @@ void openInputs(MainWindow& window, const Options& options, const Settings& sett
     const QString file = fileToOpen(options, settings);
     if (!file.isEmpty()) {
         window.openPath(file);
+        if (isToRestore(options) && driver.file() != nullptr) {
+            driver.file()->session().setDisplayFilter(settings.fileFilter.toStdString());
+        }
         if (options.seekSeconds) {
             QObject::connect(
                 &driver, &SessionDriver::fileOpened, &window,

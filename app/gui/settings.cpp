@@ -83,6 +83,7 @@ Settings settingsOf(const QJsonObject& object) {
     settings.viewport = object["viewport"].toObject();
     settings.filter = object["filter"].toString().left(Settings::kLongestFilter);
     settings.file = object["file"].toString();
+    settings.fileFilter = object["fileFilter"].toString().left(Settings::kLongestFilter);
     settings.comparedFile = object["comparedFile"].toString();
     settings.tour = std::max(0, object["tour"].toInt());
     for (const auto& path : object["recentFiles"].toArray()) {
@@ -132,6 +133,7 @@ QByteArray jsonOf(const Settings& settings) {
                              {"viewport", settings.viewport},
                              {"filter", settings.filter},
                              {"file", settings.file},
+                             {"fileFilter", settings.fileFilter},
                              {"comparedFile", settings.comparedFile},
                              {"tour", settings.tour},
                              {"recentFiles", QJsonArray::fromStringList(settings.recentFiles)}};

@@ -268,6 +268,8 @@ Settings MainWindow::settings() const {
         return file != nullptr ? QDir().absoluteFilePath(file->path()) : QString();
     };
     settings.file = pathOf(m_driver.isFileShown() ? m_driver.file() : nullptr);
+    settings.fileFilter =
+        m_driver.isFileShown() ? QString::fromStdString(m_driver.file()->session().ownFilter()) : QString();
     settings.comparedFile = pathOf(m_driver.compared());
     return settings;
 }

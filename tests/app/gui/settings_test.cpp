@@ -50,6 +50,7 @@ TEST_F(SettingsFileTest, ReadsBackWhatWasWritten) {
     written.filter = "type == 02 && gap > 0";
     written.file = "/takes/take 3.pcapng";
     written.comparedFile = "/takes/reference.pcapng";
+    written.fileFilter = "gap > 0";
     ASSERT_EQ(file.write(written), "");
     const Settings read = file.read(&problem);
     EXPECT_TRUE(problem.isEmpty()) << problem.toStdString();
@@ -64,6 +65,7 @@ TEST_F(SettingsFileTest, ReadsBackWhatWasWritten) {
     EXPECT_EQ(read.filter, written.filter);
     EXPECT_EQ(read.file, written.file);
     EXPECT_EQ(read.comparedFile, written.comparedFile);
+    EXPECT_EQ(read.fileFilter, written.fileFilter);
 }
 
 TEST_F(SettingsFileTest, DoesNotWaitForAPipe) {

@@ -129,6 +129,16 @@ TEST_F(PagesTest, WhatIsSetWhileAFileIsShownStaysWhenItIsClosedAndOpenedAgain) {
     EXPECT_EQ(shownPart<TableView>("faults")->columns().state(), columns);
 }
 
+TEST_F(PagesTest, KeepsTheFilterOfAFileApartFromThatOfWhatIsLive) {
+    m_driver.setDisplayFilter("type == 12");
+    openFile();
+    m_driver.setDisplayFilter("type == 02");
+    EXPECT_EQ(m_window.settings().filter, "type == 12");
+    EXPECT_EQ(m_window.settings().fileFilter, "type == 02");
+    m_driver.closeFile();
+    EXPECT_EQ(m_window.settings().fileFilter, "");
+}
+
 TEST_F(PagesTest, TheHistoryOfFiltersGoesAlongOnceAndDefaultsComeBack) {
     auto* live = shownPart<FilterBar>("packets");
     live->restoreState({{"history", QJsonArray{"type == 02", "size > 100"}}});
