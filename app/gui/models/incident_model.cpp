@@ -15,13 +15,13 @@ namespace {
 using State = model::ListedIncident::State;
 using IncidentColumn = TableColumn<IncidentLine>;
 
-QString lasted(const IncidentLine& line) {
+QString lasted(const model::SessionView& view, const IncidentLine& line) {
     if (line.state == State::Provisional) {
         return tr("provisional");
     }
     const model::Incident& incident = line.incident();
     if (line.state == State::Ongoing && (!line.isPart || line.part()->isCurrent)) {
-        return tr("going on");
+        return view.isRecording() ? tr("to the end") : tr("going on");
     }
     const auto [from, to] = line.isPart ? std::pair(line.part()->from, line.part()->to)
                                         : std::pair(incident.firstStamp, incident.lastStamp);
@@ -33,7 +33,8 @@ QString fromTo(const model::SessionView& view, const IncidentLine& line) {
     return tr("From %1 to %2")
         .arg(timeOfDay(view.wallOf(incident.firstStamp)), line.state == State::Over
                                                               ? timeOfDay(view.wallOf(incident.lastStamp))
-                                                              : tr("now (it may go on)"));
+                                                          : view.isRecording() ? tr("the end")
+                                                                               : tr("now (it may go on)"));
 }
 
 /// "12 not yet here", of one of the streams of an incident.
@@ -141,11 +142,12 @@ std::vector<IncidentColumn> textColumns(model::SessionView& view) {
     };
 }
 
-std::vector<IncidentColumn> figureColumns() {
+std::vector<IncidentColumn> figureColumns(const model::SessionView& view) {
     return {
         IncidentColumn::numbers(tr("Lost"), tr("Samples lost for good"), lostWords),
         IncidentColumn::words(tr("Cause"), tr("Whose loss it was"), causeWords),
-        IncidentColumn::numbers(tr("Lasted"), tr("From its begin to its end"), lasted),
+        IncidentColumn::numbers(tr("Lasted"), tr("From its begin to its end"),
+                                [&view](const IncidentLine& line) { return lasted(view, line); }),
         IncidentColumn::numbers(tr("Count"), tr("How often it happened in this incident"),
                                 [](const IncidentLine& line) {
                                     const auto* part = line.part();
@@ -166,7 +168,7 @@ std::vector<IncidentColumn> figureColumns() {
 std::vector<IncidentColumn> incidentColumns(model::SessionView& view, const IncidentModel& incidents) {
     std::vector<IncidentColumn> columns{severityColumn()};
     std::ranges::move(textColumns(view), std::back_inserter(columns));
-    std::ranges::move(figureColumns(), std::back_inserter(columns));
+    std::ranges::move(figureColumns(view), std::back_inserter(columns));
     for (IncidentColumn& column : columns) {
         if (!column.colour) {
             column.colour = [&incidents](const IncidentLine& line) {

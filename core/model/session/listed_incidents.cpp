@@ -207,13 +207,15 @@ std::string conflictHeadline(const SessionView& session, const Incident& inciden
            session.addressOf(incident.sender).shown() + " and also " + incident.detail;
 }
 
-/// Of an outage: "no data for 1.2 s".
+/// Of an outage: "no data for 1.2 s"; of one at the end of a recording, wherever the cursor is in it,
+/// "no data, last 1.2 s".
 std::string silenceOf(const SessionView& session, const ListedIncident& listed) {
     const log::Stamp end = listed.state == State::Over
                                ? listed.incident.lastStamp
                                : std::max(session.knownUntil(), listed.incident.lastStamp);
     const double seconds = log::secondsOf(end - listed.incident.firstStamp);
-    return "no data for " + fixedText(seconds, seconds < 10 ? 1 : 0) + " s";
+    const bool isAtEnd = session.isRecording() && listed.state != State::Over;
+    return (isAtEnd ? "no data, last " : "no data for ") + fixedText(seconds, seconds < 10 ? 1 : 0) + " s";
 }
 
 /// What no incident of the list tells.
@@ -405,7 +407,7 @@ std::string evidenceOf(const ListedIncident& listed) {
 std::string whenOf(const SessionView& session, const ListedIncident& listed) {
     const std::string from = clockText(session.wallOf(listed.incident.firstStamp));
     if (listed.state != State::Over) {
-        return ", since " + from;
+        return session.isRecording() ? ", " + from + " to the end" : ", since " + from;
     }
     const std::string to = clockText(session.wallOf(listed.incident.lastStamp));
     return from == to ? ", at " + from : ", " + from + " to " + to;

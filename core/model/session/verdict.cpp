@@ -113,7 +113,7 @@ TakeVerdict fromIncidents(const SessionView& session, const std::vector<ListedIn
     verdict.state = isBad ? TakeVerdict::State::Bad : TakeVerdict::State::Warning;
     verdict.isOver = worst.state == State::Over;
     const std::string answer = isBad ? "Not good" : "Not quite good";
-    const std::string lasts = verdict.isOver ? ", over" : ", going on";
+    const std::string lasts = verdict.isOver ? ", over" : session.isRecording() ? "" : ", going on";
     const std::string lost = losses.amountOf(worst, worst.incident.noun());
     const std::string what =
         (together.size() > 1 ? headlineOf(session, together) : headlineOf(session, worst, lost)) +

@@ -115,7 +115,7 @@ TEST_F(ConditionTest, OfARecordingCountsSilenceToItsEndWheneverItIsRead) {
     while (m_session.followFile(m_at + 10'000h)) {
     }
     m_session.endFile();
-    EXPECT_EQ(m_session.verdict(key()).brief, "no data for 2.0 s");
+    EXPECT_EQ(m_session.verdict(key()).brief, "no data, last 2.0 s");
 }
 
 TEST_F(ConditionTest, OfARecordingLooksNotBeyondItsEnd) {
@@ -128,7 +128,7 @@ TEST_F(ConditionTest, OfARecordingLooksNotBeyondItsEnd) {
     while (m_session.followFile(m_at + 100h)) {
     }
     m_session.endFile();
-    EXPECT_EQ(m_session.verdict(key()).brief, "no data for 1.9 s");
+    EXPECT_EQ(m_session.verdict(key()).brief, "no data, last 1.9 s");
 }
 
 TEST_F(ConditionTest, OfARecordingHasTheSilenceAtItsEnd) {
@@ -136,8 +136,10 @@ TEST_F(ConditionTest, OfARecordingHasTheSilenceAtItsEnd) {
     while (m_session.followFile(m_at + 100h)) {
     }
     m_session.endFile(3s);
-    EXPECT_EQ(m_session.verdict(key()).brief, "no data for 3.0 s");
+    EXPECT_EQ(m_session.verdict(key()).brief, "no data, last 3.0 s");
     EXPECT_EQ(m_session.verdict(key()).state, State::Bad);
+    EXPECT_TRUE(m_session.verdict(key()).text.ends_with(" to the end")) << m_session.verdict(key()).text;
+    EXPECT_EQ(m_session.verdict(key()).text.find("going on"), std::string::npos);
 }
 
 TEST_F(ConditionTest, OfARecordingKnowsOfNoSilenceThatNobodyWaitedFor) {
