@@ -124,6 +124,13 @@ std::vector<TableColumn<EndedSender>> endedColumns() {
             Column::numbers(tr("Ended at"), {}, [](const EndedSender& row) { return row.ended; })};
 }
 
+/// "· 2"; with its sender where another one has the same name and ID.
+QString idWords(const model::SessionView& view, const model::CharacterKey& key) {
+    const QString sender = senderApart(view, key);
+    const QString id = QStringLiteral("· %1").arg(key.character);
+    return sender.isEmpty() ? id : id + QStringLiteral(" · ") + sender;
+}
+
 QString clockOf(const model::SessionView& view, log::Stamp stamp) {
     return timeOfDay(view.wallOf(stamp)).chopped(4);
 }
@@ -245,18 +252,24 @@ std::vector<TableColumn<BoardRow>> CharacterModel::columns(model::SessionView& v
         case Qt::CheckStateRole:
             return QVariant(view.isHidden(row.key) ? Qt::Unchecked : Qt::Checked);
         case kSuffixRole:
-            return QVariant(QStringLiteral("· %1").arg(row.key.character));
+            return QVariant(idWords(view, row.key));
+        case kShortSuffixRole: {
+            const QString sender = senderApart(view, row.key);
+            return sender.isEmpty() ? QVariant() : QVariant(QStringLiteral("· ") + sender);
+        }
         case kDotRole:
             return QVariant::fromValue(characterMark(view, row.key));
         default:
             return QVariant();
         }
     };
+    Column name = Column::words(tr("Character"), {},
+                                [&view](const BoardRow& row) { return characterName(view, row.key); })
+                      .withToolTip(help)
+                      .withMore(marks);
+    name.spoken = [&view](const BoardRow& row) { return nameApart(view, row.key); };
     std::vector<Column> columns{
-        Column::words(tr("Character"), {},
-                      [&view](const BoardRow& row) { return characterName(view, row.key); })
-            .withToolTip(help)
-            .withMore(marks),
+        std::move(name),
         valueColumn(Column::words(tr("Verdict"), tr("Whether it is good now on the wire"), {}),
                     [](const BoardRow& row) { return verdictState(row.verdict); })
             .withMore([](const BoardRow& row, int role) {

@@ -77,6 +77,9 @@ std::vector<TableColumn<FaultRow>> FaultModel::columns(const FaultModel& model) 
         tr("Each character is one row through restarts of its sender; its streams are below it"),
         [&model](const FaultRow& row) { return model.nameOf(row); });
     name.more = [&model](const FaultRow& row, int role) { return model.marksOf(row, role); };
+    name.spoken = [&model](const FaultRow& row) {
+        return row.kind == FaultRow::Character ? nameApart(model.m_view, row.current) : model.nameOf(row);
+    };
     FaultColumn expected = FaultColumn::numbers(
         tr("Expected"), tr("Samples that should have come; shares are of these"),
         [](const FaultRow& row) { return row.counts.expected == 0 ? dash() : grouped(row.counts.expected); });
@@ -118,9 +121,12 @@ QVariant FaultModel::marksOf(const FaultRow& row, int role) const {
                other.first.character == row.first.character;
     });
     const QString id = QStringLiteral("· %1").arg(row.current.character);
-    return role != kSuffixRole ? QVariant()
-           : isTwice           ? tr("%1 · %2").arg(id, shown(m_view.addressOf(row.current.sender)))
-                               : id;
+    if (!isTwice || (role != kSuffixRole && role != kShortSuffixRole)) {
+        return role == kSuffixRole ? QVariant(id) : QVariant();
+    }
+    const QString apart = senderApart(m_view, row.current);
+    const QString sender = apart.isEmpty() ? shown(m_view.addressOf(row.current.sender)) : apart;
+    return role == kSuffixRole ? tr("%1 · %2").arg(id, sender) : QStringLiteral("· ") + sender;
 }
 
 std::vector<int> FaultModel::parentsOf(const std::vector<FaultRow>& rows) const {
@@ -181,6 +187,10 @@ QModelIndex FaultModel::indexOf(const FaultRow& like, int column) const {
     const auto found = std::ranges::find_if(m_rows, [&](const FaultRow& row) { return row.isSame(like); });
     return found == m_rows.end() ? QModelIndex()
                                  : TreeModel::indexOf(static_cast<int>(found - m_rows.begin()), column);
+}
+
+std::uint64_t FaultModel::lost(const QModelIndex& index) const {
+    return lostIn(row(index), index.column());
 }
 
 PacketsBehind FaultModel::packetsBehind(const QModelIndex& index) const {

@@ -42,6 +42,8 @@ public:
     }
     /// Invalid where there is none.
     [[nodiscard]] QModelIndex indexOf(const FaultRow& like, int column = 0) const;
+    /// Samples lost that a cell counts, or its row where it counts none.
+    [[nodiscard]] std::uint64_t lost(const QModelIndex& index) const;
     /// The packets that a cell counts.
     [[nodiscard]] PacketsBehind packetsBehind(const QModelIndex& index) const;
     /// A line for each character and stream, with titles (RFC 4180).

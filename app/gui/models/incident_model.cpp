@@ -69,6 +69,10 @@ QString wordsOf(model::SessionView& view, const IncidentLine& line) {
 
 /// Without whose loss it was, and what more there is to say of it.
 QString shortWordsOf(model::SessionView& view, const IncidentLine& line) {
+    if (line.settled->kind == model::IncidentKind::Conflict) {
+        const QString brief = fromUtf8(briefOf(view, {*line.settled, line.state}));
+        return brief.left(1).toUpper() + brief.mid(1);
+    }
     model::Incident bare = *line.settled;
     bare.cause.reset();
     bare.detail.clear();
@@ -136,7 +140,9 @@ std::vector<IncidentColumn> textColumns(model::SessionView& view) {
         IncidentColumn::words(tr("What happened"), {}, words)
             .withToolTip(words)
             .withMore([&view](const IncidentLine& line, int role) {
-                const bool isLong = line.settled != nullptr && line.settled->cause;
+                const bool isLong =
+                    line.settled != nullptr &&
+                    (line.settled->cause || line.settled->kind == model::IncidentKind::Conflict);
                 return role == kShortTextRole && isLong ? QVariant(shortWordsOf(view, line)) : QVariant();
             }),
     };

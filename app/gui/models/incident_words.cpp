@@ -61,8 +61,12 @@ QString whoseWords(model::SessionView& view, const model::Incident& incident) {
     if (characters.empty()) {
         return shown(view.addressOf(incident.sender));
     }
-    const QString name = characters.size() == 1 ? characterName(view, {incident.sender, characters.front()})
-                                                : tr("%1 characters").arg(grouped(characters.size()));
+    const model::CharacterKey first{incident.sender, characters.front()};
+    const QString count = tr("%1 characters").arg(grouped(characters.size()));
+    const QString sender = characters.size() == 1 ? QString() : senderApart(view, first);
+    const QString name = characters.size() == 1 ? nameApart(view, first)
+                         : sender.isEmpty()     ? count
+                                                : count + QStringLiteral(" · ") + sender;
     const auto type = incident.type();
     return type ? name + QStringLiteral(" · ") + QString::fromStdString(wire::typeDigits(*type)) : name;
 }
@@ -72,7 +76,7 @@ QString whoseWords(model::SessionView& view, const model::Incident& incident,
     if (!part.character) {
         return shown(view.addressOf(incident.sender));
     }
-    return characterName(view, {incident.sender, *part.character});
+    return nameApart(view, {incident.sender, *part.character});
 }
 
 QString briefWords(const model::Incident& incident) {

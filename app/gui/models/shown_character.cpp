@@ -7,6 +7,41 @@
 
 namespace posewire::gui {
 
+namespace {
+
+/// Others of now with the same name.
+std::vector<const model::Character*> namesakesOf(const model::SessionView& view,
+                                                 const model::CharacterKey& key) {
+    const model::ForeignText name = view.displayName(key);
+    std::vector<const model::Character*> others = view.charactersNow();
+    std::erase_if(others, [&](const model::Character* one) {
+        return view.isSame(one->key, key) || view.displayName(one->key).shown() != name.shown();
+    });
+    return others;
+}
+
+/// Where the port begins, with its colon.
+qsizetype portAt(const QString& address) {
+    return std::max<qsizetype>(0, address.lastIndexOf(QLatin1Char(':')));
+}
+
+QString senderAmong(const model::SessionView& view, const model::CharacterKey& key,
+                    const std::vector<const model::Character*>& namesakes) {
+    const QString own = shown(view.addressOf(key.sender));
+    std::size_t twins = 0;
+    std::size_t ofThisHost = 0;
+    for (const model::Character* one : namesakes) {
+        if (one->key.character == key.character) {
+            const QString other = shown(view.addressOf(one->key.sender));
+            ++twins;
+            ofThisHost += own.left(portAt(own)) == other.left(portAt(other)) ? 1 : 0;
+        }
+    }
+    return twins == 0 ? QString() : ofThisHost == twins ? own.mid(portAt(own)) : own;
+}
+
+} // namespace
+
 std::optional<model::CharacterKey> shownCharacter(model::SessionView& view) {
     const model::Selection& selection = view.selection();
     if (selection.character && view.find(*selection.character) != nullptr) {
@@ -31,6 +66,21 @@ model::Selection selectionOf(model::SessionView& view, const model::CharacterKey
 
 QString characterName(model::SessionView& view, const model::CharacterKey& key) {
     return shown(view.displayName(key));
+}
+
+QString nameApart(const model::SessionView& view, const model::CharacterKey& key) {
+    QString name = shown(view.displayName(key));
+    const auto namesakes = namesakesOf(view, key);
+    if (!namesakes.empty()) {
+        name += QStringLiteral(" · %1").arg(key.character);
+        const QString sender = senderAmong(view, key, namesakes);
+        name += sender.isEmpty() ? QString() : QStringLiteral(" · ") + sender;
+    }
+    return name;
+}
+
+QString senderApart(const model::SessionView& view, const model::CharacterKey& key) {
+    return senderAmong(view, key, namesakesOf(view, key));
 }
 
 CharacterMark characterMark(model::SessionView& view, const model::CharacterKey& key) {

@@ -18,6 +18,11 @@ namespace posewire::gui {
 [[nodiscard]] model::Selection selectionOf(model::SessionView& view, const model::CharacterKey& key);
 
 [[nodiscard]] QString characterName(model::SessionView& view, const model::CharacterKey& key);
+/// Its name, and what tells it from others of now that have the same: its ID, "Mira · 2", or where they share
+/// that too its sender, "Mira · 0 · :40002", by the port where they come from one host.
+[[nodiscard]] QString nameApart(const model::SessionView& view, const model::CharacterKey& key);
+/// The sender, as nameApart() says it; empty where name and ID are of nobody else.
+[[nodiscard]] QString senderApart(const model::SessionView& view, const model::CharacterKey& key);
 [[nodiscard]] CharacterMark characterMark(model::SessionView& view, const model::CharacterKey& key);
 
 /// The newest packet that the cursor lets through; 0 where there is none.

@@ -49,9 +49,8 @@ std::uint64_t TimelineModel::datagramsIn(const model::TimeRange& window) const {
 }
 
 void TimelineModel::addRows(const model::CharacterKey& key) {
-    Row whole{
-        key, std::nullopt, characterName(m_view, key), characterMark(m_view, key), {}, m_open.contains(key),
-        {}};
+    Row whole{key, std::nullopt, nameApart(m_view, key), characterMark(m_view, key), {}, m_open.contains(key),
+              {}};
     std::map<std::uint8_t, std::vector<log::StreamKey>> byType;
     for (const model::Character* one : m_view.lineage(key)) {
         for (const model::Stream* stream : one->streams) {

@@ -197,7 +197,7 @@ void paintText(QPainter& painter, QRect rect, const QStyleOptionViewItem& option
         suffix.clear(); // what it is added to matters more
     }
     const int suffixWidth = widthWith(suffix);
-    const int reserved = suffixWidth <= rect.width() / 3 ? suffixWidth : 0;
+    const int reserved = suffixWidth <= rect.width() / 2 ? suffixWidth : 0;
     const QString text = metrics.elidedText(whole, Qt::ElideRight, std::max(0, rect.width() - reserved));
     painter.drawText(rect, Qt::AlignLeft | Qt::AlignVCenter, text);
     rect.setLeft(rect.left() + metrics.horizontalAdvance(text + QLatin1Char(' ')));

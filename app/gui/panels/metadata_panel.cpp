@@ -193,7 +193,7 @@ void MetadataPanel::refresh() {
 
 QString MetadataPanel::summary() const {
     const auto key = shownCharacter(m_view);
-    return key ? characterName(m_view, *key) : QString();
+    return key ? nameApart(m_view, *key) : QString();
 }
 
 } // namespace posewire::gui

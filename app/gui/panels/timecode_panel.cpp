@@ -169,7 +169,7 @@ QString TimecodePanel::caption() const {
     if (m_clock.headerMs() && age() >= kStaleAge) {
         return staleText(age());
     }
-    return characterName(m_view, *key);
+    return nameApart(m_view, *key);
 }
 
 double TimecodePanel::age() const {

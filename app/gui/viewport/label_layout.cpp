@@ -210,7 +210,7 @@ QString initialsOf(const QString& name) {
         const bool isNumber = word.size() <= 3 && word[0].isDigit();
         if (isNumber) {
             initials += word;
-        } else if (letters < 2) {
+        } else if (letters < 2 && word[0] != u'·' && word[0] != u':') { // what only tells it from others
             initials += word.left(word[0].isHighSurrogate() ? 2 : 1).toUpper();
             ++letters;
         }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/viewport/labels.h"
 
+#include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
 #include "app/gui/viewport/camera_motion.h"
 
@@ -37,7 +38,7 @@ std::optional<ViewportLabel> labelOf(const Figure& figure, const render::Camera&
     label.depth = glm::dot(figure.labelPosition - camera.eye(), camera.forward());
     label.mark = {QColor::fromRgbF(figure.look.colour.r, figure.look.colour.g, figure.look.colour.b),
                   figure.key.character};
-    label.name = shown(session.displayName(figure.key));
+    label.name = nameApart(session, figure.key);
     label.state = characterHealth(session, figure.key);
     label.isSelected = session.isSelected(figure.key);
     return label;

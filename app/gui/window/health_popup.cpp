@@ -3,6 +3,7 @@
 
 #include "app/gui/models/character_model.h"
 #include "app/gui/models/incident_words.h"
+#include "app/gui/models/shown_character.h"
 #include "app/gui/models/stream_state.h"
 #include "app/gui/models/text.h"
 #include "app/gui/panels/table_view.h"
@@ -147,7 +148,7 @@ private:
     void addTitle(QVBoxLayout& column) {
         const model::TakeVerdict& verdict = m_session.verdict(m_key);
         const Health health = healthOf(verdict.state);
-        auto* title = plainLabel(shown(m_session.displayName(m_key)), this);
+        auto* title = plainLabel(nameApart(m_session, m_key), this);
         QFont bold = title->font();
         bold.setWeight(QFont::DemiBold);
         title->setFont(bold);

@@ -207,6 +207,15 @@ std::string conflictHeadline(const SessionView& session, const Incident& inciden
            session.addressOf(incident.sender).shown() + " and also " + incident.detail;
 }
 
+/// Who else sends it: "port 40002" where that is on the same host.
+std::string otherSender(const SessionView& session, const Incident& incident) {
+    const std::string own = session.addressOf(incident.sender).shown();
+    const std::string host = own.substr(0, own.rfind(':') + 1);
+    const bool isSameHost = !host.empty() && incident.detail.starts_with(host) &&
+                            incident.detail.find_first_not_of("0123456789", host.size()) == std::string::npos;
+    return isSameHost ? "port " + incident.detail.substr(host.size()) : incident.detail;
+}
+
 /// Of an outage: "no data for 1.2 s"; of one at the end of a recording, wherever the cursor is in it,
 /// "no data, last 1.2 s".
 std::string silenceOf(const SessionView& session, const ListedIncident& listed) {
@@ -390,7 +399,7 @@ std::string briefOf(const SessionView& session, const ListedIncident& listed) {
     case IncidentKind::Restart:
         return "restarted";
     case IncidentKind::Conflict:
-        return "also from " + incident.detail;
+        return "also from " + otherSender(session, incident);
     default:
         return std::string(nameOf(incident.kind));
     }

@@ -5,6 +5,7 @@
 
 #include "app/gui/models/column.h"
 #include "app/gui/models/display_filter.h"
+#include "app/gui/models/shown_character.h"
 #include "tests/app/gui/models/stage.h"
 
 #include <QAbstractItemModelTester>
@@ -175,6 +176,38 @@ TEST_F(CharacterModelTest, FlagsTwoSendersOfOneIdBothAndNamesTheOther) {
                         .toString()
                         .contains(row == 0 ? "10.0.0.2:2000" : "10.0.0.1:1000"));
     }
+}
+
+TEST_F(CharacterModelTest, TellsTwoOfOneNameAndIdApartByTheirSenders) {
+    const auto play = [&](const std::vector<std::string>& addresses) {
+        performer::Performer one(sending(1, {2, 12}, 60.0));
+        for (std::uint64_t frame = 0; frame < 120; ++frame) {
+            for (const wire::Datagram& datagram : one.frame(frame)) {
+                for (const std::string& address : addresses) {
+                    m_stage.send(datagram, m_stage.now + 8ms, address);
+                }
+            }
+        }
+        refresh();
+    };
+    const auto suffix = [&](int row) {
+        return m_model.index(row, Column::kName).data(kSuffixRole).toString();
+    };
+    play({"10.0.0.1:1000"});
+    EXPECT_EQ(suffix(0), QString::fromUtf8("· 0"));
+    play({"10.0.0.1:1000", "10.0.0.1:2000"});
+    ASSERT_EQ(m_model.rowCount(), 2);
+    EXPECT_EQ(text(0, Column::kName), text(1, Column::kName));
+    EXPECT_EQ(suffix(0), QString::fromUtf8("· 0 · :1000"));
+    EXPECT_EQ(suffix(1), QString::fromUtf8("· 0 · :2000"));
+    EXPECT_EQ(text(0, Column::kVerdict), QString::fromUtf8("■ also from port 2000"));
+    EXPECT_EQ(m_model.index(0, Column::kName).data(Qt::AccessibleTextRole).toString(),
+              text(0, Column::kName) + QString::fromUtf8(" · 0 · :1000"));
+    EXPECT_EQ(nameApart(m_stage.session, *m_model.character(m_model.index(1, 0))),
+              text(1, Column::kName) + QString::fromUtf8(" · 0 · :2000"));
+    play({"10.0.0.1:1000", "10.0.0.1:2000", "10.0.0.2:1000"});
+    EXPECT_EQ(suffix(0), QString::fromUtf8("· 0 · 10.0.0.1:1000"));
+    EXPECT_EQ(suffix(2), QString::fromUtf8("· 0 · 10.0.0.2:1000"));
 }
 
 TEST_F(CharacterModelTest, PutsTroubleFirstWhereItIsAskedTo) {

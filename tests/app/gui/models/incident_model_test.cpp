@@ -146,6 +146,33 @@ TEST_F(IncidentModelTest, NamesACharacterThatTheSessionDoesNotKnowByItsId) {
     EXPECT_EQ(whoseWords(m_stage.session, event), "2 characters · 02");
 }
 
+TEST_F(IncidentModelTest, SaysOfWhichSenderItIsWhereTwoSendTheSame) {
+    performer::Performer two(sending(2, {2, 12}, 60.0));
+    for (std::uint64_t frame = 0; frame < 240; ++frame) {
+        for (const wire::Datagram& datagram : two.frame(frame)) {
+            for (const char* address : {"10.0.0.1:1000", "10.0.0.1:2000"}) {
+                const bool isLost = frame > 100 && frame % 20 == 0 && address[9] == '2';
+                if (!isLost) {
+                    m_stage.send(datagram, m_stage.now + 4ms, address);
+                }
+            }
+        }
+    }
+    m_stage.follow();
+    m_model.refresh();
+    const int loss = rowOfKind(model::IncidentKind::Loss);
+    ASSERT_GE(loss, 0);
+    EXPECT_EQ(text(loss, IncidentModel::kWho), QString::fromUtf8("2 characters · :2000 · 02"));
+    const int conflict = rowOfKind(model::IncidentKind::Conflict);
+    ASSERT_GE(conflict, 0);
+    EXPECT_TRUE(text(conflict, IncidentModel::kWho).contains(QString::fromUtf8(" · 0 · :")))
+        << text(conflict, IncidentModel::kWho).toStdString();
+    EXPECT_TRUE(m_model.index(conflict, IncidentModel::kText)
+                    .data(kShortTextRole)
+                    .toString()
+                    .startsWith("Also from port "));
+}
+
 TEST_F(IncidentModelTest, OneOutageIsOneRowThatOpensToItsStreams) {
     performer::Performer performer(sending(4, {2, 20, 21}, 60.0));
     m_stage.perform(performer, 0, 600, [](std::uint64_t frame) { return frame < 240 || frame >= 330; });

@@ -177,6 +177,7 @@ TEST(LabelLayout, InitialsTellNamesApart) {
     EXPECT_EQ(initialsOf("Mira Lindqvist 2"), "ML2");
     EXPECT_EQ(initialsOf("Character 17"), "C17");
     EXPECT_EQ(initialsOf("jonas"), "J");
+    EXPECT_EQ(initialsOf(QString::fromUtf8("jonas · 0 · :40002")), "J0");
     EXPECT_EQ(initialsOf("a b c d"), "AB");
     EXPECT_EQ(initialsOf(""), "");
     EXPECT_LE(initialsOf("1 2 3 4 5 6 7 8 9").size(), 5);
