@@ -2,6 +2,7 @@
 #include "app/gui/window/health_bar.h"
 
 #include "app/gui/models/character_model.h"
+#include "app/gui/models/shown_character.h"
 #include "app/gui/models/stream_state.h"
 #include "app/gui/models/text.h"
 #include "app/gui/theme/event_watch.h"
@@ -39,6 +40,11 @@ QString historyText(model::SessionView& session) {
         text.prepend(duration(*seconds) + QStringLiteral(" · "));
     }
     return HealthBar::tr("history %1").arg(text);
+}
+
+/// Without whose loss it is.
+QString whatOf(const model::TakeVerdict& verdict) {
+    return fromUtf8(verdict.what) + (verdict.isOver ? HealthBar::tr(", over") : QString());
 }
 
 /// What is said of those that have no room.
@@ -130,6 +136,8 @@ void HealthBar::refresh(const ReceivingState& receiving) {
 
 void HealthBar::refreshCharacters() {
     m_shown = boardOf(m_session, BoardOrder::TroubleFirst);
+    const bool isForMessage = m_shown.empty() && m_message->isVisible();
+    qobject_cast<QHBoxLayout*>(layout())->setStretchFactor(m_entriesArea, isForMessage ? 0 : 1);
     while (m_entries.size() < m_shown.size()) {
         addEntry();
     }
@@ -153,8 +161,8 @@ void HealthBar::measure(const QFontMetrics& metrics) {
     for (const model::CharacterKey& key : m_shown) {
         const model::TakeVerdict& verdict = m_session.verdict(key);
         grow(m_stateWidth, fromUtf8(verdict.brief), QStringLiteral("10.0 % lost, network, over"));
-        grow(m_whatWidth, fromUtf8(verdict.what), QStringLiteral("10.0 % lost, over"));
-        grow(m_nameWidth, shown(m_session.displayName(key)), QStringLiteral("Performer with a name"));
+        grow(m_whatWidth, whatOf(verdict), QStringLiteral("10.0 % lost, over"));
+        grow(m_nameWidth, nameApart(m_session, key), QStringLiteral("Performer with a name"));
     }
 }
 
@@ -186,7 +194,7 @@ void HealthBar::fitEntries() {
     for (std::size_t i = 0; i < m_entries.size(); ++i) {
         m_entries[i]->setVisible(i < fitting);
         if (i < fitting) {
-            showEntry(i, {nameWidth, beside + nameWidth + stateWidth, isBrief});
+            showEntry(i, {nameWidth, nameWidth + stateWidth, beside + nameWidth + stateWidth, isBrief});
         }
     }
     m_more->setVisible(fitting < all);
@@ -199,12 +207,16 @@ void HealthBar::fitEntries() {
 void HealthBar::showEntry(std::size_t index, const EntryRoom& room) {
     const model::TakeVerdict& verdict = m_session.verdict(m_shown[index]);
     const PropertyValue state = verdictState(verdict);
-    const QString name = shown(m_session.displayName(m_shown[index]));
+    const QString name = nameApart(m_session, m_shown[index]);
     ColourText* entry = m_entries[index];
+    const QFontMetrics metrics = entry->fontMetrics();
+    const auto besides = [&](const QString& words) { return room.text - metrics.horizontalAdvance(words); };
+    const bool isWhole = !room.isBrief || metrics.horizontalAdvance(name) <= besides(state.text);
+    const QString said = isWhole ? state.text : whatOf(verdict);
     entry->setFixedWidth(room.all);
-    entry->setContent(state.health, entry->fontMetrics().elidedText(name, Qt::ElideRight, room.name) +
-                                        QLatin1Char(' ') +
-                                        (room.isBrief ? fromUtf8(verdict.what) : state.text));
+    const int forName = std::max(room.name, besides(said));
+    entry->setContent(state.health,
+                      metrics.elidedText(name, Qt::ElideRight, forName) + QLatin1Char(' ') + said);
     entry->setToolTip(toolTipText(state.toolTip));
 }
 

@@ -45,7 +45,8 @@ private:
     void fitEntries();
     void measure(const QFontMetrics& metrics);
     struct EntryRoom {
-        int name; ///< pixels
+        int name; ///< pixels, at least
+        int text; ///< without the symbol
         int all;
         bool isBrief; ///< without whose loss it is
     };

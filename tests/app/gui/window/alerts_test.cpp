@@ -222,6 +222,22 @@ TEST_F(HealthBarTest, ShowsTheWorstFirstAndAllInAList) {
     EXPECT_EQ(m_bar.firstEntry()->width(), wider);
 }
 
+TEST_F(HealthBarTest, AMessageHasAllTheRoomWhileThereIsNobodyToShow) {
+    m_bar.resize(1'200, 30);
+    m_bar.show();
+    const QString text(90, u'm');
+    m_bar.say(text);
+    m_bar.refresh({});
+    QTest::qWait(1);
+    const auto* message = m_bar.findChild<QLabel*>("message");
+    EXPECT_GT(message->width(), 500);
+    perform(0, 60);
+    m_bar.refresh({});
+    QTest::qWait(1);
+    EXPECT_GT(m_bar.firstEntry()->width(), 0);
+    EXPECT_LT(message->width(), 500) << "shared with the characters";
+}
+
 TEST_F(HealthBarTest, ANarrowBarCountsTheCharactersAndNothingOverlaps) {
     perform(0, 60);
     m_bar.resize(180, 30);
@@ -286,6 +302,10 @@ TEST(HealthBarRoom, FourCharactersInTroubleAreWholeAndOnlyNamesAreCut) {
                 EXPECT_LE(entry->fontMetrics().horizontalAdvance(entry->text()), entry->width() - 2 * margin)
                     << width << " " << entry->text().toStdString();
                 EXPECT_GE(entry->x(), end) << width;
+                const int idle = entry->width() - 2 * margin -
+                                 entry->fontMetrics().horizontalAdvance(entry->text() + u'M');
+                EXPECT_TRUE(idle < 0 || !entry->text().contains(u'…'))
+                    << "cut beside " << idle << " idle pixels: " << entry->text().toStdString();
                 EXPECT_FALSE(width > 1'280 && entry->text().contains(u'…')) << entry->text().toStdString();
                 end = entry->geometry().right();
             }
