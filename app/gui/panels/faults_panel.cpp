@@ -139,10 +139,9 @@ void FaultsPanel::showPackets(const QModelIndex& cell, PacketLook look) {
     if (!cell.isValid()) {
         return;
     }
-    const FaultRow& row = m_faults.row(cell);
     const bool isLoss = cell.column() >= FaultModel::kThisComputer && cell.column() <= FaultModel::kLost;
-    if (isLoss && row.counts.lost == model::LossesByCause{}) {
-        m_message->say(tr("Nothing was lost here."));
+    if (isLoss && m_faults.lost(cell) == 0) {
+        m_message->say(tr("Nothing is counted in this cell."));
     } else if (!gui::showPackets(m_view, m_commands, m_faults.packetsBehind(cell), look)) {
         m_message->say(noPacketsText());
     }
@@ -190,7 +189,9 @@ void FaultsPanel::restorePlace() {
 
 /// Arrows go from cell to cell; at the first column they open and close a row, as in every tree.
 bool FaultsPanel::eventFilter(QObject* watched, QEvent* event) {
-    const int key = event->type() == QEvent::KeyPress ? static_cast<QKeyEvent*>(event)->key() : 0;
+    const auto* press = event->type() == QEvent::KeyPress ? static_cast<QKeyEvent*>(event) : nullptr;
+    const bool isPlain = press != nullptr && (press->modifiers() & ~Qt::KeypadModifier) == Qt::NoModifier;
+    const int key = isPlain ? press->key() : 0;
     const QModelIndex current = m_table->currentIndex();
     const bool isClosed =
         current.column() == 0 && m_faults.rowCount(current) > 0 && !m_table->isExpanded(current);

@@ -90,6 +90,11 @@ TEST_F(FaultsPanelTest, ACellWithoutLossesLeadsNowhere) {
     perform(0, 20);
     m_panel.showPackets(character(FaultModel::kSender), PacketLook::InContext);
     EXPECT_FALSE(m_stage.session.selection().packet.has_value());
+    perform(20, 400);
+    ASSERT_EQ(character(FaultModel::kSender).data().toString(), "0");
+    m_panel.showPackets(character(FaultModel::kSender), PacketLook::InContext);
+    EXPECT_EQ(m_panel.findChild<PassingMessage*>()->text(), "Nothing is counted in this cell.")
+        << "though the network lost some";
 }
 
 TEST_F(FaultsPanelTest, ArrowsGoFromCellToCellAndOpenRows) {
