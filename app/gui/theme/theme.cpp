@@ -155,11 +155,13 @@ QToolButton[live="true"] { background: @goodfill; color: @good; border: 1px soli
 QToolButton[live="false"] { background: @raised; color: @dim; border: 1px solid @line; border-radius: 5px;
   padding: @buttonv 10px; font-weight: 600; }
 QToolButton[live="false"]:hover { color: @text; border-color: @good; }
+QToolButton[live="true"]:focus, QToolButton[live="false"]:focus { border-color: @accent; }
 QToolButton[flat="true"] { background: transparent; border: 1px solid transparent; border-radius: 4px; padding: 1px; }
 QToolButton[flat="true"]::menu-indicator { image: none; width: 0; }
 QToolButton[flat="true"]:hover { background: @raised; border-color: @line; }
 QToolButton[flat="true"]:focus { border-color: @accent; }
 QToolButton[flat="true"]:checked { background: @selection; color: @text; border-color: @accent; }
+QToolButton[framed="true"]:checked:focus, QToolButton[flat="true"]:checked:focus { border-color: @text; }
 QLineEdit, QAbstractSpinBox, QPlainTextEdit, QTextEdit, QTextBrowser { background: @panel; border: 1px solid @line;
   border-radius: 5px; padding: 3px 6px; selection-background-color: @selection; selection-color: @text; }
 QAbstractSpinBox::up-button, QAbstractSpinBox::down-button { background: transparent; border: none; width: 16px; }
@@ -175,6 +177,7 @@ QTabBar::tab { background: @header; color: @dim; border: none; border-right: 1px
   border-top: 2px solid transparent; padding: @menuv 12px; }
 QTabBar::tab:selected { background: @panel; color: @text; border-top-color: @accent; }
 QTabBar::tab:hover:!selected { color: @text; }
+QTabBar::tab:selected:focus { background: @selection; }
 QTabWidget::pane { border: none; }
 
 QScrollBar:vertical { background: transparent; width: 10px; margin: 0; }

@@ -43,8 +43,8 @@ void ColourText::paintEvent(QPaintEvent* /*event*/) {
     const bool isActive = focusPolicy() != Qt::NoFocus && (underMouse() || hasFocus());
     const QRectF frame = QRectF(rect()).adjusted(0.5, 0.5, -0.5, -0.5);
     if (m_look == Look::Pill || isActive) {
-        const QColor plain = hasFocus() ? theme().accent : theme().line;
-        painter.setPen(QPen(m_level == Health::Error ? theme().error : plain, 1));
+        const QColor plain = m_level == Health::Error ? theme().error : theme().line;
+        painter.setPen(hasFocus() ? QPen(theme().accent, 2) : QPen(plain, 1));
         painter.setBrush(isActive ? theme().raised : Qt::transparent);
         const qreal radius = m_look == Look::Pill ? frame.height() / 2 : 4;
         painter.drawRoundedRect(frame, radius, radius);

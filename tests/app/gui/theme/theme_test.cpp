@@ -8,7 +8,9 @@
 #include <QLineEdit>
 #include <QPlainTextEdit>
 #include <QPushButton>
+#include <QTabBar>
 #include <QTest>
+#include <QToolButton>
 #include <QVBoxLayout>
 
 #include <gtest/gtest.h>
@@ -38,6 +40,35 @@ TEST_P(ThemeTest, TextStandsOutOnASelectedRow) {
         EXPECT_GE(contrast(onSelection(text), theme().selection), 4.5) << text.name().toStdString();
     }
     EXPECT_EQ(onSelection(theme().text), theme().text);
+}
+
+TEST_P(ThemeTest, WhatIsOnAndHasTheKeyboardLooksOtherThanWhatIsOnlyOn) {
+    QWidget window;
+    QVBoxLayout column(&window);
+    for (const char* look : {"framed", "flat", "live"}) {
+        auto* button = new QToolButton;
+        button->setText(QStringLiteral("History"));
+        button->setProperty(look, true);
+        button->setCheckable(true);
+        button->setChecked(true);
+        button->setFocusPolicy(Qt::StrongFocus);
+        column.addWidget(button);
+    }
+    auto* tabs = new QTabBar;
+    tabs->addTab(QStringLiteral("Segments"));
+    column.addWidget(tabs);
+    auto* elsewhere = new QPushButton;
+    column.addWidget(elsewhere);
+    window.show();
+    window.activateWindow();
+    ASSERT_TRUE(QTest::qWaitForWindowActive(&window));
+    for (QWidget* widget : window.findChildren<QWidget*>(Qt::FindDirectChildrenOnly)) {
+        elsewhere->setFocus();
+        const QImage without = widget->grab().toImage();
+        widget->setFocus();
+        EXPECT_TRUE(widget == elsewhere || widget->grab().toImage() != without)
+            << widget->metaObject()->className();
+    }
 }
 
 TEST_P(ThemeTest, WhatHasTheKeyboardHasAFrameThatShowsIt) {
