@@ -89,8 +89,9 @@ void IncidentBar::addGroups() {
         connect(action, &QAction::toggled, this, &IncidentBar::change);
     }
     m_groupCommand->setMenu(m_groups);
-    qobject_cast<QToolButton*>(m_commands->widgetForAction(m_groupCommand))
-        ->setPopupMode(QToolButton::InstantPopup);
+    auto* button = qobject_cast<QToolButton*>(m_commands->widgetForAction(m_groupCommand));
+    button->setPopupMode(QToolButton::InstantPopup);
+    button->setAccessibleName(tr("Groups"));
 }
 
 void IncidentBar::setFilter(const IncidentModel::Filter& filter) {
@@ -125,6 +126,8 @@ void IncidentBar::change() {
     m_groupCommand->setText(shown == static_cast<std::ptrdiff_t>(filter.groups.size())
                                 ? tr("Groups ▾")
                                 : tr("Groups %1/%2 ▾").arg(shown).arg(filter.groups.size()));
+    m_commands->widgetForAction(m_groupCommand)
+        ->setAccessibleName(tr("Groups: %1 of %2").arg(shown).arg(filter.groups.size()));
     emit filterChanged(filter);
 }
 

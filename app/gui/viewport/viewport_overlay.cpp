@@ -104,6 +104,7 @@ public:
         m_axes->setPopupMode(QToolButton::InstantPopup);
         m_overlays->setMenu(overlayMenu(*viewport));
         m_overlays->setPopupMode(QToolButton::InstantPopup);
+        m_overlays->setAccessibleName(tr("Overlays"));
         connect(m_frame, &QToolButton::clicked, viewport, &ViewportWidget::frameAll);
         connect(m_projection, &QToolButton::clicked, viewport, &ViewportWidget::toggleProjection);
         m_more->setObjectName(QStringLiteral("moreOfViewport"));
@@ -137,7 +138,7 @@ private:
             tr("Metres on the f&loor"), [&viewport] { viewport.toggleScale(); },
             [&viewport] { return viewport.hasScale(); });
         add(
-            tr("&Values of a segment"), [&viewport] { viewport.toggleCard(); },
+            tr("Val&ues of a segment"), [&viewport] { viewport.toggleCard(); },
             [&viewport] { return viewport.hasCard(); });
         return menu;
     }
