@@ -42,17 +42,19 @@ void toggle(QAbstractItemView& view, const QModelIndex& box) {
     view.model()->setData(box, isOn ? Qt::Unchecked : Qt::Checked, Qt::CheckStateRole);
 }
 
-/// Arrows to the sides step through time where they mean nothing else.
-bool wantsArrows(QObject& watched) {
-    const auto* tree = qobject_cast<QTreeView*>(&watched);
-    return tree != nullptr ? tree->rootIsDecorated()
-                           : qobject_cast<QTabBar*>(&watched) != nullptr ||
-                                 qobject_cast<QAbstractSlider*>(&watched) != nullptr ||
-                                 qobject_cast<RangeStrip*>(&watched) != nullptr;
-}
-
 bool isSideways(const QKeyEvent& event) {
     return event.key() == Qt::Key_Left || event.key() == Qt::Key_Right;
+}
+
+/// Arrows to the sides step through time, or with Alt go back, where they mean nothing else.
+bool wantsArrows(QObject& watched, Qt::KeyboardModifiers modifiers) {
+    const auto* tree = qobject_cast<QTreeView*>(&watched);
+    const bool isOfMoves =
+        tree != nullptr ? tree->rootIsDecorated() : qobject_cast<QTabBar*>(&watched) != nullptr;
+    const bool isOfRange =
+        qobject_cast<QAbstractSlider*>(&watched) != nullptr || qobject_cast<RangeStrip*>(&watched) != nullptr;
+    return isOfMoves ? (modifiers & ~Qt::KeypadModifier) == Qt::NoModifier
+                     : isOfRange && !modifiers.testFlag(Qt::AltModifier);
 }
 
 void press(QAbstractButton& button) {
@@ -76,7 +78,8 @@ bool PressingKeys::eventFilter(QObject* watched, QEvent* event) {
         return false;
     }
     auto* key = static_cast<QKeyEvent*>(event);
-    if (isSideways(*key) && event->type() == QEvent::ShortcutOverride && wantsArrows(*watched)) {
+    if (isSideways(*key) && event->type() == QEvent::ShortcutOverride &&
+        wantsArrows(*watched, key->modifiers())) {
         event->accept();
         return true;
     }

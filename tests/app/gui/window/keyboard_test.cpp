@@ -90,6 +90,20 @@ TEST_F(KeyboardTest, SpacePausesWhereNothingElseTakesIt) {
     EXPECT_TRUE(isPaused());
 }
 
+TEST_F(KeyboardTest, ATreeTakesTheArrowsThatOpenItsRowsAndNotTheKeyThatGoesBack) {
+    QTreeWidget tree(&m_window);
+    const auto takes = [&](Qt::KeyboardModifiers modifiers) {
+        QKeyEvent event(QEvent::ShortcutOverride, Qt::Key_Left, modifiers);
+        event.ignore();
+        QCoreApplication::sendEvent(&tree, &event);
+        return event.isAccepted();
+    };
+    EXPECT_TRUE(takes(Qt::NoModifier));
+    EXPECT_FALSE(takes(Qt::AltModifier)) << "back to before the jump";
+    EXPECT_FALSE(takes(Qt::ControlModifier)) << "one second back";
+    EXPECT_FALSE(takes(Qt::ShiftModifier)) << "ten samples back";
+}
+
 TEST_F(KeyboardTest, TabGoesOnlyToWhatCanBeSeen) {
     for (const QString& layout :
          {QStringLiteral("Check"), QStringLiteral("Debug"), QStringLiteral("Inspect")}) {
