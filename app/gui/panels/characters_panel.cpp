@@ -24,7 +24,7 @@ namespace {
 
 using CharacterDo = ActionsOf<CharactersPanel>;
 
-constexpr const char* kMenu = QT_TRANSLATE_NOOP("Action", "&View/&Characters");
+constexpr const char* kMenu = QT_TRANSLATE_NOOP("Action", "&View/C&haracters");
 
 const ActionInfo kCharacterActions[] = {
     {"troubleFirst", kMenu, QT_TRANSLATE_NOOP("Action", "&Trouble first"), "",

@@ -67,7 +67,7 @@ constexpr ActionInfo kCompareActions[] = {
     lineIn(kCompare),
     {"compareAgain", kCompare, QT_TRANSLATE_NOOP("Action", "&Work out the range again"), "",
      CompareDo::call<&ComparePanel::workAgain>},
-    {"compareStop", kCompare, QT_TRANSLATE_NOOP("Action", "St&op working it out"), "",
+    {"compareStop", kCompare, QT_TRANSLATE_NOOP("Action", "Stop wor&king it out"), "",
      CompareDo::call<&ComparePanel::stopWork>},
 };
 

@@ -13,7 +13,7 @@ using InspectorDo = ActionsOf<InspectorPanel>;
 using Comparison = InspectorPanel::Comparison;
 
 constexpr const char* kGoMenu = "&Go";
-constexpr const char* kComparePacket = QT_TRANSLATE_NOOP("Action", "&Edit/Com&pare packet");
+constexpr const char* kComparePacket = QT_TRANSLATE_NOOP("Action", "&Edit/Compar&e packet");
 
 constexpr ActionInfo kInspectorActions[] = {
     {"holdPacket", kGoMenu, QT_TRANSLATE_NOOP("Action", "&Hold this packet"), "",

@@ -350,7 +350,7 @@ std::span<const ActionInfo> NullPosePanel::actionTable() {
     using Do = ActionsOf<NullPosePanel>;
     static constexpr const char* kCopy = QT_TRANSLATE_NOOP("Action", "&Edit/Copy n&ull pose");
     static constexpr ActionInfo kActions[] = {
-        {"exportNullPose", "&File", QT_TRANSLATE_NOOP("Action", "Export &null pose…"), "",
+        {"exportNullPose", "&File", QT_TRANSLATE_NOOP("Action", "Export nu&ll pose…"), "",
          Do::call<&NullPosePanel::exportFile>},
         {"copyNullPoseCsv", kCopy, QT_TRANSLATE_NOOP("Action", "As &CSV"), "",
          Do::call<&NullPosePanel::copyCsv>},

@@ -99,7 +99,7 @@ struct PacketsPanel::Actions {
          Do::call<&PacketsPanel::goToProblem, kForward, ProblemsOf::Selected>},
         {"previousProblem", kGo, QT_TRANSLATE_NOOP("Action", "&Previous problem of the selected character"),
          "Shift+N", Do::call<&PacketsPanel::goToProblem, kBackward, ProblemsOf::Selected>},
-        {"nextProblemOfAny", kGo, QT_TRANSLATE_NOOP("Action", "Next problem of any&body"), "Alt+N",
+        {"nextProblemOfAny", kGo, QT_TRANSLATE_NOOP("Action", "Next problem of anybo&dy"), "Alt+N",
          Do::call<&PacketsPanel::goToProblem, kForward, ProblemsOf::Anybody>},
         {"previousProblemOfAny", kGo, QT_TRANSLATE_NOOP("Action", "Previous problem of an&ybody"),
          "Alt+Shift+N", Do::call<&PacketsPanel::goToProblem, kBackward, ProblemsOf::Anybody>},

@@ -55,7 +55,7 @@ TimelinePanel::TimelinePanel(model::SessionView& view, Commands& commands, QWidg
 
 std::span<const ActionInfo> TimelinePanel::actionTable() {
     using Do = ActionsOf<TimelinePanel>;
-    static constexpr const char* kMenu = QT_TRANSLATE_NOOP("Action", "&View/&Timeline");
+    static constexpr const char* kMenu = QT_TRANSLATE_NOOP("Action", "&View/Tim&eline");
     static constexpr ActionInfo kActions[] = {
         {"timelineZoomIn", kMenu, QT_TRANSLATE_NOOP("Action", "Zoom &in"), "Ctrl++",
          Do::call<&TimelinePanel::zoomIn>},
@@ -65,7 +65,7 @@ std::span<const ActionInfo> TimelinePanel::actionTable() {
          Do::call<&TimelinePanel::showAll>},
         {"timelineShowRange", kMenu, QT_TRANSLATE_NOOP("Action", "The &selected range"), "",
          Do::call<&TimelinePanel::showRange>},
-        {"timelineStreams", kMenu, QT_TRANSLATE_NOOP("Action", "&Streams of the selected character"), "",
+        {"timelineStreams", kMenu, QT_TRANSLATE_NOOP("Action", "Streams of t&he selected character"), "",
          Do::call<&TimelinePanel::toggleStreams>},
     };
     return kActions;

@@ -94,7 +94,7 @@ void MainWindow::makeBars() {
     menuBar()->setCornerWidget(name, Qt::TopLeftCorner);
     m_layoutButton = new QToolButton(this);
     m_layoutButton->setProperty("flat", true);
-    m_layoutButton->setMenu(menuAt(*menuBar(), QStringLiteral("&View/&Layout")));
+    m_layoutButton->setMenu(menuAt(*menuBar(), QStringLiteral("&View/La&yout")));
     m_layoutButton->setPopupMode(QToolButton::InstantPopup);
     m_layoutButton->setObjectName(QStringLiteral("layoutButton"));
     menuBar()->setCornerWidget(m_layoutButton, Qt::TopRightCorner);

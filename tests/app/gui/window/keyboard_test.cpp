@@ -23,6 +23,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <set>
 
@@ -132,6 +133,25 @@ TEST_F(KeyboardTest, TabGoesOnlyToWhatCanBeSeen) {
             EXPECT_GT(reached.size(), 10U);
         }
     }
+}
+
+TEST_F(KeyboardTest, NoTwoEntriesOfAMenuHaveTheSameMnemonic) {
+    const auto check = [](const auto& self, const QString& menu, const QList<QAction*>& entries) -> void {
+        std::map<QString, QString> taken;
+        for (const QAction* entry : entries) {
+            const QString key = QKeySequence::mnemonic(entry->text()).toString();
+            if (!key.isEmpty() && entry->isVisible()) {
+                const auto [other, isNew] = taken.emplace(key, entry->text());
+                EXPECT_TRUE(isNew) << menu.toStdString() << ": " << key.toStdString() << " is of "
+                                   << other->second.toStdString() << " and of "
+                                   << entry->text().toStdString();
+            }
+            if (entry->menu() != nullptr) {
+                self(self, menu + u'/' + entry->text(), entry->menu()->actions());
+            }
+        }
+    };
+    check(check, {}, m_window.menuBar()->actions());
 }
 
 TEST_F(KeyboardTest, EveryEntryOfEveryMenuIsACommand) {
