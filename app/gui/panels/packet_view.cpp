@@ -189,11 +189,20 @@ void PacketView::placeButton() {
     if (!isShown) {
         return;
     }
-    m_newest->setText(m_missed == 0 ? tr("↓ Follow") : tr("↓ %1 new").arg(grouped(m_missed)));
     m_newest->setToolTip(tr("Go to the newest packet and follow (Ctrl+End)"));
-    m_newest->resize(m_newest->sizeHint().width(), m_header->height() - 2);
-    // In the line of column titles it covers no row; where it would cover a title, it lies on the last row.
-    const bool isInHeader = m_newest->width() < m_header->width() - m_header->titlesEnd();
+    // In the line of column titles it covers no row; where it would cover a title even in few words, it lies
+    // on the last row.
+    const int room = m_header->width() - m_header->titlesEnd();
+    const QString count = grouped(m_missed);
+    for (const QString& words : {m_missed == 0 ? tr("↓ Follow") : tr("↓ %1 new").arg(count),
+                                 m_missed == 0 ? tr("↓") : tr("↓ %1").arg(count)}) {
+        m_newest->setText(words);
+        m_newest->resize(m_newest->sizeHint().width(), m_header->height() - 2);
+        if (m_newest->width() < room) {
+            break;
+        }
+    }
+    const bool isInHeader = m_newest->width() < room;
     const QRect below = viewport()->geometry();
     m_newest->move(m_header->geometry().right() - m_newest->width(),
                    isInHeader ? m_header->y() : below.bottom() - m_newest->height());

@@ -534,7 +534,7 @@ TEST_F(PacketsPanelTest, TheButtonThatFollowsCoversNoTitle) {
             EXPECT_FALSE(isSeen && newest->geometry().intersects(words)) << title.toStdString() << width;
         }
         EXPECT_GT(shown, 1);
-        EXPECT_TRUE(list().rect().contains(newest->geometry())) << width;
+        EXPECT_TRUE(list().rect().contains(newest->geometry()) && (width < 640 || newest->y() == header.y()));
     }
 }
 
