@@ -169,16 +169,17 @@ ExitStatus writeMotion(const ExportOptions& options, const MotionFormat& format,
                                 " has one for each character; choose one with --characters");
     }
     const std::string path = options.output == "-" ? "/dev/stdout" : options.output;
-    const auto exported = exporting::exportMotion({source,
-                                                   format,
-                                                   path,
-                                                   {options.replaces, {options.input}},
-                                                   "Posewire " + std::string(usage::version()),
-                                                   figure::mannequinBody},
-                                                  [&](double share) {
-                                                      line.show("writing", share);
-                                                      return !system::Interruption::hasCome();
-                                                  });
+    const auto exported = exporting::exportMotion(
+        {source,
+         format,
+         path,
+         {options.replaces, {options.input}, [] { return !system::Interruption::hasCome(); }},
+         "Posewire " + std::string(usage::version()),
+         figure::mannequinBody},
+        [&](double share) {
+            line.show("writing", share);
+            return !system::Interruption::hasCome();
+        });
     line.clear();
     if (!exported) {
         const bool isCancelled = exported.error().kind == log::FileError::Kind::Cancelled;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/input_output.h"
 
+#include "app/system/interruption.h"
+
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -94,7 +96,11 @@ tl::expected<Output, std::string> Output::open(const std::string& path, const lo
     if (path == "-") {
         return standard();
     }
-    auto sink = log::createWholeFile(path, rules);
+    log::OutputRules patient = rules;
+    if (!patient.waitsForReader) {
+        patient.waitsForReader = [] { return !system::Interruption::hasCome(); };
+    }
+    auto sink = log::createWholeFile(path, patient);
     if (!sink) {
         return tl::unexpected(sink.error().text);
     }

@@ -47,7 +47,8 @@ private:
 /// A file that is written from front to back and is there whole or not at all, or standard output.
 class Output {
 public:
-    /// "-" is standard output. The error is one line for the user.
+    /// "-" is standard output. A pipe that nobody reads is waited for until Ctrl+C. The error is one line for
+    /// the user.
     static tl::expected<Output, std::string> open(const std::string& path, const log::OutputRules& rules);
     static Output standard();
 

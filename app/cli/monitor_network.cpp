@@ -86,8 +86,21 @@ void tellInputs(const net::Receiver& receiver, Console& console) {
 /// Reports the failure of a recording at once, and only once.
 class RecordingWatch {
 public:
-    RecordingWatch(std::unique_ptr<log::Recording> recording, MonitorRun& run, Console& console)
-        : m_recording(std::move(recording)), m_run(run), m_console(console) {}
+    RecordingWatch(MonitorRun& run, Console& console) : m_run(run), m_console(console) {}
+
+    /// Where it fails for want of a reader, everything else goes on.
+    [[nodiscard]] bool start(const MonitorOptions& options, std::function<bool()> waitsForReader) {
+        auto started = createRecording(options, std::move(waitsForReader))
+                           .and_then([&](std::unique_ptr<log::ByteSink>&& sink) {
+                               return log::Recording::start(m_run.log(), std::move(sink), recordingInfo());
+                           });
+        if (!started) {
+            note(started.error());
+            return started.error().kind == log::FileError::Kind::Unread;
+        }
+        m_recording = std::move(*started);
+        return true;
+    }
 
     void look() {
         if (m_recording && m_status == ExitStatus::Fine) {
@@ -199,14 +212,18 @@ exporting::MonitorFacts factsOf(const net::Receiver& receiver, double elapsedS) 
     return facts;
 }
 
+bool isTimeOver(const MonitorOptions& options, std::chrono::steady_clock::time_point start) {
+    const std::chrono::duration<double> most{options.durationSeconds};
+    return options.durationSeconds > 0 && std::chrono::steady_clock::now() - start >= most;
+}
+
 /// Until the time is over or nobody wants more. Returns how long it was.
 double watch(const MonitorOptions& options, const net::Receiver& receiver, MonitorRun& run,
-             RecordingWatch& recording, InputWatch& inputs) {
+             RecordingWatch& recording, InputWatch& inputs, std::chrono::steady_clock::time_point start) {
     using namespace std::chrono;
     // A verdict is told at once.
     const duration<double> pause{options.asJsonLines ? 0.01 : 0.05};
     const log::SystemClock clock;
-    const auto start = steady_clock::now();
     while (true) {
         const duration<double> elapsed = steady_clock::now() - start;
         const duration<double> left{options.durationSeconds - elapsed.count()};
@@ -281,26 +298,29 @@ ExitStatus monitorNetwork(const MonitorOptions& options, Console& console) {
     if (options.isVerbose) {
         tellInputs(*receiver, console);
     }
-    std::unique_ptr<log::Recording> recording;
-    if (!options.record.empty()) { // now that there is something to record
-        auto started = createRecording(options).and_then([&](std::unique_ptr<log::ByteSink>&& sink) {
-            return log::Recording::start(run.log(), std::move(sink), recordingInfo());
-        });
-        if (!started) {
-            return console.unusable(started.error().text);
+    const auto start = std::chrono::steady_clock::now();
+    RecordingWatch recording(run, console);
+    const auto waits = [&, isTold = false]() mutable {
+        if (!std::exchange(isTold, true)) {
+            console.complain(options.record +
+                             ": nobody reads this pipe yet; recording begins when somebody does");
         }
-        recording = std::move(*started);
+        run.follow(run.log().timeline().now(clock), receiver->isHeldUp());
+        return !run.isOver() && !isTimeOver(options, start);
+    };
+    if (!options.record.empty() &&
+        !recording.start(options, waits)) { // now that there is something to record
+        return ExitStatus::Unusable;
     }
-    RecordingWatch recordingWatch(std::move(recording), run, console);
     InputWatch inputs(*receiver, console);
-    const double elapsedS = watch(options, *receiver, run, recordingWatch, inputs);
+    const double elapsedS = watch(options, *receiver, run, recording, inputs, start);
     const log::Stamp over = run.log().timeline().now(clock);
     exporting::MonitorFacts facts = factsOf(*receiver, elapsedS);
     facts.exceeded = inputs.silent();
     inputs.end();
     receiver.reset(); // what is in the sockets still comes into the log
     const log::Stamp end = run.followToEnd(over);
-    const ExitStatus recorded = recordingWatch.stop(run.receptionOf(facts));
+    const ExitStatus recorded = recording.stop(run.receptionOf(facts));
     return run.conclude(facts, recorded, end);
 }
 

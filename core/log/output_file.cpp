@@ -5,10 +5,12 @@
 #include "core/log/file_names.h"
 
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <filesystem>
 #include <optional>
 #include <system_error>
+#include <thread>
 #include <vector>
 
 namespace posewire::log {
@@ -21,6 +23,10 @@ constexpr const char* kStays = "what was written before can be read";
 constexpr const char* kIsGone = "the file was not written";
 
 tl::unexpected<FileError> unwritable(const std::string& path, int error) {
+    if (const auto status = error == ENXIO ? statusOf(path) : std::nullopt; status && status->isPipe) {
+        return tl::unexpected(FileError{path + ": is a pipe that nobody reads; start its reader first",
+                                        FileError::Kind::Unread});
+    }
     return tl::unexpected(FileError{path + ": cannot be written (" + std::strerror(error) +
                                     "); choose another file or folder"});
 }
@@ -75,11 +81,27 @@ std::string folderOf(const std::string& path) {
     return folder.empty() ? "." : folder;
 }
 
+Descriptor openExisting(const std::string& path, const FileStatus& status, const OutputRules& rules) {
+    constexpr std::chrono::milliseconds step{20};
+    while (true) {
+        Descriptor descriptor = openToWrite(path);
+        const bool isUnread = !descriptor.isOpen() && errno == ENXIO && status.isPipe;
+        if (!isUnread) {
+            return descriptor;
+        }
+        if (!rules.waitsForReader || !rules.waitsForReader()) {
+            errno = ENXIO;
+            return descriptor;
+        }
+        std::this_thread::sleep_for(step);
+    }
+}
+
 /// What is written in place: streams, and files that grow.
 tl::expected<Descriptor, FileError> openTarget(const std::string& path, const Target& target,
                                                const OutputRules& rules) {
     Descriptor descriptor = target.descriptor ? duplicateOf(*target.descriptor)
-                            : target.status   ? openToWrite(path)
+                            : target.status   ? openExisting(path, *target.status, rules)
                                               : createToWrite(path);
     if (!descriptor.isOpen()) {
         return unwritable(path, errno);

@@ -3,6 +3,7 @@
 
 #include "core/log/byte_io.h"
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -15,13 +16,17 @@ struct OutputRules {
     bool mayReplace = false; ///< a file that exists; pipes and devices such as /dev/null need no leave
     /// Files in use, "-" for standard input: never written over, whatever names and links lead to them.
     std::vector<std::string> inUse{};
+    /// Asked again and again while a pipe has nobody who reads it: whether that is waited for any longer.
+    /// Without it opening such a pipe fails at once.
+    std::function<bool()> waitsForReader{};
 };
 
 /// Whether the file may be written as things are: to be asked before long work.
 tl::expected<void, FileError> checkOutput(const std::string& path, const OutputRules& rules);
 
 /// A file that grows where it is, such as a recording: what was flushed is there whatever happens. Later
-/// failures, such as a full disk, come from write(), flush(), sync() and finish().
+/// failures, such as a full disk, come from write(), flush(), sync() and finish(). A pipe that nobody reads
+/// is FileError::Kind::Unread.
 tl::expected<std::unique_ptr<ByteSink>, FileError> createFile(const std::string& path,
                                                               const OutputRules& rules = {});
 

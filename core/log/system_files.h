@@ -42,6 +42,7 @@ struct FileStatus {
         Stream ///< a pipe, a terminal, another device
     };
     Kind kind = Kind::Stream;
+    bool isPipe = false;      ///< with a name or without
     std::uint64_t volume = 0; ///< with the number the same for every name of a file
     std::uint64_t number = 0;
     std::uint32_t rights = 0; ///< as the system writes them, as are owner and group
@@ -65,6 +66,7 @@ struct FileStatus {
 
 /// Opening a pipe that nobody writes to does not wait: reading does.
 [[nodiscard]] Descriptor openToRead(const std::string& path);
+/// Fails with ENXIO where it is a pipe that nobody reads.
 [[nodiscard]] Descriptor openToWrite(const std::string& path);
 /// Fails with EEXIST where there is one.
 [[nodiscard]] Descriptor createToWrite(const std::string& path);

@@ -24,6 +24,7 @@ FileStatus statusFrom(const Status& status) {
                   : S_ISDIR(status.st_mode) ? Kind::Folder
                   : S_ISBLK(status.st_mode) ? Kind::Disk
                                             : Kind::Stream;
+    result.isPipe = S_ISFIFO(status.st_mode);
     result.volume = status.st_dev;
     result.number = status.st_ino;
     result.rights = status.st_mode & 07777U;
@@ -84,7 +85,7 @@ Descriptor openToRead(const std::string& path) {
 }
 
 Descriptor openToWrite(const std::string& path) {
-    return Descriptor(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
+    return Descriptor(::open(path.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC));
 }
 
 Descriptor createToWrite(const std::string& path) {

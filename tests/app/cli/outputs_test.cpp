@@ -6,6 +6,10 @@
 
 #include <filesystem>
 
+#ifndef _WIN32
+#include <sys/stat.h>
+#endif
+
 namespace posewire::cli::test {
 namespace {
 
@@ -97,6 +101,19 @@ TEST(Outputs, MayBeDevices) {
     EXPECT_EQ(runProgram({"encode", "-", "-o", "/dev/stdout"}, line).out,
               runProgram({"encode", "-"}, line).out);
 }
+
+#ifndef _WIN32
+TEST(Outputs, ThatNobodyReadsHoldUpNoMonitor) {
+    const std::string pipe = newPath();
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    const auto run =
+        runProgram({"monitor", "--udp", "127.0.0.1:0", "--duration", "0.3", "--json", "--record", pipe});
+    EXPECT_EQ(run.status, 2);
+    EXPECT_THAT(run.err, HasSubstr(pipe + ": nobody reads this pipe yet"));
+    EXPECT_THAT(run.err, HasSubstr(pipe + ": is a pipe that nobody reads; start its reader first"));
+    EXPECT_THAT(run.out, HasSubstr("\"durationS\":0.3"));
+}
+#endif
 
 TEST(Recordings, SayHowMuchTheyHold) {
     const std::string copy = newPath();

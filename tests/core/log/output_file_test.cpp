@@ -12,6 +12,7 @@
 #include <iterator>
 
 #ifndef _WIN32
+#include <sys/stat.h>
 #include <unistd.h>
 #endif
 
@@ -153,6 +154,26 @@ TEST_F(OutputFile, DoesNotWaitForAReaderThatDoesNotReadOnceSomebodyWaitsForTheEn
     EXPECT_EQ(written.error().kind, FileError::Kind::Failed);
     ::close(ends[0]);
     ::close(ends[1]);
+}
+
+TEST_F(OutputFile, WaitsForTheReaderOfAPipeNoLongerThanIsWanted) {
+    ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
+    for (const auto create : {createFile, createWholeFile}) {
+        const auto atOnce = create(path("pipe"), {});
+        ASSERT_FALSE(atOnce);
+        EXPECT_EQ(atOnce.error().text,
+                  path("pipe") + ": is a pipe that nobody reads; start its reader first");
+        EXPECT_EQ(atOnce.error().kind, FileError::Kind::Unread);
+        int asked = 0;
+        EXPECT_FALSE(create(path("pipe"), {.waitsForReader = [&] { return ++asked < 3; }}));
+        EXPECT_EQ(asked, 3);
+        std::unique_ptr<ByteSource> reader;
+        const auto sink = create(path("pipe"), {.waitsForReader = [&] {
+                                     reader = openFile(path("pipe")).value();
+                                     return true;
+                                 }});
+        EXPECT_TRUE(sink) << sink.error().text;
+    }
 }
 
 TEST_F(OutputFile, SaysThatALinkLeadsNowhere) {
