@@ -182,7 +182,11 @@ ExitStatus writeMotion(const ExportOptions& options, const MotionFormat& format,
         });
     line.clear();
     if (!exported) {
-        const bool isCancelled = exported.error().kind == log::FileError::Kind::Cancelled;
+        using Kind = log::FileError::Kind;
+        if (options.output == "-" && exported.error().kind == Kind::Unread) {
+            return ExitStatus::Fine; // who reads has enough
+        }
+        const bool isCancelled = exported.error().kind == Kind::Cancelled;
         return console.unusable(isCancelled ? "interrupted; " + options.output + " was not written"
                                             : exported.error().text);
     }
