@@ -267,4 +267,14 @@ ExitStatus readingStatus(const tl::expected<void, log::FileError>& result, const
     return result.error().leavesABeginning() ? ExitStatus::Faults : ExitStatus::Unusable;
 }
 
+ExitStatus readingStatus(const tl::expected<void, log::FileError>& result, const log::FileContents& contents,
+                         const std::string& name, const Console& console) {
+    const ExitStatus status = readingStatus(result, console);
+    const bool isRead = result || result.error().leavesABeginning();
+    if (const std::string other = log::otherContents(contents); isRead && !other.empty()) {
+        console.complain(name + ": " + other);
+    }
+    return status;
+}
+
 } // namespace posewire::cli

@@ -3,6 +3,7 @@
 
 #include "app/cli/input_output.h"
 #include "app/usage/usage.h"
+#include "core/log/file_contents.h"
 
 #include <cstdint>
 #include <functional>
@@ -122,6 +123,10 @@ struct Console {
 
 /// What came of reading an input. Where something is wrong that is said; that nobody wants more is not.
 [[nodiscard]] ExitStatus readingStatus(const tl::expected<void, log::FileError>& result,
+                                       const Console& console);
+/// The same where the input may have nothing of ours: then what it has instead is said.
+[[nodiscard]] ExitStatus readingStatus(const tl::expected<void, log::FileError>& result,
+                                       const log::FileContents& contents, const std::string& name,
                                        const Console& console);
 
 /// One command of the program: its name, and what it does once the command line is parsed.

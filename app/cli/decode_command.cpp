@@ -228,13 +228,17 @@ ExitStatus decodeFile(const std::string& path, const DecodeOptions& options, con
         return console.unusable(file.error().text);
     }
     RecordWriter writer(console.out, options.asJson, filter);
-    const auto result = log::readFile(**file, std::ref(writer));
+    log::FileContents contents;
+    const auto result = log::readFile(**file, std::ref(writer), {}, &contents);
     writer.endSkipped();
     const std::string complaint = writer.complaint((*file)->name());
     if (!complaint.empty()) {
         console.complain(complaint);
     }
-    return worse(complaint.empty() ? ExitStatus::Fine : ExitStatus::Faults, readingStatus(result, console));
+    const ExitStatus faults = complaint.empty() ? ExitStatus::Fine : ExitStatus::Faults;
+    const bool isPipeAtItsEnd = path == "-" && contents.isEmpty; // it may well have nothing
+    return worse(faults, isPipeAtItsEnd ? readingStatus(result, console)
+                                        : readingStatus(result, contents, (*file)->name(), console));
 }
 
 ExitStatus decode(const DecodeOptions& options, Console& console) {

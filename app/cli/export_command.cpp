@@ -132,10 +132,12 @@ tl::expected<std::vector<model::CharacterKey>, std::string> chosen(const ExportO
     return wanted;
 }
 
-std::string nothingText(const ExportOptions& options, const MotionSource& source) {
+std::string nothingText(const ExportOptions& options, const MotionSource& source,
+                        const log::FileContents& contents) {
     if (source.characters.empty()) {
-        return options.input +
-               ": has no characters, so there is nothing to export; is it a recording of MXTP?";
+        const std::string other = log::otherContents(contents);
+        return options.input + ": has no characters, so there is nothing to export" +
+               (other.empty() ? "; is it a recording of MXTP?" : ": it " + other);
     }
     const bool isPart = options.fromSeconds || options.untilSeconds;
     return options.input + ": no poses (types 01, 02, 05) of " +
@@ -191,7 +193,7 @@ ExitStatus writeMotion(const ExportOptions& options, const MotionFormat& format,
                                             : exported.error().text);
     }
     if (exported->empty()) {
-        return console.unusable(nothingText(options, source));
+        return console.unusable(nothingText(options, source, recorded.contents()));
     }
     tell(*exported, source, format, console);
     return ExitStatus::Fine;

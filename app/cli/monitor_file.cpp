@@ -133,18 +133,19 @@ ExitStatus monitorFile(const MonitorOptions& options, Console& console) {
     }
     Replay replay(options, run, recorder);
     reading = &replay;
-    const auto read =
-        log::readFile(**file, std::ref(replay), [&replay](std::span<const std::string_view> notes) {
-            if (const auto reception = log::receptionIn(notes)) {
-                replay.takeReception(*reception);
-            }
-        });
+    log::FileContents contents;
+    const auto takeNotes = [&replay](std::span<const std::string_view> notes) {
+        if (const auto reception = log::receptionIn(notes)) {
+            replay.takeReception(*reception);
+        }
+    };
+    const auto read = log::readFile(**file, std::ref(replay), takeNotes, &contents);
     replay.end();
     log::Recorder::Result recorded = replay.recorded();
     if (recorder && recorded) {
         recorded = recorder->finish();
     }
-    ExitStatus status = readingStatus(read, console);
+    ExitStatus status = readingStatus(read, contents, (*file)->name(), console);
     if (!recorded) {
         status = console.unusable(recorded.error().text);
     }

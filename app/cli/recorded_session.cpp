@@ -58,7 +58,7 @@ tl::expected<void, log::FileError> RecordedSession::read(log::ByteSource& source
                 progress(m_size > 0 ? std::min(1.0, static_cast<double>(record.offset) / m_size) : 0);
             }
         },
-        [&](std::span<const std::string_view> notes) { reception = log::receptionIn(notes); });
+        [&](std::span<const std::string_view> notes) { reception = log::receptionIn(notes); }, &m_contents);
     follow();
     if (m_past) {
         m_past->finish();

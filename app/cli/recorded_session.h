@@ -3,6 +3,7 @@
 
 #include "app/cli/datagram_pacer.h"
 #include "core/log/byte_io.h"
+#include "core/log/file_contents.h"
 #include "core/log/packet_log.h"
 #include "core/model/session/session.h"
 
@@ -26,6 +27,8 @@ public:
                                             const std::function<void(double share)>& progress);
 
     [[nodiscard]] const model::Session& session() const { return m_session; }
+    /// What the file held, as far as it was read.
+    [[nodiscard]] const log::FileContents& contents() const { return m_contents; }
 
 private:
     static constexpr std::uint64_t kPacketsAtOnce = 4'096;
@@ -46,6 +49,7 @@ private:
     std::uint64_t m_packets = 0;
     std::uint64_t m_bytesWaiting = 0; ///< not followed yet
     log::Stamp m_newest{};
+    log::FileContents m_contents;
 };
 
 } // namespace posewire::cli

@@ -78,20 +78,24 @@ private:
     bool m_isDone = false;
 };
 
-tl::expected<void, log::FileError> sendOnce(const std::string& path, RecordSender& sender) {
+tl::expected<void, log::FileError> sendOnce(const std::string& path, RecordSender& sender,
+                                            log::FileContents& contents) {
     const auto file = openInput(path, [&] { return sender.isRoundOver(); });
     if (!file) {
         return tl::unexpected(file.error());
     }
-    return log::readFile(**file, std::ref(sender));
+    return log::readFile(**file, std::ref(sender), {}, &contents);
 }
 
-ExitStatus concludeFile(const std::string& path, const RecordSender& sender, Console& console) {
+ExitStatus concludeFile(const std::string& path, const RecordSender& sender,
+                        const log::FileContents& contents, Console& console) {
     if (!sender.failure().empty()) {
         return console.unusable(sender.failure());
     }
     if (sender.datagrams() == 0) {
-        console.complain(path + ": no datagrams found; is it a recording of MXTP?");
+        const std::string other = log::otherContents(contents);
+        console.complain(path + ": no datagrams found" +
+                         (other.empty() ? "; is it a recording of MXTP?" : ": it " + other));
         return ExitStatus::Faults;
     }
     if (sender.skipped() != 0) {
@@ -107,10 +111,11 @@ ExitStatus concludeFile(const std::string& path, const RecordSender& sender, Con
 ExitStatus sendFile(const SendOptions& options, std::vector<SendLine>& lines, Console& console) {
     RecordSender records(options, lines);
     ExitStatus reading = ExitStatus::Fine;
+    log::FileContents contents;
     bool isToBegin = true;
     while (isToBegin) {
         const std::uint64_t before = records.datagrams();
-        const auto result = sendOnce(options.file, records);
+        const auto result = sendOnce(options.file, records, contents);
         if (reading == ExitStatus::Fine) { // a file that is cut off is told once
             reading = readingStatus(result, console);
         }
@@ -122,7 +127,7 @@ ExitStatus sendFile(const SendOptions& options, std::vector<SendLine>& lines, Co
         records.beginAgain();
     }
     records.finish();
-    return worse(reading, concludeFile(options.file, records, console));
+    return worse(reading, concludeFile(options.file, records, contents, console));
 }
 
 } // namespace posewire::cli

@@ -37,6 +37,8 @@ std::optional<std::size_t> afterEtherType(Frame frame, std::size_t place, std::s
     return std::nullopt;
 }
 
+constexpr std::array<std::uint32_t, 10> kLinkTypes{0, 1, 12, 14, 101, 108, 113, 228, 229, 276};
+
 /// Where the network layer begins, by LINKTYPE_ values as registered for pcap and pcapng.
 std::optional<std::size_t> networkOf(std::uint32_t linkType, Frame frame) {
     switch (linkType) {
@@ -214,6 +216,10 @@ IpEndpoint mapped(const IpEndpoint& endpoint) {
 }
 
 } // namespace
+
+bool isLinkTypeKnown(std::uint32_t linkType) {
+    return std::ranges::find(kLinkTypes, linkType) != kLinkTypes.end();
+}
 
 std::optional<IpPacket> ipPacketOf(const CapturedFrame& frame) {
     const auto start = networkOf(frame.linkType, frame.bytes);

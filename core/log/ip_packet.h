@@ -38,6 +38,9 @@ struct IpPacket {
 inline constexpr std::uint8_t kTcp = 6;
 inline constexpr std::uint8_t kUdp = 17;
 
+/// Whether ipPacketOf() looks through frames of that LINKTYPE_ value.
+[[nodiscard]] bool isLinkTypeKnown(std::uint32_t linkType);
+
 /// Looks through the headers of a captured frame: Ethernet (with VLAN tags), Linux cooked (SLL and SLL2), raw
 /// IP and BSD loopback, then IPv4 or IPv6. Empty for anything else.
 [[nodiscard]] std::optional<IpPacket> ipPacketOf(const CapturedFrame& frame);

@@ -26,7 +26,7 @@ constexpr std::array<std::string_view, 4> kFlags{"; truncated", "; between datag
 constexpr std::string_view kStampedOnReading = "; stamped on reading";
 constexpr std::string_view kClockSet = "; clock set by ";
 constexpr std::string_view kFrom = "; from ";
-constexpr std::string_view kMark = "Mark on packet ";
+constexpr std::string_view kMarkNote = "Mark on packet ";
 constexpr std::string_view kMarkedAt = " at ";
 constexpr std::string_view kMarkComment = ": ";
 constexpr std::string_view kReceivedFor = "received for ";
@@ -269,7 +269,7 @@ std::optional<Reception> receptionIn(std::span<const std::string_view> notes) {
 }
 
 std::string markText(const RecordedMark& mark) {
-    std::string text(kMark);
+    std::string text(kMarkNote);
     text.append(std::to_string(mark.packet));
     if (!mark.time.empty()) {
         text.append(kMarkedAt).append(mark.time);
@@ -282,7 +282,7 @@ std::string markText(const RecordedMark& mark) {
 
 std::optional<RecordedMark> parseMark(std::string_view note) {
     RecordedMark mark;
-    if (!takes(note, kMark)) {
+    if (!takes(note, kMarkNote)) {
         return std::nullopt;
     }
     const auto number = std::from_chars(note.data(), note.data() + note.size(), mark.packet);

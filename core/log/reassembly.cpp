@@ -247,10 +247,17 @@ void TcpStream::visit(const TcpFramer::Piece& piece) {
 }
 
 void Reassembly::add(const CapturedFrame& frame) {
+    ++m_contents.packets;
     const auto packet = ipPacketOf(frame);
-    if (!packet || (packet->protocol != kUdp && packet->protocol != kTcp)) {
+    if (!isLinkTypeKnown(frame.linkType)) {
+        m_contents.otherLink = m_contents.ofOtherLinks++ == 0 ? frame.linkType : m_contents.otherLink;
         return;
     }
+    if (!packet || (packet->protocol != kUdp && packet->protocol != kTcp)) {
+        ++m_contents.withoutIp;
+        return;
+    }
+    ++(packet->protocol == kUdp ? m_contents.udp : m_contents.tcp);
     if (packet->isFragment()) {
         m_fragments.add(*packet);
     } else {
@@ -259,6 +266,8 @@ void Reassembly::add(const CapturedFrame& frame) {
 }
 
 void Reassembly::addRecorded(const CapturedFrame& frame) {
+    ++m_contents.packets;
+    ++m_contents.udp;
     const auto packet = ipPacketOf(frame);
     if (const auto payload = packet ? udpPayloadOf(*packet) : std::nullopt) {
         m_visit(recordOf(*packet, *payload));

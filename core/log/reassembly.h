@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/log/file_contents.h"
 #include "core/log/ip_packet.h"
 #include "core/log/recording_file.h"
 #include "core/log/tcp_framer.h"
@@ -124,6 +125,9 @@ public:
     /// The capture has ended: what is incomplete comes out.
     void finish();
 
+    /// The packets that were added.
+    [[nodiscard]] const FileContents& contents() const { return m_contents; }
+
 private:
     static constexpr std::uint16_t kDefaultPort = 9763;
     /// One direction of a connection.
@@ -149,6 +153,7 @@ private:
     std::map<Direction, Followed> m_streams;
     std::set<std::uint16_t> m_ports{kDefaultPort}; ///< UDP ports where other datagrams are foreign
     std::uint64_t m_uses = 0;
+    FileContents m_contents;
 };
 
 } // namespace posewire::log

@@ -5,6 +5,7 @@
 #include "core/log/reassembly.h"
 #include "core/log/tcp_framer.h"
 #include "core/wire/byte_order.h"
+#include "core/wire/header.h"
 
 #include <algorithm>
 #include <array>
@@ -401,7 +402,7 @@ private:
 };
 
 tl::expected<void, FileError> readCapture(ByteSource& source, std::uint32_t magic, const FileVisitor& visit,
-                                          const NotesVisitor& visitNotes) {
+                                          const NotesVisitor& visitNotes, FileContents& contents) {
     FrameNotes notes;
     const FileVisitor noted = [&](const FileRecord& record) {
         FileRecord complete = record;
@@ -417,7 +418,14 @@ tl::expected<void, FileError> readCapture(ByteSource& source, std::uint32_t magi
     }
     notes.setComments({});
     reassembly.finish();
+    contents = reassembly.contents();
     return reader.result();
+}
+
+/// By the first four bytes: gzip, zip, xz, zstd, bzip2.
+bool isCompressed(std::uint32_t magic) {
+    return magic >> 16U == 0x1f8bU || magic == 0x504b0304U || magic == 0xfd377a58U || magic == 0x28b52ffdU ||
+           magic >> 8U == 0x425a68U;
 }
 
 /// `front` has been read to find out the format.
@@ -442,16 +450,32 @@ tl::expected<void, FileError> readRaw(ByteSource& source, Bytes front, const Fil
 } // namespace
 
 tl::expected<void, FileError> readFile(ByteSource& source, const FileVisitor& visit,
-                                       const NotesVisitor& visitNotes) {
+                                       const NotesVisitor& visitNotes, FileContents* contents) {
     std::array<std::byte, 4> first{};
     const auto count = readFully(source, first);
     if (!count) {
         return tl::unexpected(count.error());
     }
+    std::uint64_t datagrams = 0;
+    const FileVisitor counted = [&](const FileRecord& record) {
+        datagrams += wire::startsWithMagic(record.bytes) ? 1 : 0;
+        visit(record);
+    };
     const std::uint32_t magic = *count == first.size() ? wire::load32(first.data()) : 0;
     const bool isPcap = std::ranges::find(kPcapMagics, magic) != kPcapMagics.end();
-    return isPcap || magic == kSectionHeader ? readCapture(source, magic, visit, visitNotes)
-                                             : readRaw(source, std::span(first).first(*count), visit);
+    const bool isCapture = isPcap || magic == kSectionHeader;
+    FileContents found;
+    auto result = isCapture ? readCapture(source, magic, counted, visitNotes, found)
+                            : readRaw(source, std::span(first).first(*count), counted);
+    if (contents != nullptr) {
+        found.format = isCapture             ? FileContents::Format::Capture
+                       : isCompressed(magic) ? FileContents::Format::Compressed
+                                             : FileContents::Format::Raw;
+        found.isEmpty = *count == 0;
+        found.datagrams = datagrams;
+        *contents = found;
+    }
+    return result;
 }
 
 } // namespace posewire::log

@@ -39,12 +39,13 @@ private:
 /// Reads a file from its beginning to its end, or to where it is cut off or damaged: then the answer
 /// says so.
 ImportResult visitFile(const QString& path, const log::FileVisitor& visit,
-                       const log::IsCancelled& isCancelled, const log::NotesVisitor& visitNotes = {}) {
+                       const log::IsCancelled& isCancelled, const log::NotesVisitor& visitNotes = {},
+                       log::FileContents* contents = nullptr) {
     const auto source = log::openFile(QFile::encodeName(path).toStdString(), isCancelled);
     if (!source) {
         return tl::unexpected(QString::fromStdString(source.error().text));
     }
-    const auto read = log::readFile(**source, visit, visitNotes);
+    const auto read = log::readFile(**source, visit, visitNotes, contents);
     const QString text = read ? QString() : QString::fromStdString(read.error().text);
     const bool isRead = read || read.error().leavesABeginning();
     return isRead ? ImportResult(text) : tl::unexpected(text);
@@ -66,6 +67,7 @@ ImportResult importRawFile(const QString& path, const PacketTaker& take, log::St
     log::Duration length{};
     std::uint64_t count = 0;
     bool hasTimes = false;
+    log::FileContents contents;
     const auto measured = visitFile(
         path,
         [&](const log::FileRecord& record) {
@@ -73,14 +75,15 @@ ImportResult importRawFile(const QString& path, const PacketTaker& take, log::St
             length = measuring.next(record);
             ++count;
         },
-        [&] { return hasTimes || (isCancelled && isCancelled()); });
+        [&] { return hasTimes || (isCancelled && isCancelled()); }, {}, &contents);
     if (!measured && !hasTimes) {
         return measured;
     }
     if (count == 0) {
-        return tl::unexpected(measured->isEmpty()
-                                  ? QCoreApplication::translate("FileImport", "%1 is empty.").arg(path)
-                                  : *measured);
+        return tl::unexpected(
+            measured->isEmpty()
+                ? QStringLiteral("%1: %2").arg(path, QString::fromStdString(log::otherContents(contents)))
+                : *measured);
     }
     const log::SenderInfo file{QFileInfo(path).fileName().toStdString(), log::Transport::File, 0};
     RawTime places;

@@ -70,6 +70,22 @@ TEST(DecodeCommand, ShowsADatagramWithAFaultAndEndsWithStatusOne) {
     EXPECT_THAT(run.err, HasSubstr("1 of 1 datagrams could not be decoded, the first at byte 0"));
 }
 
+TEST(EveryReader, SaysWhatAFileHoldsThatHasNothingOfOurs) {
+    const std::string path = fileWith("");
+    const std::vector<std::pair<std::vector<std::string>, int>> all{
+        {{"decode", path}, 0},
+        {{"decode", "--json", path}, 0},
+        {{"monitor", "--json", path}, 0},
+        {{"report", path, "-o", newPath()}, 0},
+        {{"export", path, "--to", newPath(), "--format", "csv"}, 2},
+        {{"send", "--to", "127.0.0.1:9", "--file", path}, 1}};
+    for (const auto& [arguments, status] : all) {
+        const ProgramRun run = runProgram(arguments);
+        EXPECT_EQ(run.status, status) << arguments[0];
+        EXPECT_THAT(run.err, HasSubstr("is empty; was it copied whole?")) << arguments[0];
+    }
+}
+
 TEST(DecodeCommand, HasNothingToSayAboutAnEmptyFile) {
     const ProgramRun run = runProgram({"decode", "--json", "-"});
     EXPECT_EQ(run.status, 0);
