@@ -11,6 +11,7 @@
 #include <set>
 #include <sstream>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace posewire::cli {
@@ -53,16 +54,40 @@ std::string plain(double number) {
 
 constexpr const char* kRange = "range";
 
+/// All of the text, in decimal; nothing where it is not one.
+template <class T>
+std::optional<T> numberOf(const std::string& text) {
+    T value{};
+    const char* end = text.data() + text.size();
+    const auto read = std::from_chars(text.data(), end, value);
+    return read.ec == std::errc{} && read.ptr == end ? std::optional(value) : std::nullopt;
+}
+
 /// In words that name what was typed and what is wanted, and in the help.
 CLI::Validator between(double least, double most) {
     const std::string range = plain(least) + " to " + plain(most);
     return CLI::Validator(
         [=](const std::string& text) {
-            double value = 0.0;
-            const bool isNumber = CLI::detail::lexical_cast(text, value);
-            return isNumber && value >= least && value <= most // false for what is not a number
+            const auto value = numberOf<double>(text);
+            return value && *value >= least && *value <= most // false for what is not a number
                        ? std::string()
                        : "\"" + text + "\" is not a number from " + range;
+        },
+        range, kRange);
+}
+
+/// The same for a whole number, which the parser would take for octal where it begins with 0.
+template <class T>
+CLI::Validator wholeBetween(T least, T most, const std::string& wording) {
+    const std::string range = std::to_string(least) + " to " + std::to_string(most);
+    return CLI::Validator(
+        [=](std::string& text) {
+            const auto value = numberOf<T>(text);
+            const bool isGood = value && *value >= least && *value <= most;
+            const std::string typed = std::exchange(text, isGood ? std::to_string(*value) : text);
+            return isGood  ? std::string()
+                   : value ? "\"" + typed + "\" is not a " + wording + " from " + range
+                           : "\"" + typed + "\" is not a whole number from " + range;
         },
         range, kRange);
 }
@@ -154,17 +179,11 @@ Option Option::showDefault() {
 Option Option::within(double least, double most) {
     return Option(*m_option->check(between(least, most)));
 }
+Option Option::within(int least, int most) {
+    return Option(*m_option->transform(wholeBetween(least, most, "number")));
+}
 Option Option::wholeUpTo(std::uint64_t most) {
-    const std::string range = "0 to " + std::to_string(most);
-    return Option(*m_option->check(CLI::Validator(
-        [=](const std::string& text) {
-            std::uint64_t value = 0;
-            const char* end = text.data() + text.size();
-            const auto read = std::from_chars(text.data(), end, value);
-            const bool isGood = read.ec == std::errc{} && read.ptr == end && value <= most;
-            return isGood ? std::string() : "\"" + text + "\" is not a whole number from " + range;
-        },
-        range, kRange)));
+    return Option(*m_option->transform(wholeBetween(std::uint64_t{0}, most, "whole number")));
 }
 Option Option::seconds() {
     constexpr double year = 365.0 * 86'400.0;

@@ -31,6 +31,8 @@ public:
     Option showDefault(); ///< help names the value that it has now
     /// A number of this range, which the message names where it is not.
     Option within(double least, double most);
+    /// A whole one, in decimal.
+    Option within(int least, int most);
     /// A whole number from 0 to `most`.
     Option wholeUpTo(std::uint64_t most);
     Option seconds();      ///< from 0 to a year

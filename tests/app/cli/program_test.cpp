@@ -95,6 +95,19 @@ TEST(Program, SaysWhichNumbersAnOptionTakes) {
     EXPECT_THAT(complaint({"send", "--senders", "99"}), HasSubstr("\"99\" is not a number from 1 to 16;"));
 }
 
+TEST(Program, ReadsNumbersInDecimalOnly) {
+    for (const std::string number : {"0x1", "1e0", " 1", "+1", "1.0"}) {
+        EXPECT_THAT(runProgram({"send", "--characters", number}).err,
+                    HasSubstr("--characters: \"" + number + "\" is not a whole number from 1 to 32;"));
+    }
+    for (const std::string number : {"0x1", " 1", "+1", "1,5"}) {
+        EXPECT_THAT(runProgram({"send", "--rate", number}).err,
+                    HasSubstr("--rate: \"" + number + "\" is not a number from 1 to 1000;"));
+    }
+    EXPECT_THAT(runProgram({"send", "--characters", "040"}).err, HasSubstr("is not a number from 1 to 32;"))
+        << "not 32 in octal";
+}
+
 TEST(Program, TakesNoNumberThatMakesNoSense) {
     const std::vector<std::vector<std::string>> options{
         {"monitor", "--duration"},   {"monitor", "--interval"}, {"monitor", "--max-loss"},
