@@ -37,6 +37,11 @@ void GroupMemberships::follow(const QList<QNetworkInterface>& interfaces) {
     for (Group& group : m_groups) {
         follow(group, interfaces);
     }
+    m_hasOwn = std::ranges::any_of(interfaces, [this](const QNetworkInterface& interface) {
+        return interface.flags().testFlag(QNetworkInterface::IsUp) &&
+               addressesOf(interface, m_own.protocol()).contains(m_own);
+    });
+    m_hadOwn = m_hadOwn || m_hasOwn;
 }
 
 void GroupMemberships::follow(Group& group, const QList<QNetworkInterface>& interfaces) {
@@ -87,6 +92,10 @@ std::string GroupMemberships::text() const {
 
 std::string GroupMemberships::problem() const {
     std::string text;
+    if (m_hadOwn && !m_hasOwn) {
+        text = "no interface that is up has the address " + m_own.toString().toStdString() +
+               " any more, so nothing arrives; connect its network, or listen on another address";
+    }
     for (const Group& group : m_groups) {
         const std::string address = group.address.toString().toStdString();
         if (group.places.empty()) {

@@ -11,9 +11,9 @@
 
 namespace posewire::net {
 
-/// The multicast groups of one input, and the interfaces on which they are joined. A sender may be reached by
-/// any of them, so a group is joined on all that are up, also on those that appear later. Belongs to the
-/// receiving thread.
+/// What one input wants of the interfaces. Its multicast groups: a sender may be reached by any interface, so
+/// a group is joined on all that are up, also on those that appear later. And its own address, where it
+/// listens on one alone. Belongs to the receiving thread.
 class GroupMemberships {
 public:
     /// Joins a group on an interface or leaves it there; empty, or what the system says against it.
@@ -22,7 +22,9 @@ public:
 
     /// A group is joined by follow(). `change` is called there and must stay callable.
     void add(const QHostAddress& group, Change change) { m_groups.push_back({group, std::move(change), {}}); }
-    [[nodiscard]] bool isEmpty() const { return m_groups.empty(); }
+    /// The input hears what is sent to this address alone.
+    void listensOn(const QHostAddress& address) { m_own = address; }
+    [[nodiscard]] bool isEmpty() const { return m_groups.empty() && m_own.isNull(); }
 
     /// Joins where it is not joined yet, leaves where an interface is down or gone, and joins anew where an
     /// address has changed.
@@ -30,7 +32,8 @@ public:
 
     /// "listening; 239.1.1.1 joined on 2 interfaces (eth0, lo)".
     [[nodiscard]] std::string text() const;
-    /// Where a group could not be joined, and why; empty where there is no problem.
+    /// Where a group could not be joined, and why, and that the own address has gone; empty where there is no
+    /// problem.
     [[nodiscard]] std::string problem() const;
 
 private:
@@ -47,6 +50,9 @@ private:
     static void follow(Group& group, const QList<QNetworkInterface>& interfaces);
 
     std::vector<Group> m_groups;
+    QHostAddress m_own;
+    bool m_hadOwn = false; ///< an interface has had it
+    bool m_hasOwn = false;
 };
 
 } // namespace posewire::net

@@ -37,6 +37,7 @@ public:
             const bool isReopened = wasClosed(socket->localPort());
             m_sockets.push_back({input, std::move(socket), std::nullopt, isReopened});
         }
+        listenOnOwn(joined.groups, *input);
         if (!joined.groups.isEmpty()) {
             m_joined.push_back(std::move(joined));
             followInterfaces();

@@ -26,6 +26,15 @@ struct ReceiveContext {
     ReceiverOptions options;
 };
 
+/// An address of this computer may go, but not that of the loopback; all others are those of groups, nets or
+/// all interfaces.
+inline void listenOnOwn(GroupMemberships& groups, const Input& input) {
+    const QHostAddress address(QString::fromStdString(input.status().endpoint.host));
+    if (!address.isNull() && !address.isLoopback() && !address.isMulticast()) {
+        groups.listensOn(address);
+    }
+}
+
 /// What an input of the receiving thread says about itself.
 inline void tellGroups(Input& input, const GroupMemberships& groups) {
     input.setState(InputState::Listening, groups.text());

@@ -83,6 +83,7 @@ public:
                            .localPort = socket->localPort(),
                            .isReopened = wasClosed(socket->localPort())}));
         }
+        listenOnOwn(joined.groups, *input);
         if (!joined.groups.isEmpty()) {
             m_joined.push_back(std::move(joined));
             followInterfaces();
@@ -350,7 +351,7 @@ private:
     AllowList m_allowed;                     ///< the senders' caches point to it
     std::vector<std::unique_ptr<Socket>> m_sockets;
     std::vector<JoinedInput> m_joined;
-    std::optional<InterfaceWatch> m_watch; ///< from the first group on
+    std::optional<InterfaceWatch> m_watch; ///< from the first group or address of its own on
     log::Moment m_followed{};              ///< when interfaces were last asked for
     int m_idleNaps = 0;
     bool m_isDelayed = false; ///< the sockets waited longer than usual

@@ -52,6 +52,25 @@ TEST_F(GroupMembershipsTest, FollowInterfacesThatComeAndGo) {
     EXPECT_THAT(done, ElementsAre("join " + name(), "leave " + name(), "join " + name()));
 }
 
+TEST_F(GroupMembershipsTest, SayThatTheOwnAddressHasGoneUntilItIsBack) {
+    if (loopback.isEmpty()) {
+        GTEST_SKIP() << "no loopback interface is up here";
+    }
+    GroupMemberships none;
+    EXPECT_TRUE(none.isEmpty());
+    none.listensOn(QHostAddress(QHostAddress::LocalHost));
+    EXPECT_FALSE(none.isEmpty());
+    none.follow({});
+    EXPECT_EQ(none.problem(), "") << "it may be one that no interface is known to have";
+    none.follow(loopback);
+    EXPECT_EQ(none.problem(), "");
+    none.follow({});
+    EXPECT_THAT(none.problem(), HasSubstr("no interface that is up has the address 127.0.0.1 any more"));
+    none.follow(loopback);
+    EXPECT_EQ(none.problem(), "");
+    EXPECT_EQ(none.text(), "listening");
+}
+
 TEST_F(GroupMembershipsTest, SayWhereAGroupCouldNotBeJoinedAndTryAgain) {
     if (loopback.isEmpty()) {
         GTEST_SKIP() << "no loopback interface is up here";

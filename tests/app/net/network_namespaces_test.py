@@ -161,6 +161,25 @@ def check_groups(cli):
         return len(counted) == 3 and all(datagrams >= 90 for _, datagrams in counted)
 
 
+def check_address(cli):
+    """Where the address that is listened on goes, that is told, and that it is back."""
+    with Namespaces() as spaces:
+        sender, receiver = spaces.names
+        monitor = subprocess.Popen([*inside(receiver), cli, "monitor", "--udp", f"{RECEIVER}:{PORT}", "--json", "--duration",
+                                    "60"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        wait_for(lambda: f":{PORT:04X} " in spaces.run(receiver, "cat", "/proc/net/udp"), "the monitor listens")
+        spaces.run(receiver, "ip", "address", "delete", RECEIVER + "/24", "dev", "receiver")
+        time.sleep(1)
+        spaces.run(receiver, "ip", "address", "add", RECEIVER + "/24", "dev", "receiver")
+        time.sleep(1)
+        spaces.run(sender, cli, "send", "--to", f"{RECEIVER}:{PORT}", "--duration", "0.5")
+        monitor.terminate()
+        out, told = monitor.communicate(timeout=30)
+        print(f"an address that went and came back: {told}")
+        gone, back = told.find(f"has the address {RECEIVER} any more"), told.find(f"{RECEIVER}:{PORT}: all is well now")
+        return 0 <= gone < back and len(json.loads(out)["sources"]) == 1
+
+
 def streams_of(report):
     return [stream for source in report["sources"] for character in source["characters"] for stream in character["streams"]]
 
@@ -220,7 +239,7 @@ def main():
         skip("this takes the rights of an administrator")
     if shutil.which("ip") is None or shutil.which("tc") is None:
         skip("there is no ip or no tc command (package iproute2)")
-    sys.exit(0 if all([check_groups(cli)] + [check(seed, cli) for seed in seeds]) else 1)
+    sys.exit(0 if all([check_groups(cli), check_address(cli)] + [check(seed, cli) for seed in seeds]) else 1)
 
 
 if __name__ == "__main__":
