@@ -33,7 +33,11 @@ QString withoutBrackets(const std::string& entry) {
 std::optional<std::pair<QHostAddress, int>> netOf(const std::string& entry) {
     const QString text = withoutBrackets(entry);
     if (text.contains(QLatin1Char('/'))) {
-        const auto net = QHostAddress::parseSubnet(text);
+        auto net = QHostAddress::parseSubnet(text);
+        constexpr int mapped = kBitsOfIpv6 - kBitsOfIpv4; // RFC 4291 section 2.5.5.2
+        if (net.second >= mapped && bitsOf(net.first) != bitsOf(plain(net.first))) {
+            net = {plain(net.first), net.second - mapped};
+        }
         return net.second < 0 ? std::nullopt : std::optional<std::pair<QHostAddress, int>>(net);
     }
     const QHostAddress address(text);

@@ -37,6 +37,16 @@ TEST(AllowList, KnowsAddressesAndNetsOfBothKinds) {
     }
 }
 
+TEST(AllowList, KnowsNetsOfMappedAddresses) {
+    const auto list = AllowList::of({"::ffff:10.9.0.0/120"});
+    ASSERT_TRUE(list) << list.error().text;
+    EXPECT_TRUE(allows(*list, "10.9.0.2"));
+    EXPECT_TRUE(allows(*list, "::ffff:10.9.0.2"));
+    EXPECT_FALSE(allows(*list, "10.9.1.2"));
+    EXPECT_TRUE(allows(*AllowList::of({"::/0"}), "fd00::1"));
+    EXPECT_FALSE(allows(*AllowList::of({"::/0"}), "10.9.0.2"));
+}
+
 TEST(AllowList, LooksUpNames) {
     const auto list = AllowList::of({"localhost"});
     ASSERT_TRUE(list) << list.error().text;
