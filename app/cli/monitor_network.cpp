@@ -2,6 +2,7 @@
 #include "app/cli/monitor.h"
 
 #include <QCoreApplication>
+#include <QHostAddress>
 
 #include <algorithm>
 #include <array>
@@ -39,6 +40,14 @@ void joinGroups(std::vector<net::UdpInput>& inputs, const std::vector<std::strin
     if (!isJoined) {
         inputs.push_back({net::Endpoint{}, groups});
     }
+}
+
+/// Whether a port is heard on one address where the usual one is meant to be heard on all, for groups.
+bool isAlone(const std::vector<net::UdpInput>& inputs, const net::UdpInput& input) {
+    const QHostAddress address(QString::fromStdString(input.endpoint.host));
+    const bool isUsual = input.endpoint.port == net::Endpoint{}.port;
+    return isUsual && !address.isNull() && !address.isMulticast() &&
+           std::ranges::none_of(inputs, [](const auto& one) { return one.endpoint.host.empty(); });
 }
 
 net::NetResult<void> open(net::Receiver& receiver, const Places& places) {
@@ -264,6 +273,13 @@ tl::expected<Places, std::string> placesOf(const MonitorOptions& options) {
     }
     if (udp->empty() && tcpListen->empty() && tcp->empty() && options.multicast.empty()) {
         places.udp.emplace_back();
+    }
+    for (const net::UdpInput& input : places.udp) {
+        if (!options.multicast.empty() && isAlone(places.udp, input)) {
+            return tl::unexpected("--multicast: port " + std::to_string(input.endpoint.port) + " of " +
+                                  input.endpoint.host + " alone receives no multicast; write --udp " +
+                                  std::to_string(input.endpoint.port));
+        }
     }
     joinGroups(places.udp, options.multicast);
     return places;

@@ -122,6 +122,13 @@ NetError listenError(const std::string& protocol, const Endpoint& endpoint,
                                                     " is not an address of this computer; leave it out to "
                                                     "listen on all addresses"};
     default:
+        if (const QHostAddress host(QString::fromStdString(endpoint.host));
+            host.isLinkLocal() && host.scopeId().isEmpty() &&
+            error == QAbstractSocket::UnsupportedSocketOperationError) {
+            return {NetError::Kind::AddressNotHere,
+                    endpoint.host + " may be on every interface; name the one that is meant, as in " +
+                        endpoint.host + "%eth0"};
+        }
         return {NetError::Kind::Other, "cannot listen on " + port + ": " + systemText.toStdString() +
                                            "; choose another port or address"};
     }

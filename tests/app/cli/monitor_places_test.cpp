@@ -195,6 +195,14 @@ TEST_F(MonitorUdp, ListensToThoseThatWereNamedAndCountsOthers) {
     EXPECT_EQ(reportOf(recording)["sources"][0]["datagrams"], 10);
 }
 
+TEST(MonitorMulticast, SaysThatAPortOfOneAddressHearsNoGroup) {
+    const ProgramRun run = runProgram({"monitor", "--udp", "127.0.0.1:9763", "--multicast", "239.1.2.3"});
+    EXPECT_EQ(run.status, 2);
+    EXPECT_THAT(
+        run.err,
+        HasSubstr("--multicast: port 9763 of 127.0.0.1 alone receives no multicast; write --udp 9763"));
+}
+
 TEST(MonitorFrom, SaysWhatIsNeitherHostNorNet) {
     const ProgramRun run =
         runProgram({"monitor", "--udp", "127.0.0.1:0", "--from", "10.0.0.0/33", "--duration", "0.1"});
