@@ -113,6 +113,9 @@ public:
     /// Says how much was recorded, and if not all of it was, how much that is.
     void tellRecorded(const log::RecordingFigures& recorded, bool hasFailed);
 
+    /// Says that the file was not read to its end, also in the report.
+    void tellInterrupted();
+
     /// Writes what was asked for at the end, standard output last. `status` is what else went wrong; `facts`
     /// may name what was exceeded already. What has been missing until `end` is a gap too.
     [[nodiscard]] ExitStatus conclude(exporting::MonitorFacts facts, ExitStatus status,
@@ -120,6 +123,7 @@ public:
 
 private:
     void takeIn(log::Stamp now);
+    [[nodiscard]] std::string packetsText() const;
     void tellSenders();
     ExitStatus writeReport(const exporting::MonitorFacts& facts);
     void showLine(log::Stamp now);
@@ -138,6 +142,7 @@ private:
     std::uint64_t m_linesLeftOut = 0;
     bool m_isConcluding = false;
     bool m_isReaderTold = false;
+    bool m_isInterrupted = false;          ///< amidst a file
     std::set<log::SenderId> m_toldSenders; ///< those that the session lists
     std::chrono::steady_clock::time_point m_nextShow;
 };

@@ -27,7 +27,8 @@ public:
         const log::Stamp stamp =
             record.time ? m_clock.stampOf(*record.time, record.setBy) : log::Stamp(*m_pacer.due(record));
         m_first = m_first.value_or(stamp);
-        m_isDone = stamp - *m_first > m_longest || m_run.isOver() || !m_recorded;
+        m_isCutShort = m_run.isOver();
+        m_isDone = stamp - *m_first > m_longest || m_isCutShort || !m_recorded;
         if (m_isDone) {
             return;
         }
@@ -83,6 +84,8 @@ public:
     }
     /// Nothing more is looked at.
     [[nodiscard]] bool isDone() const { return m_isDone; }
+    /// There was more, but nobody wanted it.
+    [[nodiscard]] bool isCutShort() const { return m_isCutShort; }
     [[nodiscard]] const log::Recorder::Result& recorded() const { return m_recorded; }
 
 private:
@@ -102,6 +105,7 @@ private:
     std::optional<log::Stamp> m_last;
     std::optional<log::Reception> m_reception;
     bool m_isDone = false;
+    bool m_isCutShort = false;
     log::Recorder::Result m_recorded;
 };
 
@@ -146,6 +150,10 @@ ExitStatus monitorFile(const MonitorOptions& options, Console& console) {
         recorded = recorder->finish();
     }
     ExitStatus status = readingStatus(read, contents, (*file)->name(), console);
+    const bool isCancelled = !read && read.error().kind == log::FileError::Kind::Cancelled;
+    if (system::Interruption::hasCome() && (replay.isCutShort() || (isCancelled && !replay.isDone()))) {
+        run.tellInterrupted();
+    }
     if (!recorded) {
         status = console.unusable(recorded.error().text);
     }

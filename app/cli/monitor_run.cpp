@@ -250,6 +250,16 @@ void MonitorRun::tellRecorded(const log::RecordingFigures& recorded, bool hasFai
     }
 }
 
+void MonitorRun::tellInterrupted() {
+    m_isInterrupted = true;
+    m_console.complain(m_options.file + ": interrupted; this is about its first " + packetsText() + " only");
+}
+
+std::string MonitorRun::packetsText() const {
+    const std::uint64_t packets = log::LogReader(m_log).end();
+    return std::to_string(packets) + (packets == 1 ? " packet" : " packets");
+}
+
 ExitStatus MonitorRun::conclude(exporting::MonitorFacts facts, ExitStatus status,
                                 std::optional<log::Stamp> end) {
     m_session.settle();
@@ -289,6 +299,9 @@ ExitStatus MonitorRun::writeReport(const exporting::MonitorFacts& facts) {
     }
     options.settings.emplace_back(m_options.file.empty() ? "Source" : "File",
                                   m_options.file.empty() ? "network" : m_options.file);
+    if (m_isInterrupted) {
+        options.settings.emplace_back("Not read to its end", "interrupted after " + packetsText());
+    }
     log::OutputRules rules = rulesOf(m_options);
     if (!m_options.record.empty() && m_options.record != "-") {
         rules.inUse.push_back(m_options.record);

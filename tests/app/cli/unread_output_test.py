@@ -176,6 +176,26 @@ def check_cancelled_output(cli: str, folder: Path) -> None:
     assert not target.exists() and not list(folder.glob(".posewire*"))
 
 
+def check_interrupted_file(cli: str, folder: Path) -> None:
+    """What is said about a file of which only the beginning was read names that."""
+    pipe, report = folder / "endless", folder / "report.html"
+    os.mkfifo(pipe)
+    for command in (["monitor", str(pipe), "--json"], ["report", str(pipe), "-o", str(report)]):
+        process = subprocess.Popen([cli, *command], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        with open(pipe, "wb", buffering=0) as writer:
+            for sample in range(100):
+                writer.write(pose(sample))
+            time.sleep(0.4)
+            process.send_signal(signal.SIGINT)
+            _, err = process.communicate(timeout=10)
+        assert process.returncode == 0 and f"{pipe}: interrupted; this is about its first" in err, err
+    assert "Not read to its end" in report.read_text()
+    whole = folder / "whole"
+    whole.write_bytes(b"".join(pose(sample) for sample in range(100)))
+    told = subprocess.run([cli, "monitor", str(whole), "--json"], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, check=True)
+    assert told.stderr == b"", told
+
+
 def check_slow_recording(cli: str, folder: Path) -> None:
     """What takes its time to be written is waited for, and that is said."""
     pipe = folder / "slow.pcapng"
@@ -203,7 +223,8 @@ def check_slow_recording(cli: str, folder: Path) -> None:
 def main() -> int:
     cli = sys.argv[1]
     checks = [check_blocked_table, check_blocked_lines, check_nobody_ever_reads, check_reader_gone, check_every_end,
-              check_file_size, check_files_without_end, check_cancelled_output, check_slow_recording]
+              check_file_size, check_files_without_end, check_cancelled_output, check_interrupted_file,
+              check_slow_recording]
     for check in checks:
         with tempfile.TemporaryDirectory() as name:
             check(cli, Path(name))
