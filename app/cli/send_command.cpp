@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/command.h"
 #include "app/cli/send.h"
+#include "app/system/interruption.h"
 #include "core/performer/motion.h"
 #include "core/wire/codec.h"
 
 #include <QCoreApplication>
 
+#include <chrono>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace posewire::cli {
 namespace {
@@ -80,6 +83,11 @@ void offer(const std::vector<wire::Datagram>& frame, log::Duration due, performe
     }
 }
 
+/// Whether the truth about what was sent is to be written now. Without one the signal ends the program.
+bool isInterrupted(const SendOptions& options) {
+    return !options.truth.empty() && system::Interruption::hasCome();
+}
+
 /// Until it is through or `durationSeconds` have passed.
 ExitStatus sendPerformance(const SendOptions& options, const performer::PerformerSettings& settings,
                            std::vector<SendLine>& lines, Console& console) {
@@ -95,14 +103,15 @@ ExitStatus sendPerformance(const SendOptions& options, const performer::Performe
                               ? std::round(options.durationSeconds * settings.rateHz)
                               : std::numeric_limits<double>::infinity();
     net::NetResult<void> sent;
-    for (std::uint64_t index = 0; sent && static_cast<double>(index) < frames; ++index) {
+    for (std::uint64_t index = 0; sent && static_cast<double>(index) < frames && !isInterrupted(options);
+         ++index) {
         for (std::size_t line = 0; line < lines.size(); ++line) {
             performers[line].frameInto(index, frame);
             offer(frame, due(index), lines[line].faults());
         }
         sent = round.sendUntil(due(index + 1));
     }
-    if (sent) {
+    if (sent && !isInterrupted(options)) {
         sent = round.sendRest();
     }
     if (!sent) {
@@ -151,13 +160,23 @@ ExitStatus send(const SendOptions& options, Console& console) {
     if (options.isVerbose) {
         tellLines(*lines, *targets, console);
     }
+    std::optional<system::Interruption> interruption;
+    if (!options.truth.empty()) {
+        interruption.emplace();
+    }
+    const auto start = std::chrono::steady_clock::now();
     const ExitStatus status = options.file.empty() ? sendPerformance(options, *settings, *lines, console)
                                                    : sendFile(options, *lines, console);
+    SendOptions done = options;
+    if (isInterrupted(options)) {
+        const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
+        done.durationSeconds = std::min(options.durationSeconds, std::round(time.count() * 1e3) / 1e3);
+    }
     if (status != ExitStatus::Unusable) {
-        return worse(status, conclude(options, *lines, console));
+        return worse(status, conclude(done, *lines, console));
     }
     if (!options.truth.empty()) { // what was sent until then was sent
-        if (const auto written = writeTruth(options, *lines); !written) {
+        if (const auto written = writeTruth(done, *lines); !written) {
             console.complain(written.error());
         }
     }

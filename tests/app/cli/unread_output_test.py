@@ -196,6 +196,21 @@ def check_interrupted_file(cli: str, folder: Path) -> None:
     assert told.stderr == b"", told
 
 
+def check_interrupted_truth(cli: str, folder: Path) -> None:
+    """What was sent until Ctrl+C is in the truth."""
+    truth = folder / "truth.json"
+    sender = subprocess.Popen([cli, "send", "--to", "127.0.0.1:9", "--duration", "60", "--rate", "100", "--truth",
+                               str(truth)], stdout=subprocess.PIPE, text=True)
+    time.sleep(1.5)
+    sender.send_signal(signal.SIGINT)
+    out, _ = sender.communicate(timeout=10)
+    written = json.loads(truth.read_text())
+    sent = sum(stream["datagrams"] for source in written["sources"] for character in source["characters"]
+               for stream in character["streams"])
+    assert sender.returncode == 0 and f"sent {sent} datagrams" in out and sent > 0, (sender.returncode, out, sent)
+    assert 0 < written["durationS"] < 10, written["durationS"]
+
+
 def check_slow_recording(cli: str, folder: Path) -> None:
     """What takes its time to be written is waited for, and that is said."""
     pipe = folder / "slow.pcapng"
@@ -224,7 +239,7 @@ def main() -> int:
     cli = sys.argv[1]
     checks = [check_blocked_table, check_blocked_lines, check_nobody_ever_reads, check_reader_gone, check_every_end,
               check_file_size, check_files_without_end, check_cancelled_output, check_interrupted_file,
-              check_slow_recording]
+              check_interrupted_truth, check_slow_recording]
     for check in checks:
         with tempfile.TemporaryDirectory() as name:
             check(cli, Path(name))
