@@ -96,9 +96,14 @@ InputChoices inputChoicesOf(const QJsonObject& object) {
             choices.relays.push_back({relay["host"].toString(), *port, relay["on"].toBool(true)});
         }
     }
+    QStringList unreadable;
     for (const QJsonValue& value : object["from"].toArray()) {
-        const auto allowed = parseAllowed(value.toString());
-        choices.allowed += allowed ? *allowed : QStringList();
+        const QString text = value.toVariant().toString();
+        const auto allowed = parseAllowed(text);
+        (allowed ? choices.allowed : unreadable) += allowed.value_or(QStringList(text));
+    }
+    if (choices.allowed.isEmpty()) {
+        choices.allowed = unreadable; // a list of which nothing can be read is not one of everybody
     }
     return choices;
 }

@@ -35,6 +35,14 @@ TEST(InputChoices, LeaveOutWhatMakesNoSense) {
     EXPECT_EQ(choices.allowed, QStringList("10.0.0.5"));
 }
 
+TEST(InputChoices, AListOfHostsThatCannotBeReadIsNotEverybody) {
+    const auto allowedOf = [](const QByteArray& text) {
+        return inputChoicesOf(QJsonDocument::fromJson(text).object()).allowed;
+    };
+    EXPECT_EQ(allowedOf(R"({"from": ["10.0.0.0/99"]})"), QStringList("10.0.0.0/99"));
+    EXPECT_EQ(allowedOf(R"({"from": []})"), QStringList());
+}
+
 TEST(InputChoices, HostsToListenToAreReadInAnyForm) {
     EXPECT_EQ(parseAllowed("10.0.0.0/8; studio,\n fd00::/8 "),
               QStringList({"10.0.0.0/8", "studio", "fd00::/8"}));
