@@ -3,6 +3,7 @@
 #include "app/gui/window/health_bar.h"
 #include "app/gui/window/main_window.h"
 
+#include <QAbstractItemView>
 #include <QAction>
 #include <QApplication>
 #include <QDockWidget>
@@ -25,6 +26,15 @@ QWidget* firstStop(QWidget* part) {
     return found == children.end() ? part : *found;
 }
 
+/// Where the keyboard is of most use in a dock: its table; what takes it first where there is none.
+QWidget* mainStop(QWidget* panel) {
+    const QList<QAbstractItemView*> tables = panel->findChildren<QAbstractItemView*>();
+    const auto found = std::ranges::find_if(tables, [](const QWidget* table) {
+        return table->isVisible() && (table->focusPolicy() & Qt::TabFocus) != 0;
+    });
+    return found == tables.end() ? firstStop(panel) : *found;
+}
+
 } // namespace
 
 bool MainWindow::Dock::isInSight() const {
@@ -40,11 +50,21 @@ const MainWindow::Dock* MainWindow::findDock(const QString& name) const {
     return found == m_docks.end() ? nullptr : &*found;
 }
 
+/// The keyboard goes along where the dock that has it is covered: else nobody sees what keys do.
 void MainWindow::showDock(const QString& dock) {
-    if (const Dock* found = findDock(dock)) {
-        placeDock(*found->dock, found->info->area, *this);
-        found->dock->show();
-        found->dock->raise();
+    const Dock* found = findDock(dock);
+    if (found == nullptr) {
+        return;
+    }
+    const auto hasKeyboard = [this](const Dock& each) { return each.dock->isAncestorOf(focusWidget()); };
+    const auto with = std::ranges::find_if(m_docks, hasKeyboard);
+    placeDock(*found->dock, found->info->area, *this);
+    found->dock->show();
+    const bool isCovered = with != m_docks.end() && with->dock != found->dock &&
+                           tabifiedDockWidgets(found->dock).contains(with->dock);
+    found->dock->raise();
+    if (isCovered) {
+        mainStop(found->panel)->setFocus();
     }
 }
 
@@ -87,7 +107,7 @@ void MainWindow::coverBy(const QString& name) {
 void MainWindow::uncover() {
     if (const Dock* dock = findDock(std::exchange(m_covered, {}))) {
         dock->dock->raise();
-        firstStop(dock->panel)->setFocus();
+        mainStop(dock->panel)->setFocus();
     }
 }
 
@@ -109,8 +129,9 @@ void MainWindow::toggleDock(const QString& name) {
     const Dock* dock = findDock(name);
     if (dock != nullptr && dock->isInSight()) {
         dock->dock->close();
-    } else {
+    } else if (dock != nullptr) {
         showDock(name);
+        mainStop(dock->panel)->setFocus();
     }
 }
 

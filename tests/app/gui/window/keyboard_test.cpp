@@ -6,6 +6,7 @@
 #include "app/gui/window/main_window.h"
 #include "core/log/clock.h"
 
+#include <QAbstractItemView>
 #include <QAction>
 #include <QCheckBox>
 #include <QDockWidget>
@@ -103,6 +104,23 @@ TEST_F(KeyboardTest, ATreeTakesTheArrowsThatOpenItsRowsAndNotTheKeyThatGoesBack)
     EXPECT_FALSE(takes(Qt::AltModifier)) << "back to before the jump";
     EXPECT_FALSE(takes(Qt::ControlModifier)) << "one second back";
     EXPECT_FALSE(takes(Qt::ShiftModifier)) << "ten samples back";
+}
+
+TEST_F(KeyboardTest, GoesAlongWithADockThatIsShownOverTheOneThatHadIt) {
+    m_window.useLayout(QStringLiteral("Debug"));
+    QTest::qWait(20);
+    const auto isIn = [&](const char* dock) {
+        return m_window.findChild<QDockWidget*>(QLatin1String(dock))->isAncestorOf(m_window.focusWidget()) &&
+               qobject_cast<QAbstractItemView*>(m_window.focusWidget()) != nullptr;
+    };
+    ASSERT_NE(command("Faults"), nullptr);
+    command("Faults")->action->trigger();
+    EXPECT_TRUE(isIn("faults")) << "asked for by its name";
+    m_window.showDock(QStringLiteral("packets"));
+    EXPECT_TRUE(isIn("packets")) << "else keys would go to a dock that nobody sees";
+    m_window.viewport().setFocus();
+    m_window.showDock(QStringLiteral("events"));
+    EXPECT_EQ(m_window.focusWidget(), &m_window.viewport()) << "which is seen as before";
 }
 
 TEST_F(KeyboardTest, TabGoesOnlyToWhatCanBeSeen) {
