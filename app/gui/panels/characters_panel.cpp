@@ -210,10 +210,14 @@ void CharactersPanel::showEmptyState() {
 void CharactersPanel::keepRoom() {
     constexpr qsizetype kMostOfVerdict = 26; // characters
     constexpr qsizetype kMostOfName = 16;
+    // Whose loss it is must be read somewhere: beside the verdict, or in it.
+    const bool isCauseBeside = !m_table->columns().isSectionHidden(CharacterModel::kLostOnNetwork);
     QString verdict;
     QString name;
     for (int row = 0; row < m_model.rowCount(); ++row) {
-        const QString said = m_model.index(row, CharacterModel::kVerdict).data(kShortTextRole).toString();
+        const QString said = m_model.index(row, CharacterModel::kVerdict)
+                                 .data(isCauseBeside ? kShortTextRole : Qt::DisplayRole)
+                                 .toString();
         const QModelIndex who = m_model.index(row, CharacterModel::kName);
         const QString called =
             who.data().toString().left(kMostOfName) + QLatin1Char(' ') + who.data(kSuffixRole).toString();

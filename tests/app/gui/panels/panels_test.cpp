@@ -173,6 +173,24 @@ TEST_F(PanelsTest, TwentyCharactersAreInViewAtOnce) {
     EXPECT_GE(view->visualRect(view->model()->index(0, 0)).height(), view->fontMetrics().height());
 }
 
+TEST_F(PanelsTest, ANarrowBoardSaysInTheVerdictWhoseLossItIs) {
+    performer::Performer two(sending(2, {2, 12}, 60.0));
+    m_stage.perform(two, 0, 900, [](std::uint64_t frame) { return frame % 40 != 39; });
+    m_stage.follow();
+    const auto panel = open<CharactersPanel>();
+    panel->resize(46 * panel->fontMetrics().averageCharWidth(), 300);
+    for (int i = 0; i < 3; ++i) {
+        panel->refresh();
+        QTest::qWait(1);
+    }
+    const auto* board = panel->findChild<TableView*>(QStringLiteral("board"));
+    ASSERT_TRUE(board->columns().isSectionHidden(CharacterModel::kLostOnNetwork));
+    const QString said = board->model()->index(0, CharacterModel::kVerdict).data().toString();
+    EXPECT_TRUE(said.contains(QStringLiteral("lost, "))) << said.toStdString();
+    EXPECT_GT(board->columns().sectionSize(CharacterModel::kVerdict),
+              board->fontMetrics().horizontalAdvance(said));
+}
+
 TEST_F(PanelsTest, TheBoardShowsDetailOfTheSelectedOnlyAndKeepsWhatWasSet) {
     performer::Performer performer(sending(2, {2, 21}));
     m_stage.perform(performer, 0, 10);
