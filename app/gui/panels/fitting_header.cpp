@@ -4,6 +4,7 @@
 #include "app/gui/panels/cell_delegate.h"
 #include "app/gui/theme/plain_text.h"
 
+#include <QAbstractButton>
 #include <QJsonArray>
 #include <QMenu>
 #include <QScopedValueRollback>
@@ -256,6 +257,19 @@ int FittingHeader::titlesEnd() const {
     return isOfFigures(last)
                ? left + sectionSize(last)
                : left + std::min(sectionSize(last), fontMetrics().horizontalAdvance(title) + kTitleSpace);
+}
+
+bool FittingHeader::seat(QAbstractButton& button, const QStringList& words) const {
+    const int room = width() - titlesEnd();
+    const auto fits = [&](const QString& text) {
+        button.setText(text);
+        button.resize(button.sizeHint().width(), height() - 2);
+        return button.width() < room;
+    };
+    const bool isSeated = std::ranges::any_of(words, fits) || fits(words.front());
+    button.move(geometry().right() - button.width(), y());
+    button.raise();
+    return isSeated;
 }
 
 int FittingHeader::columnBeside(int column, int direction) const {

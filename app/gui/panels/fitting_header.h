@@ -8,6 +8,7 @@
 
 #include <vector>
 
+class QAbstractButton;
 class QMenu;
 
 namespace posewire::gui {
@@ -63,6 +64,9 @@ public:
     void fit();
     /// Where the words of the last title in sight end, in pixels from the left.
     [[nodiscard]] int titlesEnd() const;
+    /// Puts a button at the end of the line of titles, with the first of these words that cover none of them.
+    /// False where all would: it has the first words then, and covers one.
+    bool seat(QAbstractButton& button, const QStringList& words) const;
     /// The next column that is shown; the same one at the end.
     [[nodiscard]] int columnBeside(int column, int direction) const;
     /// Columns are not yet as wide as they will be.

@@ -290,14 +290,12 @@ void IncidentsPanel::newest() {
 }
 
 void IncidentsPanel::placeChip() {
-    const QHeaderView* header = m_table->header();
     m_chip->setVisible(!m_isFollowing && m_incidents.rowCount() > 0);
-    m_chip->setText(m_missed == 0 ? tr("↓ Follow")
-                                  : tr("↓ %1 new").arg(grouped(static_cast<std::uint64_t>(m_missed))));
+    const QString count = grouped(static_cast<std::uint64_t>(m_missed));
     // In the line of column titles it covers no row.
-    m_chip->resize(m_chip->sizeHint().width(), header->height() - 2);
-    m_chip->move(header->geometry().right() - m_chip->width(), header->y());
-    m_chip->raise();
+    m_table->columns().seat(*m_chip, m_missed == 0
+                                         ? QStringList{tr("↓ Follow"), tr("↓")}
+                                         : QStringList{tr("↓ %1 new").arg(count), tr("↓ %1").arg(count)});
 }
 
 void IncidentsPanel::showEmptyState() {

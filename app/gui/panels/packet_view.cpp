@@ -192,21 +192,12 @@ void PacketView::placeButton() {
     m_newest->setToolTip(tr("Go to the newest packet and follow (Ctrl+End)"));
     // In the line of column titles it covers no row; where it would cover a title even in few words, it lies
     // on the last row.
-    const int room = m_header->width() - m_header->titlesEnd();
     const QString count = grouped(m_missed);
-    for (const QString& words : {m_missed == 0 ? tr("↓ Follow") : tr("↓ %1 new").arg(count),
-                                 m_missed == 0 ? tr("↓") : tr("↓ %1").arg(count)}) {
-        m_newest->setText(words);
-        m_newest->resize(m_newest->sizeHint().width(), m_header->height() - 2);
-        if (m_newest->width() < room) {
-            break;
-        }
+    if (!m_header->seat(*m_newest, m_missed == 0
+                                       ? QStringList{tr("↓ Follow"), tr("↓")}
+                                       : QStringList{tr("↓ %1 new").arg(count), tr("↓ %1").arg(count)})) {
+        m_newest->move(m_newest->x(), viewport()->geometry().bottom() - m_newest->height());
     }
-    const bool isInHeader = m_newest->width() < room;
-    const QRect below = viewport()->geometry();
-    m_newest->move(m_header->geometry().right() - m_newest->width(),
-                   isInHeader ? m_header->y() : below.bottom() - m_newest->height());
-    m_newest->raise();
 }
 
 void PacketView::showRow(int row) {

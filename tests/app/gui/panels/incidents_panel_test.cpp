@@ -177,6 +177,23 @@ TEST_F(IncidentsPanelTest, FollowsTheNewestUntilARowIsSelected) {
     EXPECT_EQ(bar->value(), bar->maximum());
 }
 
+TEST_F(IncidentsPanelTest, TheButtonThatFollowsLeavesTheLastTitleToBeRead) {
+    sendForeign(40);
+    m_table->setCurrentIndex(m_table->model()->index(2, 0));
+    const auto* chip = m_panel.findChild<QPushButton*>(QStringLiteral("newestEvent"));
+    const FittingHeader& header = m_table->columns();
+    int seen = 0;
+    for (int width = 420; width < 900; width += 5) {
+        m_panel.resize(width, 260);
+        m_panel.refresh();
+        const bool hasRoom = header.width() - header.titlesEnd() > 40;
+        seen += hasRoom ? 1 : 0;
+        EXPECT_TRUE(!hasRoom || chip->x() > header.x() + header.titlesEnd())
+            << width << " " << chip->text().toStdString();
+    }
+    EXPECT_GT(seen, 10);
+}
+
 TEST_F(IncidentsPanelTest, ButtonsFilterAndAreRemembered) {
     button("notes")->click();
     EXPECT_FALSE(rowWith(QStringLiteral("A sender started")).isValid());
