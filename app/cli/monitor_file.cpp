@@ -24,6 +24,7 @@ public:
         if (m_isDone) {
             return;
         }
+        m_heard = std::chrono::steady_clock::now();
         const log::Stamp stamp =
             record.time ? m_clock.stampOf(*record.time, record.setBy) : log::Stamp(*m_pacer.due(record));
         m_first = m_first.value_or(stamp);
@@ -84,6 +85,10 @@ public:
     }
     /// Nothing more is looked at.
     [[nodiscard]] bool isDone() const { return m_isDone; }
+    /// A pipe has had nothing for as long as all of it was to last.
+    [[nodiscard]] bool isSilent() const {
+        return m_longest != log::Duration::max() && std::chrono::steady_clock::now() - m_heard >= m_longest;
+    }
     /// There was more, but nobody wanted it.
     [[nodiscard]] bool isCutShort() const { return m_isCutShort; }
     [[nodiscard]] const log::Recorder::Result& recorded() const { return m_recorded; }
@@ -106,6 +111,7 @@ private:
     std::optional<log::Reception> m_reception;
     bool m_isDone = false;
     bool m_isCutShort = false;
+    std::chrono::steady_clock::time_point m_heard = std::chrono::steady_clock::now(); ///< the newest record
     log::Recorder::Result m_recorded;
 };
 
@@ -114,8 +120,9 @@ private:
 ExitStatus monitorFile(const MonitorOptions& options, Console& console) {
     MonitorRun run(options, console);
     const Replay* reading = nullptr; // a file may have no end
-    const auto file =
-        openInput(options.file, [&] { return run.isOver() || (reading != nullptr && reading->isDone()); });
+    const auto file = openInput(options.file, [&] {
+        return run.isOver() || (reading != nullptr && (reading->isDone() || reading->isSilent()));
+    });
     if (!file) {
         return console.unusable(file.error().text);
     }

@@ -196,6 +196,17 @@ def check_interrupted_file(cli: str, folder: Path) -> None:
     assert told.stderr == b"", told
 
 
+def check_silent_pipe(cli: str, folder: Path) -> None:
+    """A pipe in which nothing comes any more holds nobody up beyond the duration."""
+    pipe = folder / "pipe"
+    os.mkfifo(pipe)
+    process = subprocess.Popen([cli, "monitor", str(pipe), "--json", "--duration", "1"], stdout=subprocess.PIPE, text=True)
+    with open(pipe, "wb", buffering=0) as writer:
+        writer.write(b"".join(pose(sample) for sample in range(20)))
+        out, _ = process.communicate(timeout=10)
+    assert process.returncode == 0 and json.loads(out)["sources"][0]["datagrams"] >= 19, out
+
+
 def check_interrupted_truth(cli: str, folder: Path) -> None:
     """What was sent until Ctrl+C is in the truth."""
     truth = folder / "truth.json"
@@ -239,7 +250,7 @@ def main() -> int:
     cli = sys.argv[1]
     checks = [check_blocked_table, check_blocked_lines, check_nobody_ever_reads, check_reader_gone, check_every_end,
               check_file_size, check_files_without_end, check_cancelled_output, check_interrupted_file,
-              check_interrupted_truth, check_slow_recording]
+              check_silent_pipe, check_interrupted_truth, check_slow_recording]
     for check in checks:
         with tempfile.TemporaryDirectory() as name:
             check(cli, Path(name))
