@@ -191,10 +191,13 @@ void HealthBar::fitEntries() {
     const int left = fitting == all ? room : room - reserve;
     const int spare = left / std::max(1, static_cast<int>(fitting)) - least;
     const int nameWidth = std::clamp(leastName + spare, leastName, std::max(leastName, m_nameWidth));
+    const int needed = beside + nameWidth + stateWidth;
+    const int whole = std::max(needed, beside + m_nameWidth + m_stateWidth);
+    const int width = std::clamp(least + spare - spacing, needed, whole);
     for (std::size_t i = 0; i < m_entries.size(); ++i) {
         m_entries[i]->setVisible(i < fitting);
         if (i < fitting) {
-            showEntry(i, {nameWidth, nameWidth + stateWidth, beside + nameWidth + stateWidth, isBrief});
+            showEntry(i, {nameWidth, width - beside, width, isBrief});
         }
     }
     m_more->setVisible(fitting < all);
