@@ -3,6 +3,7 @@
 
 #include "core/log/local_time.h"
 #include "core/model/accounting/count_history.h"
+#include "core/model/accounting/gap.h"
 #include "core/model/incidents/incident_kinds.h"
 #include "core/model/session/loss_amount.h"
 #include "core/model/session/losses.h"
