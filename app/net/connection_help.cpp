@@ -4,6 +4,8 @@
 #include "core/model/text.h"
 #include "core/wire/text.h"
 
+#include <QHostAddress>
+
 #include <algorithm>
 #include <array>
 #include <filesystem>
@@ -139,13 +141,23 @@ std::uint64_t refusedIn(const ConnectionFacts& facts) {
     return refused;
 }
 
+/// What is wrong with an input that is open, in a text that has the remedy as well where it is its own
+/// address.
+Finding findingOf(const InputStatus& input) {
+    const QHostAddress own(QString::fromStdString(input.endpoint.host));
+    const std::size_t end = input.problem.find("; ");
+    if (own.isNull() || own.isMulticast() || end == std::string::npos) {
+        return {Kind::NotJoined, input.problem,
+                "check that the network is connected; it is tried again whenever it changes"};
+    }
+    return {Kind::AddressGone, input.problem.substr(0, end), input.problem.substr(end + 2)};
+}
+
 void findLeftOut(const ConnectionFacts& facts, Findings& findings) {
     const std::uint64_t refused = refusedIn(facts);
     for (const InputStatus& input : facts.inputs) {
         if (input.kind == InputKind::Udp && !input.problem.empty()) {
-            findings.push_back(
-                {Kind::NotJoined, input.problem,
-                 "check that the network is connected; it is tried again whenever it changes"});
+            findings.push_back(findingOf(input));
         }
     }
     if (refused != 0 && facts.silence >= kSilenceTold) {

@@ -55,6 +55,7 @@ struct Finding {
     enum class Kind : std::uint8_t {
         NoInput,
         CannotOpen,
+        AddressGone,   ///< the one that an input listens on
         NotJoined,     ///< a multicast group, on some interface or all
         NotListenedTo, ///< datagrams arrive, from hosts that are not listened to
         NotMxtp,

@@ -47,6 +47,7 @@ Health healthOf(net::Finding::Kind kind) {
     using Found = net::Finding::Kind;
     switch (kind) {
     case Found::CannotOpen:
+    case Found::AddressGone:
         return Health::Error;
     case Found::OtherTransport:
     case Found::FirewallOn:

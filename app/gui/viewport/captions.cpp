@@ -93,9 +93,9 @@ void addFindings(const ReceivingState& receiving, EmptyState& state) {
     using Kind = net::Finding::Kind;
     bool hasMore = false;
     for (const net::Finding& finding : receiving.findings) {
-        const bool isPeer = finding.kind == Kind::NotReachable || finding.kind == Kind::SilentPeer ||
-                            finding.kind == Kind::GarbledPeer;
-        if (isPeer) {
+        const bool isCertain = finding.kind == Kind::NotReachable || finding.kind == Kind::SilentPeer ||
+                               finding.kind == Kind::GarbledPeer || finding.kind == Kind::AddressGone;
+        if (isCertain) {
             state.level = Health::Warning;
             QString text = QString::fromStdString(finding.text + ": " + finding.remedy);
             text[0] = text[0].toUpper();

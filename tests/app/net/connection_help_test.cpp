@@ -73,6 +73,18 @@ TEST_F(ConnectionHelpTest, TellsWhereAGroupCouldNotBeJoined) {
     EXPECT_EQ(connectionHelp(facts)[0].text, facts.inputs[0].problem);
 }
 
+TEST_F(ConnectionHelpTest, TellsThatTheAddressThatIsListenedOnHasGone) {
+    facts.silence = 100ms;
+    facts.inputs[0].endpoint.host = "10.9.0.1";
+    facts.inputs[0].problem =
+        "no interface that is up has the address 10.9.0.1 any more; connect its network";
+    ASSERT_THAT(kindsOf(facts), ElementsAre(Kind::AddressGone));
+    EXPECT_EQ(connectionHelp(facts)[0].text, "no interface that is up has the address 10.9.0.1 any more");
+    EXPECT_EQ(connectionHelp(facts)[0].remedy, "connect its network");
+    facts.inputs[0].endpoint.host = "239.1.1.1";
+    EXPECT_THAT(kindsOf(facts), ElementsAre(Kind::NotJoined));
+}
+
 TEST_F(ConnectionHelpTest, NothingArrivesTellsWhatToTypeIntoMvn) {
     ASSERT_THAT(kindsOf(facts), ElementsAre(Kind::NothingArrives));
     const Finding finding = connectionHelp(facts)[0];

@@ -54,6 +54,16 @@ TEST(EmptyState, SaysWhatIsWrongWithAPeerAndWhereThereIsMore) {
     EXPECT_THAT(textOf(state), testing::HasSubstr("Help > Connection help"));
 }
 
+TEST(EmptyState, SaysThatTheAddressThatIsListenedOnHasGone) {
+    Stage stage;
+    ReceivingState receiving = listening();
+    receiving.findings = {
+        {net::Finding::Kind::AddressGone, "no interface has 10.9.0.1 any more", "connect it"}};
+    const EmptyState state = emptyState(stage.session, receiving);
+    EXPECT_EQ(state.level, Health::Warning);
+    EXPECT_THAT(textOf(state), testing::HasSubstr("No interface has 10.9.0.1 any more: connect it"));
+}
+
 TEST(EmptyState, ShowsTheFirstBytesOfForeignDatagrams) {
     Stage stage;
     const std::string text = "GET / HTTP/1.1";
