@@ -37,29 +37,39 @@ std::optional<std::size_t> afterEtherType(Frame frame, std::size_t place, std::s
     return std::nullopt;
 }
 
-constexpr std::array<std::uint32_t, 10> kLinkTypes{0, 1, 12, 14, 101, 108, 113, 228, 229, 276};
+/// Where a frame has its network layer, and the EtherType that says what it is and may lead on over VLAN
+/// tags; where it has none, the version of IP says the rest.
+struct LinkLayer {
+    std::uint32_t linkType; ///< LINKTYPE_ value, as registered for pcap and pcapng
+    std::size_t content;
+    std::optional<std::size_t> etherType{};
+};
 
-/// Where the network layer begins, by LINKTYPE_ values as registered for pcap and pcapng.
+constexpr std::array<LinkLayer, 10> kLinkLayers{{
+    {0, 4},      // BSD loopback: an address family of four bytes
+    {108, 4},    // OpenBSD loopback
+    {1, 14, 12}, // Ethernet
+    {12, 0},     // raw IP, by three numbers
+    {14, 0},
+    {101, 0},
+    {228, 0},      // IPv4
+    {229, 0},      // IPv6
+    {113, 16, 14}, // Linux cooked
+    {276, 20, 0},  // Linux cooked, version 2
+}};
+
+const LinkLayer* linkLayerOf(std::uint32_t linkType) {
+    const auto* const found = std::ranges::find(kLinkLayers, linkType, &LinkLayer::linkType);
+    return found == kLinkLayers.end() ? nullptr : found;
+}
+
 std::optional<std::size_t> networkOf(std::uint32_t linkType, Frame frame) {
-    switch (linkType) {
-    case 0:   // BSD loopback: an address family of four bytes; the version of IP says the rest
-    case 108: // OpenBSD loopback
-        return 4;
-    case 1: // Ethernet
-        return afterEtherType(frame, 12, 14);
-    case 12: // raw IP, by three numbers
-    case 14:
-    case 101:
-    case 228: // IPv4
-    case 229: // IPv6
-        return 0;
-    case 113: // Linux cooked
-        return afterEtherType(frame, 14, 16);
-    case 276: // Linux cooked, version 2
-        return afterEtherType(frame, 0, 20);
-    default:
+    const LinkLayer* link = linkLayerOf(linkType);
+    if (link == nullptr) {
         return std::nullopt;
     }
+    return link->etherType ? afterEtherType(frame, *link->etherType, link->content)
+                           : std::optional(link->content);
 }
 
 IpAddress addressAt(Frame packet, std::size_t place, bool isIpv6) {
@@ -218,7 +228,7 @@ IpEndpoint mapped(const IpEndpoint& endpoint) {
 } // namespace
 
 bool isLinkTypeKnown(std::uint32_t linkType) {
-    return std::ranges::find(kLinkTypes, linkType) != kLinkTypes.end();
+    return linkLayerOf(linkType) != nullptr;
 }
 
 std::optional<IpPacket> ipPacketOf(const CapturedFrame& frame) {
