@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/net/connection_help.h"
 
+#include "core/log/ip_address.h"
 #include "core/model/text.h"
 #include "core/wire/text.h"
 
@@ -179,7 +180,7 @@ struct ForeignHost {
 std::vector<ForeignHost> foreignHosts(const std::vector<ForeignSender>& senders) {
     std::vector<ForeignHost> hosts;
     for (const ForeignSender& sender : senders) {
-        const std::string host = sender.address.substr(0, sender.address.rfind(':'));
+        const std::string host(log::hostOf(sender.address));
         const std::string guess = protocolThatBegins(sender.firstBytes);
         const auto known = std::ranges::find_if(
             hosts, [&](const ForeignHost& other) { return other.host == host && other.guess == guess; });

@@ -32,4 +32,9 @@ struct IpEndpoint {
 /// 127.0.0.0/8 or ::1.
 [[nodiscard]] bool isLoopback(const IpAddress& address);
 
+/// The host of an address with a port, "10.0.0.2:40001" or "[fe80::1]:40001"; all of what has no port.
+[[nodiscard]] constexpr std::string_view hostOf(std::string_view address) {
+    return address.substr(0, address.rfind(':'));
+}
+
 } // namespace posewire::log

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/incidents/incident_follower.h"
 
+#include "core/log/ip_address.h"
 #include "core/model/text.h"
 
 #include <algorithm>
@@ -166,8 +167,7 @@ void IncidentFollower::takeDatagram(const log::Packet& packet, const wire::Heade
     m_watch.wake(stream);
     const auto [place, isNew] = m_sources.try_emplace(packet.sender);
     if (isNew) {
-        const std::string_view host = std::string_view(address).substr(0, address.rfind(':'));
-        place->second = {address, std::hash<std::string_view>{}(host)};
+        place->second = {address, std::hash<std::string_view>{}(log::hostOf(address))};
         m_incidents.report(occurrenceOf(IncidentKind::SourceUp, packet));
     }
     if (countsSamples(header.type())) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/session/listed_incidents.h"
 
+#include "core/log/ip_address.h"
 #include "core/log/local_time.h"
 #include "core/model/accounting/count_history.h"
 #include "core/model/accounting/gap.h"
@@ -211,10 +212,9 @@ std::string conflictHeadline(const SessionView& session, const Incident& inciden
 /// Who else sends it: "port 40002" where that is on the same host.
 std::string otherSender(const SessionView& session, const Incident& incident) {
     const std::string own = session.addressOf(incident.sender).shown();
-    const std::string host = own.substr(0, own.rfind(':') + 1);
-    const bool isSameHost = !host.empty() && incident.detail.starts_with(host) &&
-                            incident.detail.find_first_not_of("0123456789", host.size()) == std::string::npos;
-    return isSameHost ? "port " + incident.detail.substr(host.size()) : incident.detail;
+    const std::string_view host = log::hostOf(own);
+    const bool isSameHost = host.size() < own.size() && log::hostOf(incident.detail) == host;
+    return isSameHost ? "port " + incident.detail.substr(host.size() + 1) : incident.detail;
 }
 
 /// Of an outage: "no data for 1.2 s"; of one at the end of a recording, wherever the cursor is in it,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/session/sender.h"
 
+#include "core/log/ip_address.h"
 #include "core/wire/text.h"
 #include "core/wire/type_table.h"
 
@@ -25,7 +26,7 @@ std::optional<std::string> Sender::host() const {
     if (info.transport == log::Transport::File) {
         return std::nullopt;
     }
-    return std::string(log::nameOf(info.transport)) + ' ' + info.address.substr(0, info.address.rfind(':'));
+    return std::string(log::nameOf(info.transport)) + ' ' + std::string(log::hostOf(info.address));
 }
 
 std::string Sender::foreignText() const {
