@@ -10,7 +10,10 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <chrono>
+#include <cmath>
+#include <map>
 #include <tuple>
 
 namespace posewire::model {
@@ -28,9 +31,11 @@ auto rankOf(const ListedIncident& listed) {
     const Incident& incident = listed.incident;
     const bool isOngoing = listed.state == State::Ongoing;
     const bool isGrave = isOngoing && incident.severity() == IncidentSeverity::Error;
+    const auto size = std::bit_width(incident.samples); // so that two alike do not take turns
+    const bool isKnown = incident.cause && incident.cause != LossCause::Unknown;
     return std::tuple(listed.state != State::Over, isOngoing, incident.severity(),
-                      isGrave ? gravityOf(incident) : 0, incident.group() != IncidentGroup::Limit,
-                      incident.samples, incident.number);
+                      isGrave ? gravityOf(incident) : 0, incident.group() != IncidentGroup::Limit, size,
+                      isKnown, incident.number);
 }
 
 /// Which character a verdict is on: itself and all that it took over from; none for all together.
@@ -77,16 +82,37 @@ public:
         return samples == 0 ? std::string() : lossAmount(samples, expected, noun);
     }
 
-    /// Whether a stream of it is above its limit: that of another may have been.
+    /// Whether a character of it lost more than the limit of what the streams here should have brought, or
+    /// one stream did so clearly that it is not chance: of many that lose at random one is always above.
     [[nodiscard]] bool isAboveLimit(const Incident& incident) {
-        return std::ranges::any_of(incident.parts, [&](const Incident::Part& part) {
+        const double limit = incident.limit / 100;
+        std::map<std::uint8_t, FaultCounts> sums;
+        for (const Incident::Part& part : incident.parts) {
             const FaultCounts counts = countsOf(incident.sender, part);
-            return counts.total() >= Incident::kFewSamples &&
-                   100 * counts.shareOf(counts.total()) > incident.limit;
+            const auto lost = static_cast<double>(counts.total());
+            if (lost - kDeviations * std::sqrt(lost) > limit * static_cast<double>(counts.expected)) {
+                return true;
+            }
+            sums[part.character.value_or(0)] += counts;
+        }
+        return std::ranges::any_of(sums, [limit](const auto& one) {
+            const std::uint64_t lost = one.second.total();
+            return lost >= Incident::kFewSamples && one.second.shareOf(lost) > limit;
         });
     }
 
+    /// Of what the streams here should have brought.
+    [[nodiscard]] double shareOf(const Incident& incident) {
+        FaultCounts sum;
+        for (const Incident::Part& part : incident.parts) {
+            sum += countsOf(incident.sender, part);
+        }
+        return sum.shareOf(sum.total());
+    }
+
 private:
+    static constexpr double kDeviations = 2; ///< of a count of what comes at random, which are its root
+
     [[nodiscard]] FaultCounts countsOf(log::SenderId sender, const Incident::Part& part) {
         const Stream* stream = streamOf(m_session, sender, part);
         if (stream == nullptr) {
@@ -311,19 +337,25 @@ public:
     }
 
 private:
-    /// What of a loss makes it grave: who loses little beside those is not named with them, nor does what
-    /// they lose seem less.
+    /// What of a loss makes it grave: who loses little beside those, less than half as much as the worst or
+    /// as the limit, is not named with them, nor does what they lose seem less.
     [[nodiscard]] Incident graveOf(const ListedIncident& listed) const {
         const Incident& all = listed.incident;
         if (all.kind != IncidentKind::Loss || listed.state != State::Ongoing ||
             all.severity() != IncidentSeverity::Error) {
             return all;
         }
+        constexpr double kLittle = 0.5;
+        const std::vector<std::uint8_t> characters = all.characters();
+        double worst = all.limit / 100;
+        for (const std::uint8_t character : characters) {
+            worst = std::max(worst, m_losses.shareOf(all.of(character)));
+        }
         std::vector<std::uint8_t> grave;
-        for (const std::uint8_t character : all.characters()) {
+        for (const std::uint8_t character : characters) {
             Incident own = all.of(character);
             easeTo(m_span, m_losses, own);
-            if (own.severity() == IncidentSeverity::Error) {
+            if (own.severity() == IncidentSeverity::Error || m_losses.shareOf(own) > kLittle * worst) {
                 grave.push_back(character);
             }
         }

@@ -181,5 +181,52 @@ TEST_F(VerdictTest, SaysWhichOfTwoThatSendTheSameIsSilent) {
         << verdict().text;
 }
 
+TEST_F(VerdictTest, NamesThoseWhoLostAboutAsMuchAsTheWorst) {
+    std::uint32_t sample = 1;
+    const auto lose = [&](std::uint32_t one, std::uint32_t other) {
+        for (const std::uint32_t end = sample + 2'000; sample < end; ++sample, m_at += 10ms) {
+            if (sample % one != 0) {
+                pose(sample);
+            }
+            if (sample % other != 0) {
+                poseOfOther(sample);
+            }
+        }
+    };
+    lose(110, 60); // 0.9 % and 1.7 %
+    EXPECT_NE(verdict().text.find(" lost on Character 0 and Character 1, "), std::string::npos)
+        << verdict().text;
+    lose(160, 50); // 0.6 % and 2 %
+    EXPECT_NE(verdict().text.find(" % lost on Character 1, "), std::string::npos) << verdict().text;
+}
+
+/// Of several streams that lose at random one is always above what all lose together.
+TEST_F(VerdictTest, IsBadForWhatACharacterLostAndNotForWhatChanceGaveOneOfItsStreams) {
+    const auto send = [this](std::uint32_t sample, wire::Body body) {
+        wire::Datagram datagram{{}, std::move(body), {}};
+        datagram.header.sampleCounter = sample;
+        datagram.header.timeCode = static_cast<std::uint32_t>(m_at.time_since_epoch() / 1ms);
+        wire::completeHeader(datagram, wire::HeaderEra::Counted);
+        sendBytes(*wire::encode(datagram), m_at, kHere);
+    };
+    std::uint32_t sample = 1;
+    const auto lose = [&](std::uint32_t poses, std::uint32_t centres) {
+        for (const std::uint32_t end = sample + 2'000; sample < end; ++sample, m_at += 10ms) {
+            if (sample % poses != 0) {
+                send(sample, standingAt(0));
+            }
+            if (sample % centres != 1) {
+                send(sample, wire::CentreOfMass{});
+            }
+        }
+    };
+    lose(77, 250); // 1.3 and 0.4 %, together 0.85 %
+    EXPECT_EQ(verdict().state, State::Warning) << verdict().text;
+    lose(2'500, 20);
+    EXPECT_EQ(verdict().state, State::Bad) << verdict().text;
+    lose(77, 70);
+    EXPECT_EQ(verdict().state, State::Bad) << "none of them is by itself beyond chance: " << verdict().text;
+}
+
 } // namespace
 } // namespace posewire::model
