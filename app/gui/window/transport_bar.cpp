@@ -72,7 +72,6 @@ TransportBar::TransportBar(model::SessionView& session, const Actions& actions, 
     row->addLayout(m_pillLayout);
     row->addWidget(m_relay);
     row->addWidget(m_add);
-    m_relay->setClickable(true);
     m_relay->setVisible(false);
     connect(m_relay, &QAbstractButton::clicked, actions.relay, &QAction::trigger);
     m_detail->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
@@ -165,12 +164,25 @@ void TransportBar::followMode() {
     }
 }
 
+/// Of the character that is shown; of another that still sends where that one has fallen silent.
+const model::CharacterPose* TransportBar::timedPose() {
+    auto key = shownCharacter(*m_session);
+    const auto sends = [this](const model::Character* one) {
+        return one != nullptr && isLive(*m_session, *one);
+    };
+    if (key && !sends(m_session->find(*key))) {
+        const auto characters = m_session->currentCharacters();
+        const auto other = std::ranges::find_if(characters, sends);
+        key = other == characters.end() ? key : std::optional((*other)->key);
+    }
+    return key ? m_session->pose(*key) : nullptr;
+}
+
 void TransportBar::refresh() {
     followMode();
     m_past->setVisible(m_session->cursor().mode == model::Cursor::Mode::Paused);
     m_past->refresh(m_session->cursor());
-    const auto key = shownCharacter(*m_session);
-    const model::CharacterPose* pose = key ? m_session->pose(*key) : nullptr;
+    const model::CharacterPose* pose = timedPose();
     if (pose == nullptr) {
         m_time->setText(m_session->now() == log::Stamp()
                             ? QStringLiteral("--:--:--.---")
@@ -188,7 +200,6 @@ void TransportBar::refresh() {
 void TransportBar::addPill() {
     auto* pill = new ColourText(ColourText::Look::Pill, this);
     pill->setObjectName(QStringLiteral("inputPill%1").arg(m_pills.size()));
-    pill->setClickable(true);
     connect(pill, &QAbstractButton::clicked, this,
             [this, place = m_pills.size()] { emit inputRequested(m_inputs[place]); });
     m_pillLayout->addWidget(pill);

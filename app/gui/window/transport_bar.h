@@ -61,6 +61,7 @@ private:
     void showMode(Mode mode);
     void followMode();
     void showRelays(const std::vector<RelayState>& relays);
+    [[nodiscard]] const model::CharacterPose* timedPose();
 
     void addPill();
 

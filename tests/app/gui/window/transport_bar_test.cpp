@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/window/transport_bar.h"
+
+#include "app/gui/models/text.h"
+#include "tests/app/gui/models/stage.h"
+
+#include <QAction>
+#include <QLabel>
+#include <QMenu>
+
+namespace posewire::gui {
+namespace {
+
+class TransportBarTest : public testing::Test {
+protected:
+    QAction* named(const char* text) { return new QAction(text, &m_actions); }
+
+    Stage m_stage;
+    QObject m_actions;
+    QMenu m_speeds;
+    TransportBar m_bar{
+        m_stage.session,
+        {named("record"),
+         named("pause"),
+         named("live"),
+         named("inputs"),
+         named("relay"),
+         {named("back"), named("on"), named("playBack"), named("play"), named("loop"), &m_speeds}}};
+};
+
+TEST_F(TransportBarTest, TheClockGoesOnWhenTheFirstCharacterFallsSilent) {
+    performer::Performer both(sending(2, {2}, 60.0));
+    for (std::uint64_t frame = 0; frame < 600; ++frame) {
+        for (const wire::Datagram& datagram : both.frame(frame)) {
+            if (datagram.header.character == 1 || frame < 120) {
+                m_stage.send(datagram, Stage::kStart + log::durationOf(static_cast<double>(frame) / 60));
+            }
+        }
+    }
+    m_stage.follow();
+    m_bar.refresh();
+    EXPECT_EQ(m_bar.findChild<QLabel*>("transportTime")->text(),
+              timeOfDay(m_stage.session.wallOf(m_stage.now)));
+}
+
+} // namespace
+} // namespace posewire::gui
