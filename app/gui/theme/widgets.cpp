@@ -144,6 +144,7 @@ void ElidedLabel::paintEvent(QPaintEvent* /*event*/) {
 
 PassingMessage::PassingMessage(int milliseconds, QWidget* parent) : QLabel(parent) {
     setTextFormat(Qt::PlainText);
+    setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
     hide();
     m_timer.setSingleShot(true);
     m_timer.setInterval(milliseconds);
@@ -155,6 +156,13 @@ void PassingMessage::say(const QString& text) {
     setToolTip(toolTipText(text));
     setVisible(!text.isEmpty());
     m_timer.start();
+}
+
+void PassingMessage::paintEvent(QPaintEvent* /*event*/) {
+    QPainter painter(this);
+    const QRect room = contentsRect();
+    style()->drawItemText(&painter, room, static_cast<int>(alignment()), palette(), isEnabled(),
+                          fontMetrics().elidedText(text(), Qt::ElideRight, room.width()), foregroundRole());
 }
 
 QToolButton* framedButton(const QString& text, const QString& toolTip, QWidget* parent) {

@@ -93,7 +93,8 @@ private:
     QString m_dim;
 };
 
-/// A label that is there only while it has something to say.
+/// A line that is there only while it has something to say; where there is too little room it ends in an
+/// ellipsis.
 class PassingMessage final : public QLabel {
     Q_OBJECT
 
@@ -104,6 +105,9 @@ public:
     void say(const QString& text);
     /// What is being said; empty where nothing is.
     [[nodiscard]] QString said() const { return isHidden() ? QString() : text(); }
+
+protected:
+    void paintEvent(QPaintEvent* event) override;
 
 private:
     QTimer m_timer;

@@ -9,7 +9,9 @@ namespace posewire::gui {
 ColourText::ColourText(Look look, QWidget* parent) : QAbstractButton(parent), m_look(look) {
     setFont(tabularFont());
     setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Fixed);
-    setClickable(false);
+    setFocusPolicy(Qt::TabFocus);
+    setCursor(Qt::PointingHandCursor);
+    setAttribute(Qt::WA_Hover);
 }
 
 void ColourText::setContent(Health level, const QString& text) {
@@ -25,12 +27,6 @@ void ColourText::setContent(Health level, const QString& text) {
     }
 }
 
-void ColourText::setClickable(bool isClickable) {
-    setFocusPolicy(isClickable ? Qt::TabFocus : Qt::NoFocus);
-    setCursor(isClickable ? Qt::PointingHandCursor : Qt::ArrowCursor);
-    setAttribute(Qt::WA_Hover, isClickable);
-}
-
 QSize ColourText::sizeHint() const {
     const QFontMetrics metrics = fontMetrics();
     const int margin = m_look == Look::Pill ? metrics.height() : metrics.height() / 2;
@@ -40,7 +36,7 @@ QSize ColourText::sizeHint() const {
 void ColourText::paintEvent(QPaintEvent* /*event*/) {
     QPainter painter(this);
     painter.setRenderHint(QPainter::Antialiasing);
-    const bool isActive = focusPolicy() != Qt::NoFocus && (underMouse() || hasFocus());
+    const bool isActive = underMouse() || hasFocus();
     const QRectF frame = QRectF(rect()).adjusted(0.5, 0.5, -0.5, -0.5);
     if (m_look == Look::Pill || isActive) {
         const QColor plain = m_level == Health::Error ? theme().error : theme().line;

@@ -7,7 +7,7 @@
 
 namespace posewire::gui {
 
-/// One short line in the colour of its health, as in the bar at the bottom; a button where it can be clicked.
+/// A button of one short line in the colour of its health, as in the bar at the bottom.
 class ColourText final : public QAbstractButton {
     Q_OBJECT
 
@@ -20,7 +20,6 @@ public:
     /// Unknown is dim text without a symbol.
     void setContent(Health level, const QString& text);
     [[nodiscard]] Health level() const { return m_level; }
-    void setClickable(bool isClickable);
 
     /// Pixels beside the text of a plain one, on both sides together.
     [[nodiscard]] static int marginsOf(const QFontMetrics& metrics) { return 2 * (metrics.height() / 4 + 1); }

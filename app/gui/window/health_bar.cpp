@@ -47,6 +47,14 @@ QString whatOf(const model::TakeVerdict& verdict) {
     return fromUtf8(verdict.what) + (verdict.isOver ? HealthBar::tr(", over") : QString());
 }
 
+/// Numbers grow and shrink; their neighbours stay.
+void showFigure(QLabel& label, Health level, const QString& text) {
+    setTextColour(label, healthColour(level));
+    label.setText(level == Health::Unknown ? text : healthText(level, text));
+    label.setAccessibleName(text);
+    label.setMinimumWidth(std::max(label.minimumWidth(), label.sizeHint().width()));
+}
+
 /// What is said of those that have no room.
 QString leftOut(std::size_t all, std::size_t fitting) {
     if (fitting != 0) {
@@ -66,9 +74,9 @@ HealthBar::HealthBar(model::SessionView& session, Commands& commands, QWidget* p
       m_more(new ColourText(ColourText::Look::Plain, m_entriesArea)),
       m_message(new PassingMessage(kMessageMs, this)),
       m_about(flatButton(QStringLiteral("?"), tr("Help on this message"), this)),
-      m_rate(new ColourText(ColourText::Look::Plain, this)),
-      m_history(new ColourText(ColourText::Look::Plain, this)),
-      m_dropped(new ColourText(ColourText::Look::Plain, this)) {
+      m_rate(plainLabel(this)),
+      m_history(plainLabel(this)),
+      m_dropped(plainLabel(this)) {
     setObjectName(QStringLiteral("healthBar"));
     auto* row = new QHBoxLayout(this);
     row->setContentsMargins(6, 1, 6, 1);
@@ -82,7 +90,6 @@ HealthBar::HealthBar(model::SessionView& session, Commands& commands, QWidget* p
     m_entriesLayout->addWidget(m_more);
     m_entriesLayout->addStretch(1);
     m_more->setObjectName(QStringLiteral("more"));
-    m_more->setClickable(true);
     m_more->setToolTip(
         toolTipText(tr("More characters than fit here. Click for a list of all, the worst first.")));
     connect(m_more, &ColourText::clicked, this, &HealthBar::showList);
@@ -95,9 +102,9 @@ HealthBar::HealthBar(model::SessionView& session, Commands& commands, QWidget* p
     connect(m_about, &QToolButton::clicked, this, [this] { openHelp(m_helpPlace); });
     new EventWatch(m_message, QEvent::Hide, [this] { m_about->hide(); });
     m_message->setObjectName(QStringLiteral("message"));
-    m_message->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
-    for (ColourText* text : {m_rate, m_history, m_dropped}) {
-        row->addWidget(text);
+    for (QLabel* figure : {m_rate, m_history, m_dropped}) {
+        figure->setFont(tabularFont());
+        row->addWidget(figure);
     }
     m_dropped->setToolTip(
         tr("Datagrams that reached this computer and were dropped because its receive buffer was full."));
@@ -120,18 +127,14 @@ QString HealthBar::byteRateText(double bytesPerSecond) {
 
 void HealthBar::refresh(const ReceivingState& receiving) {
     refreshCharacters();
-    m_rate->setContent(Health::Unknown,
-                       tr("%1 datagrams/s · %2")
-                           .arg(grouped(static_cast<std::uint64_t>(receiving.datagramsPerSecond)),
-                                byteRateText(receiving.bytesPerSecond)));
-    m_history->setContent(Health::Unknown, historyText(m_session));
+    showFigure(*m_rate, Health::Unknown,
+               tr("%1 datagrams/s · %2")
+                   .arg(grouped(static_cast<std::uint64_t>(receiving.datagramsPerSecond)),
+                        byteRateText(receiving.bytesPerSecond)));
+    showFigure(*m_history, Health::Unknown, historyText(m_session));
     const Health untroubled = m_session.end() == 0 ? Health::Unknown : Health::Good;
-    m_dropped->setContent(receiving.kernelDropped == 0 ? untroubled : Health::Error,
-                          tr("dropped here %1 in all").arg(grouped(receiving.kernelDropped)));
-    for (ColourText* text :
-         {m_rate, m_history, m_dropped}) { // numbers grow and shrink; their neighbours stay
-        text->setMinimumWidth(std::max(text->minimumWidth(), text->sizeHint().width()));
-    }
+    showFigure(*m_dropped, receiving.kernelDropped == 0 ? untroubled : Health::Error,
+               tr("dropped here %1 in all").arg(grouped(receiving.kernelDropped)));
 }
 
 void HealthBar::refreshCharacters() {
@@ -225,7 +228,6 @@ void HealthBar::showEntry(std::size_t index, const EntryRoom& room) {
 
 void HealthBar::addEntry() {
     auto* entry = new ColourText(ColourText::Look::Plain, this);
-    entry->setClickable(true);
     const std::size_t index = m_entries.size();
     connect(entry, &ColourText::clicked, this, [this, index, entry] { explain(m_shown[index], *entry); });
     m_entriesLayout->insertWidget(static_cast<int>(index), entry);

@@ -67,9 +67,9 @@ private:
     PassingMessage* m_message;
     QToolButton* m_about; ///< opens m_helpPlace, while the message is there
     QString m_helpPlace;
-    ColourText* m_rate;
-    ColourText* m_history;
-    ColourText* m_dropped;
+    QLabel* m_rate;
+    QLabel* m_history;
+    QLabel* m_dropped;
 };
 
 } // namespace posewire::gui

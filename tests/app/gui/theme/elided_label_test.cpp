@@ -12,7 +12,7 @@ namespace posewire::gui {
 namespace {
 
 /// The columns of pixels in which something is drawn.
-std::vector<int> drawnColumns(ElidedLabel& label, int width) {
+std::vector<int> drawnColumns(QWidget& label, int width) {
     label.resize(width, label.sizeHint().height());
     QImage picture(label.size(), QImage::Format_RGB32);
     picture.fill(Qt::black);
@@ -51,6 +51,14 @@ TEST_F(ElidedLabelTest, EndsInAnEllipsisWhereThereIsNoRoom) {
     EXPECT_EQ(label.minimumSizeHint().width(), 0);
     EXPECT_LT(drawnColumns(label, width).back(), width - 1) << "cut in the middle of a letter";
     EXPECT_EQ(label.accessibleName(), QStringLiteral("WWWWWWWWWWWWWWWWWWWW"));
+}
+
+TEST_F(ElidedLabelTest, SoDoesAPassingMessage) {
+    PassingMessage message(1'000, nullptr);
+    message.say(QStringLiteral("WWWWWWWWWW"));
+    const int width = message.sizeHint().width() / 2;
+    EXPECT_LT(drawnColumns(message, width).back(), width - 1) << "cut in the middle of a letter";
+    EXPECT_EQ(message.said(), QStringLiteral("WWWWWWWWWW"));
 }
 
 } // namespace

@@ -152,12 +152,16 @@ TEST(HealthBarHistory, SaysHowFarBackItGoesAlsoOnceMemoryIsFull) {
     ASSERT_NE(session.begin(), 0U);
     bar.refresh({});
     QStringList texts;
-    for (const auto* text : bar.findChildren<ColourText*>()) {
+    for (const auto* text : bar.findChildren<QLabel*>()) {
         texts += text->text();
     }
     const auto first = session.packet(session.begin());
     const QString back = duration(log::secondsOf(now - 10ms - first->stamp));
     EXPECT_FALSE(texts.filter("history " + back + " · ").isEmpty()) << texts.join("; ").toStdString();
+    for (const auto* button : bar.findChildren<QAbstractButton*>()) {
+        EXPECT_NE(button->focusPolicy(), Qt::NoFocus)
+            << "called a button, but nothing presses it: " << button->text().toStdString();
+    }
 }
 
 TEST_F(HealthBarTest, SaysWhyAndEachLineLeadsToItsPackets) {
