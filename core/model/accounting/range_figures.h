@@ -34,7 +34,7 @@ struct RangeFigures {
     RateFigures rate;
     LossPattern pattern;
     std::uint64_t malformed = 0; ///< datagrams with a header of the stream that could not be decoded
-    std::array<std::uint64_t, kLossCauses> lostByCause{}; ///< samples, by LossCause
+    LossesByCause lostByCause{};
 };
 
 /// The figures that a stream's accounting keeps, of all its time where no range is given. Without rates the

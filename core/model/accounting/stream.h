@@ -47,7 +47,7 @@ struct Stream {
     std::array<std::uint64_t, kLossCauses> attributed{};
 
     /// All samples lost and incomplete by LossCause.
-    [[nodiscard]] std::array<std::uint64_t, kLossCauses> lostByCause() const;
+    [[nodiscard]] LossesByCause lostByCause() const;
 
     /// So much came of it that something is missing where no more does; a corrupt header may have invented it
     /// before.

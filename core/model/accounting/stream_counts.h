@@ -4,6 +4,7 @@
 #include "core/log/time.h"
 #include "core/wire/type_table.h"
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -25,6 +26,9 @@ struct TimeRange {
 /// Whose loss it was. Unknown is an answer: nothing is guessed.
 enum class LossCause : std::uint8_t { ThisComputer, Network, Sender, Unknown };
 inline constexpr std::size_t kLossCauses = 4;
+
+/// Samples by LossCause.
+using LossesByCause = std::array<std::uint64_t, kLossCauses>;
 
 /// "this computer", "network", "sender", "unknown".
 [[nodiscard]] std::string_view nameOf(LossCause cause);

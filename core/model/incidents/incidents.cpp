@@ -211,18 +211,12 @@ void Incidents::takeBack(std::uint64_t number, const Incident::Part& part, std::
     }
 }
 
-void Incidents::noteLimit(const Occurrence& one) {
-    for (const Incident* known : currentOf(one.sender)) {
-        const bool isOfFew = std::ranges::none_of(known->parts, [&](const Incident::Part& part) {
-            return part.character == one.character && part.type == one.type &&
-                   part.samples >= Incident::kFewSamples;
-        });
-        if (known->kind == IncidentKind::Loss && !isOfFew && one.value > known->value) {
-            Incident& incident = *findOwn(known->number);
-            incident.value = one.value;
-            incident.limit = one.limit;
-            changed(incident);
-        }
+void Incidents::noteLimit(std::uint64_t number, double percent, double limit) {
+    Incident* incident = findOwn(number);
+    if (incident != nullptr && percent > incident->value) {
+        incident->value = percent;
+        incident->limit = limit;
+        changed(*incident);
     }
 }
 

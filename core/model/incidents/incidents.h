@@ -48,8 +48,8 @@ public:
     /// Samples of a stream were not lost after all; `gaps` fewer were. What comes to nothing is gone.
     void takeBack(std::uint64_t number, const Incident::Part& part, std::uint64_t samples,
                   std::uint64_t gaps);
-    /// A stream is above a limit because of a loss that lasts: that makes the loss graver.
-    void noteLimit(const Occurrence& one);
+    /// So much of what should have come, in percent, is above a limit: that makes a loss graver, for good.
+    void noteLimit(std::uint64_t number, double percent, double limit);
     /// For one character it was none; what comes to nothing is gone.
     void takeBackPart(std::uint64_t number, std::uint8_t character);
     /// It is over.

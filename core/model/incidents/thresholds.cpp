@@ -2,11 +2,14 @@
 #include "core/model/incidents/thresholds.h"
 
 #include "core/model/accounting/attribution.h"
+#include "core/model/incidents/loss_limit.h"
 #include "core/model/text.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
+#include <unordered_map>
 
 namespace posewire::model {
 namespace {
@@ -45,6 +48,22 @@ double usualIntervalS(const Stream& stream, const RangeFigures& read) {
     return stream.usualHz > 0 ? 1 / stream.usualHz : meanMs / 1000;
 }
 
+bool isLoss(const Incident* incident) {
+    return incident->kind == IncidentKind::Loss;
+}
+
+/// Of a stream in a window, without what silences took.
+LossShare shareIn(const Stream& stream, const TimeRange& window,
+                  const std::unordered_map<log::StreamKey, LossesByCause>& silent) {
+    const StreamCounts counts = stream.accounting.countsBetween(window.from, window.to);
+    const std::uint64_t lost = counts.lost + counts.incomplete;
+    const auto taken = silent.find(stream.key);
+    const std::uint64_t inSilence =
+        taken == silent.end() ? 0
+                              : std::accumulate(taken->second.begin(), taken->second.end(), std::uint64_t{0});
+    return {lost - std::min(lost, inSilence), counts.expected()};
+}
+
 /// Of a time between samples; a limit of 0 is none.
 double slackened(double limit, double intervals) {
     return limit > 0 ? std::max(limit, kSlow * intervals) : limit;
@@ -67,7 +86,40 @@ void ThresholdWatch::retire(log::SenderId sender) {
     std::erase_if(m_awake, [sender](const Stream* stream) { return stream->key.sender == sender; });
 }
 
+/// How bad losses are that last, without what silences took.
+void ThresholdWatch::noteLosses(log::Stamp stamp, Incidents& incidents) const {
+    const std::vector<const Incident*> current = incidents.current();
+    if (std::ranges::none_of(current, isLoss)) {
+        return;
+    }
+    const TimeRange window = windowBefore(stamp);
+    const auto silent = lossesInSilences(incidents, window);
+    std::unordered_map<log::StreamKey, const Stream*> awake;
+    for (const Stream* stream : m_awake) {
+        awake[stream->key] = stream;
+    }
+    for (const Incident* loss : current) {
+        if (!isLoss(loss)) {
+            continue;
+        }
+        const auto share = shareAbove(m_thresholds.lossPercent, *loss, [&](const Incident::Part& part) {
+            const log::StreamKey key{loss->sender, part.character.value_or(0), part.type.value_or(0)};
+            const auto stream = awake.find(key);
+            return stream == awake.end() ? LossShare() : shareIn(*stream->second, window, silent);
+        });
+        if (share) {
+            incidents.noteLimit(loss->number, kPercent * *share, m_thresholds.lossPercent);
+        }
+    }
+}
+
+TimeRange ThresholdWatch::windowBefore(log::Stamp stamp) const {
+    const log::Stamp to = stamp - kSettling;
+    return {to - log::durationOf(m_thresholds.windowS), to};
+}
+
 void ThresholdWatch::check(log::Stamp stamp, Incidents& incidents) {
+    noteLosses(stamp, incidents);
     std::erase_if(m_awake, [&](Stream* stream) {
         check(*stream, stamp, incidents);
         const double ageS = log::secondsOf(stamp - stream->accounting.lastStamp());
@@ -78,10 +130,9 @@ void ThresholdWatch::check(log::Stamp stamp, Incidents& incidents) {
 
 void ThresholdWatch::check(Stream& stream, log::Stamp stamp, Incidents& incidents) const {
     const StreamAccounting& accounting = stream.accounting;
-    const log::Stamp to = stamp - kSettling;
-    const log::Stamp from = to - log::durationOf(m_thresholds.windowS);
+    const TimeRange window = windowBefore(stamp);
     const double ageS = log::secondsOf(stamp - accounting.lastStamp());
-    const RangeFigures read = countedFigures(accounting, TimeRange{from, to});
+    const RangeFigures read = countedFigures(accounting, window);
     const double intervalS = usualIntervalS(stream, read);
     if (stream.isEstablished()) {
         hold(stream, {IncidentKind::AgeLimit, ageS, slackened(m_thresholds.ageS, intervalS)}, stamp,
@@ -103,8 +154,8 @@ void ThresholdWatch::check(Stream& stream, log::Stamp stamp, Incidents& incident
     if (stamp <= stream.excusedUntil || m_thresholds.windowS <= 0) {
         return;
     }
-    const bool isWholeWindow = accounting.firstStamp() <= from && ageS < m_thresholds.windowS / 2;
-    if (!isWholeWindow || noteRate(stream, to, stamp, incidents)) {
+    const bool isWholeWindow = accounting.firstStamp() <= window.from && ageS < m_thresholds.windowS / 2;
+    if (!isWholeWindow || noteRate(stream, window.to, stamp, incidents)) {
         return;
     }
     const double rateHz = static_cast<double>(read.counts.samples) / m_thresholds.windowS;
@@ -168,7 +219,7 @@ bool ThresholdWatch::noteRate(Stream& stream, log::Stamp to, log::Stamp now, Inc
     return true;
 }
 
-/// What an incident explains already is no incident of its own: only how bad it is.
+/// What an incident explains already is no incident of its own.
 void ThresholdWatch::hold(const Stream& stream, const Measure& measure, log::Stamp stamp,
                           Incidents& incidents) const {
     Occurrence one = Occurrence::at(measure.kind, stream.key.sender, stamp);
@@ -180,10 +231,9 @@ void ThresholdWatch::hold(const Stream& stream, const Measure& measure, log::Sta
     const bool isIn = known != nullptr && known->concerns(stream.key.character, stream.key.type);
     const bool isAbove = measure.limit > 0 && measure.value > measure.limit;
     if (isAbove && !isIn && stamp <= stream.excusedUntil) {
-        if (measure.kind == IncidentKind::LossLimit) {
-            incidents.noteLimit(one);
-        }
-    } else if (isAbove) {
+        return; // an incident explains it
+    }
+    if (isAbove) {
         one.count = isIn ? 0 : 1;
         incidents.report(one);
     } else if (isIn && (measure.limit <= 0 || measure.value <= measure.limit * m_thresholds.hysteresis)) {

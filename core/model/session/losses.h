@@ -15,8 +15,6 @@
 
 namespace posewire::model {
 
-/// Samples by LossCause.
-using LossesByCause = std::array<std::uint64_t, kLossCauses>;
 void addLosses(LossesByCause& sums, const LossesByCause& more);
 
 /// The figure of a stream that says how much was lost by a cause, by LossCause.

@@ -3,8 +3,7 @@
 
 #include "core/model/body/character_pose.h"
 #include "core/model/body/pose_remark.h"
-#include "core/model/session/fault_matrix.h"
-#include "core/model/session/loss_amount.h"
+#include "core/model/session/recent_losses.h"
 #include "core/model/text.h"
 #include "core/wire/messages.h"
 
@@ -12,8 +11,6 @@
 #include <array>
 #include <bit>
 #include <chrono>
-#include <cmath>
-#include <map>
 #include <tuple>
 
 namespace posewire::model {
@@ -52,83 +49,6 @@ bool concerns(const Incident& incident, const Line& line) {
     return line.empty() ||
            std::ranges::any_of(line, [&](const CharacterKey& one) { return concerns(incident, one); });
 }
-
-/// What streams lost in the time that a verdict is of: read once, where it is asked for.
-class RecentLosses {
-public:
-    RecentLosses(const SessionView& session, const VerdictSpan& span) : m_session(session) {
-        if (span.from != log::Stamp::min()) {
-            m_range = TimeRange{span.from, session.now() + log::Duration(1)}; // also what comes right now
-        }
-    }
-
-    /// "2.1 %", or "37 samples" with a noun: how much of what has gone on since before that time is lost in
-    /// it. Empty for what is told whole: what began in it, or is over, so that it does not grow less, and
-    /// began after the reset.
-    [[nodiscard]] std::string amountOf(const ListedIncident& one, std::string_view noun) {
-        const Incident& incident = one.incident;
-        const bool isLoss = incident.kind == IncidentKind::Loss || incident.kind == IncidentKind::Local;
-        const bool isOlder = m_range && incident.firstStamp <
-                                            (one.state == State::Ongoing ? m_range->from : m_session.reset());
-        if (!isLoss || !isOlder || one.state == State::Provisional || !incident.cause) {
-            return {};
-        }
-        FaultCounts sum;
-        for (const Incident::Part& part : incident.parts) {
-            sum += countsOf(incident.sender, part);
-        }
-        const std::uint64_t samples = sum.lost[static_cast<std::size_t>(*incident.cause)];
-        const std::uint64_t expected = incident.isOfMessages() ? 0 : sum.expected;
-        return samples == 0 ? std::string() : lossAmount(samples, expected, noun);
-    }
-
-    /// Whether a character of it lost more than the limit of what the streams here should have brought, or
-    /// one stream did so clearly that it is not chance: of many that lose at random one is always above.
-    [[nodiscard]] bool isAboveLimit(const Incident& incident) {
-        const double limit = incident.limit / 100;
-        std::map<std::uint8_t, FaultCounts> sums;
-        for (const Incident::Part& part : incident.parts) {
-            const FaultCounts counts = countsOf(incident.sender, part);
-            const auto lost = static_cast<double>(counts.total());
-            if (lost - kDeviations * std::sqrt(lost) > limit * static_cast<double>(counts.expected)) {
-                return true;
-            }
-            sums[part.character.value_or(0)] += counts;
-        }
-        return std::ranges::any_of(sums, [limit](const auto& one) {
-            const std::uint64_t lost = one.second.total();
-            return lost >= Incident::kFewSamples && one.second.shareOf(lost) > limit;
-        });
-    }
-
-    /// Of what the streams here should have brought.
-    [[nodiscard]] double shareOf(const Incident& incident) {
-        FaultCounts sum;
-        for (const Incident::Part& part : incident.parts) {
-            sum += countsOf(incident.sender, part);
-        }
-        return sum.shareOf(sum.total());
-    }
-
-private:
-    static constexpr double kDeviations = 2; ///< of a count of what comes at random, which are its root
-
-    [[nodiscard]] FaultCounts countsOf(log::SenderId sender, const Incident::Part& part) {
-        const Stream* stream = streamOf(m_session, sender, part);
-        if (stream == nullptr) {
-            return {};
-        }
-        if (!m_losses) {
-            m_losses.emplace(m_session, m_range);
-        }
-        const StreamLosses losses = m_losses->of(*stream);
-        return {losses.byCause, 0, losses.expected};
-    }
-
-    const SessionView& m_session;
-    std::optional<TimeRange> m_range;
-    std::optional<Losses> m_losses;
-};
 
 /// `together`: the worst one, and those beside it that are told with it.
 TakeVerdict fromIncidents(const SessionView& session, const std::vector<ListedIncident>& together,
@@ -294,11 +214,21 @@ ListedIncident ofOne(const SessionView& session, const ListedIncident& one, std:
     return own;
 }
 
+/// With what comes right now; nothing where it is of all there is.
+std::optional<TimeRange> rangeOf(const SessionView& session, const VerdictSpan& span) {
+    return span.from == log::Stamp::min()
+               ? std::nullopt
+               : std::optional(TimeRange{span.from, session.now() + log::Duration(1)});
+}
+
 /// Lists once what several verdicts are about.
 class Judge {
 public:
     Judge(const SessionView& session, const VerdictSpan& span)
-        : m_session(session), m_span(span), m_listed(listedIncidents(session, span.from, span.to)) {
+        : m_session(session),
+          m_span(span),
+          m_losses(session, rangeOf(session, span)),
+          m_listed(listedIncidents(session, span.from, span.to)) {
         std::erase_if(m_listed, [&](const ListedIncident& one) { return isPast(one, span); });
         for (const Incident& incident : session.incidents().all()) {
             if (incident.firstStamp <= span.to && !isNote(incident)) {
@@ -349,13 +279,14 @@ private:
         const std::vector<std::uint8_t> characters = all.characters();
         double worst = all.limit / 100;
         for (const std::uint8_t character : characters) {
-            worst = std::max(worst, m_losses.shareOf(all.of(character)));
+            worst = std::max(worst, m_losses.shareOf(all.of(character)).ratio());
         }
         std::vector<std::uint8_t> grave;
         for (const std::uint8_t character : characters) {
             Incident own = all.of(character);
             easeTo(m_span, m_losses, own);
-            if (own.severity() == IncidentSeverity::Error || m_losses.shareOf(own) > kLittle * worst) {
+            if (own.severity() == IncidentSeverity::Error ||
+                m_losses.shareOf(own).mostRatio() > kLittle * worst) {
                 grave.push_back(character);
             }
         }
@@ -395,7 +326,7 @@ private:
 
     const SessionView& m_session;
     VerdictSpan m_span;
-    mutable RecentLosses m_losses{m_session, m_span};
+    mutable RecentLosses m_losses;
     std::vector<ListedIncident> m_listed;
     std::vector<const Incident*> m_past; ///< that ended last first
 };

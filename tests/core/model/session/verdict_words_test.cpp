@@ -196,7 +196,7 @@ TEST_F(VerdictTest, NamesThoseWhoLostAboutAsMuchAsTheWorst) {
     lose(110, 60); // 0.9 % and 1.7 %
     EXPECT_NE(verdict().text.find(" lost on Character 0 and Character 1, "), std::string::npos)
         << verdict().text;
-    lose(160, 50); // 0.6 % and 2 %
+    lose(500, 50); // 0.2 % and 2 %
     EXPECT_NE(verdict().text.find(" % lost on Character 1, "), std::string::npos) << verdict().text;
 }
 
@@ -222,10 +222,28 @@ TEST_F(VerdictTest, IsBadForWhatACharacterLostAndNotForWhatChanceGaveOneOfItsStr
     };
     lose(77, 250); // 1.3 and 0.4 %, together 0.85 %
     EXPECT_EQ(verdict().state, State::Warning) << verdict().text;
+    EXPECT_EQ(of(IncidentKind::Loss)[0].severity(), IncidentSeverity::Warning) << "the list agrees";
     lose(2'500, 20);
     EXPECT_EQ(verdict().state, State::Bad) << verdict().text;
     lose(77, 70);
     EXPECT_EQ(verdict().state, State::Bad) << "none of them is by itself beyond chance: " << verdict().text;
+}
+
+TEST_F(VerdictTest, ASilenceThatIsOverMakesNoFewSamplesGrave) {
+    for (std::uint32_t sample = 1; sample <= 2'000; ++sample, m_at += 10ms) {
+        if (sample / 50 == 32 || sample / 50 == 33) {
+            continue; // a second without anything
+        }
+        if (sample % 200 != 0) {
+            pose(sample);
+        }
+        poseOfOther(sample);
+    }
+    ASSERT_EQ(of(IncidentKind::Outage).size(), 1U);
+    EXPECT_EQ(verdict().state, State::Warning) << verdict().text;
+    for (const Incident& loss : of(IncidentKind::Loss)) {
+        EXPECT_EQ(loss.severity(), IncidentSeverity::Warning) << loss.samples;
+    }
 }
 
 } // namespace

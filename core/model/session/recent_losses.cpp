@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#include "core/model/session/recent_losses.h"
+
+#include "core/model/session/loss_amount.h"
+
+#include <algorithm>
+
+namespace posewire::model {
+
+std::string RecentLosses::amountOf(const ListedIncident& one, std::string_view noun) {
+    const Incident& incident = one.incident;
+    const bool isOngoing = one.state == ListedIncident::State::Ongoing;
+    const bool isLoss = incident.kind == IncidentKind::Loss || incident.kind == IncidentKind::Local;
+    const bool isOlder = m_range && incident.firstStamp < (isOngoing ? m_range->from : m_session.reset());
+    if (!isLoss || !isOlder || one.state == ListedIncident::State::Provisional || !incident.cause) {
+        return {};
+    }
+    const FaultCounts sum = sumOf(incident);
+    const std::uint64_t samples = sum.lost[static_cast<std::size_t>(*incident.cause)];
+    return samples == 0 ? std::string()
+                        : lossAmount(samples, incident.isOfMessages() ? 0 : sum.expected, noun);
+}
+
+bool RecentLosses::isAboveLimit(const Incident& incident) {
+    const auto shareOfPart = [&](const Incident::Part& part) {
+        const FaultCounts counts = countsOf(incident.sender, part);
+        return LossShare{counts.total(), counts.expected};
+    };
+    return shareAbove(incident.limit, incident, shareOfPart).has_value();
+}
+
+LossShare RecentLosses::shareOf(const Incident& incident) {
+    const FaultCounts sum = sumOf(incident);
+    return {sum.total(), sum.expected};
+}
+
+FaultCounts RecentLosses::sumOf(const Incident& incident) {
+    FaultCounts sum;
+    for (const Incident::Part& part : incident.parts) {
+        sum += countsOf(incident.sender, part);
+    }
+    return sum;
+}
+
+FaultCounts RecentLosses::countsOf(log::SenderId sender, const Incident::Part& part) {
+    const Stream* stream = streamOf(m_session, sender, part);
+    if (stream == nullptr) {
+        return {};
+    }
+    if (!m_losses) {
+        m_losses.emplace(m_session, m_range);
+        m_silent = lossesInSilences(m_session.incidents(), m_range);
+    }
+    const StreamLosses losses = m_losses->of(*stream);
+    FaultCounts counts{losses.byCause, 0, losses.expected};
+    if (const auto silent = m_silent.find(stream->key); silent != m_silent.end()) {
+        std::ranges::transform(counts.lost, silent->second, counts.lost.begin(),
+                               [](std::uint64_t all, std::uint64_t its) { return all - std::min(all, its); });
+    }
+    return counts;
+}
+
+} // namespace posewire::model
