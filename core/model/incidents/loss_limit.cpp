@@ -6,18 +6,6 @@
 #include <map>
 
 namespace posewire::model {
-namespace {
-
-double ratioOf(double lost, std::uint64_t expected) {
-    return expected == 0 ? 0 : lost / static_cast<double>(expected);
-}
-
-double chanceOf(std::uint64_t lost) {
-    constexpr double kDeviations = 2;
-    return kDeviations * std::sqrt(static_cast<double>(lost));
-}
-
-} // namespace
 
 LossShare& LossShare::operator+=(const LossShare& other) {
     lost += other.lost;
@@ -25,16 +13,9 @@ LossShare& LossShare::operator+=(const LossShare& other) {
     return *this;
 }
 
-double LossShare::ratio() const {
-    return ratioOf(static_cast<double>(lost), expected);
-}
-
-double LossShare::mostRatio() const {
-    return ratioOf(static_cast<double>(lost) + chanceOf(lost), expected);
-}
-
-double LossShare::leastRatio() const {
-    return ratioOf(static_cast<double>(lost) - chanceOf(lost), expected);
+double LossShare::ratio(double deviations) const {
+    const auto count = static_cast<double>(lost);
+    return expected == 0 ? 0 : (count + deviations * std::sqrt(count)) / static_cast<double>(expected);
 }
 
 std::optional<double> shareAbove(double limitPercent, const Incident& incident,
@@ -43,11 +24,12 @@ std::optional<double> shareAbove(double limitPercent, const Incident& incident,
     if (limit <= 0) {
         return std::nullopt;
     }
+    constexpr double kClearly = -2;
     double worst = limit;
     std::map<std::uint8_t, LossShare> sums;
     for (const Incident::Part& part : incident.parts) {
         const LossShare share = shareOf(part);
-        worst = share.leastRatio() > limit ? std::max(worst, share.ratio()) : worst;
+        worst = share.ratio(kClearly) > limit ? std::max(worst, share.ratio()) : worst;
         sums[part.character.value_or(0)] += share;
     }
     for (const auto& [character, share] : sums) {

@@ -18,12 +18,9 @@ struct LossShare {
     std::uint64_t expected = 0;
 
     LossShare& operator+=(const LossShare& other);
-    /// From 0 to 1; 0 where none were expected.
-    [[nodiscard]] double ratio() const;
-    /// Lost, were it as much more, or less, as chance often makes it: two deviations, that of what comes at
-    /// random being the root of its count.
-    [[nodiscard]] double mostRatio() const;
-    [[nodiscard]] double leastRatio() const;
+    /// From 0 to 1; 0 where none were expected. By so many deviations more was lost, or less: that of what
+    /// comes at random is the root of its count.
+    [[nodiscard]] double ratio(double deviations = 0) const;
 };
 
 /// The share, from 0 to 1, of the worst character of a loss that lost more than the limit on all its streams

@@ -52,7 +52,8 @@ bool isLoss(const Incident* incident) {
     return incident->kind == IncidentKind::Loss;
 }
 
-/// Of a stream in a window, without what silences took.
+/// Of a stream in a window, without what silences took. What has just begun would have brought as much in all
+/// of it: a few samples of its first second are no share of anything.
 LossShare shareIn(const Stream& stream, const TimeRange& window,
                   const std::unordered_map<log::StreamKey, LossesByCause>& silent) {
     const StreamCounts counts = stream.accounting.countsBetween(window.from, window.to);
@@ -61,7 +62,10 @@ LossShare shareIn(const Stream& stream, const TimeRange& window,
     const std::uint64_t inSilence =
         taken == silent.end() ? 0
                               : std::accumulate(taken->second.begin(), taken->second.end(), std::uint64_t{0});
-    return {lost - std::min(lost, inSilence), counts.expected()};
+    const double age = log::secondsOf(window.to - stream.accounting.firstStamp());
+    const double more = age > 0 ? std::max(1.0, window.seconds() / age) : 1;
+    return {lost - std::min(lost, inSilence),
+            static_cast<std::uint64_t>(more * static_cast<double>(counts.expected()))};
 }
 
 /// Of a time between samples; a limit of 0 is none.

@@ -276,6 +276,7 @@ private:
             return all;
         }
         constexpr double kLittle = 0.5;
+        constexpr double kChance = 2;
         const std::vector<std::uint8_t> characters = all.characters();
         double worst = all.limit / 100;
         for (const std::uint8_t character : characters) {
@@ -286,7 +287,7 @@ private:
             Incident own = all.of(character);
             easeTo(m_span, m_losses, own);
             if (own.severity() == IncidentSeverity::Error ||
-                m_losses.shareOf(own).mostRatio() > kLittle * worst) {
+                m_losses.shareOf(own).ratio(kChance) > kLittle * worst) {
                 grave.push_back(character);
             }
         }

@@ -419,6 +419,16 @@ TEST_F(IncidentsTest, TellEverySenderOfACharacterThatTheyTakeTurnsWith) {
               "Character 0 comes from elsewhere at the same time: 127.0.0.1:40002 and 127.0.0.1:40003.");
 }
 
+TEST_F(IncidentsTest, CallNoLossAnErrorBecauseOfAFewSamplesOfItsFirstSecond) {
+    for (std::uint32_t sample = 1; sample <= 2'000; ++sample, m_at += 10ms) {
+        if (sample % (sample < 150 ? 45 : 250) != 0) { // 2 %, then 0.4 %
+            pose(sample);
+        }
+    }
+    ASSERT_EQ(of(IncidentKind::Loss).size(), 1U);
+    EXPECT_EQ(of(IncidentKind::Loss)[0].severity(), IncidentSeverity::Warning);
+}
+
 TEST_F(IncidentsTest, CallALossAboveItsLimitAnError) {
     poses(1, 1'000);
     follow();
