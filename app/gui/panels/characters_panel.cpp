@@ -104,7 +104,8 @@ CharactersPanel::CharactersPanel(model::SessionView& view, Commands& commands, c
       m_streams(new TableView(tr("Streams of the selected character"), commands, m_detail)),
       m_ended(new QWidget(this)),
       m_endedToggle(flatButton({}, tr("Senders that others have taken over from"), m_ended)),
-      m_endedTable(new TableView(tr("Ended senders"), commands, m_ended)) {
+      m_endedTable(new TableView(tr("Ended senders"), commands, m_ended)),
+      m_message(footMessage(this)) {
     auto* column = tightColumn(this);
     addBar();
     m_table->setObjectName(QStringLiteral("board"));
@@ -138,6 +139,7 @@ CharactersPanel::CharactersPanel(model::SessionView& view, Commands& commands, c
     column->addWidget(m_detail);
     m_detail->hide();
     addEnded();
+    column->addWidget(m_message);
 
     showEmptyState();
     connect(m_table->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
@@ -365,6 +367,12 @@ std::optional<model::CharacterKey> CharactersPanel::selected() const {
     return key && m_view.find(*key) != nullptr ? std::optional(m_view.currentNow(*key)) : std::nullopt;
 }
 
+std::optional<model::CharacterKey> CharactersPanel::selectedOrSay() const {
+    const auto key = selected();
+    m_message->say(key ? QString() : tr("No character is selected."));
+    return key;
+}
+
 void CharactersPanel::select(const QModelIndex& index) {
     const auto key = m_model.character(index);
     if (!m_isFollowing && key) {
@@ -379,35 +387,41 @@ bool CharactersPanel::isSolo(const model::CharacterKey& key) const {
 }
 
 void CharactersPanel::frameSelected() {
-    if (const auto key = selected()) {
+    if (const auto key = selectedOrSay()) {
         m_commands.frameCharacter(*key);
     }
 }
 
 void CharactersPanel::soloSelected() {
-    if (const auto key = selected()) {
-        const bool showsAll = isSolo(*key);
-        for (const model::Character* one : m_view.charactersNow()) {
-            m_commands.setCharacterVisible(one->key, showsAll || m_view.isSame(one->key, *key));
-        }
+    const std::vector<const model::Character*> all = m_view.charactersNow();
+    const bool isAnyHidden =
+        std::ranges::any_of(all, [this](const model::Character* one) { return m_view.isHidden(one->key); });
+    const bool showsAll = !m_view.selection().character && isAnyHidden;
+    const auto key = showsAll ? std::nullopt : selectedOrSay();
+    if (!showsAll && !key) {
+        return;
+    }
+    const bool isAgain = key && isSolo(*key);
+    for (const model::Character* one : all) {
+        m_commands.setCharacterVisible(one->key, showsAll || isAgain || m_view.isSame(one->key, *key));
     }
 }
 
 void CharactersPanel::toggleSelected() {
-    if (const auto key = selected()) {
+    if (const auto key = selectedOrSay()) {
         m_commands.setCharacterVisible(*key, m_view.isHidden(*key));
     }
 }
 
 void CharactersPanel::showPacketsOfSelected() {
-    if (const auto key = selected()) {
+    if (const auto key = selectedOrSay()) {
         m_commands.setDisplayFilter(characterFilter(m_view, *key));
         m_commands.showDock(QStringLiteral("packets"));
     }
 }
 
 void CharactersPanel::showIncidentsOfSelected() {
-    if (const auto key = selected()) {
+    if (const auto key = selectedOrSay()) {
         m_commands.showIncident(m_view.verdict(*key).incident, *key);
     }
 }

@@ -12,6 +12,7 @@ namespace posewire::gui {
 
 class BoardDelegate;
 class ElidedLabel;
+class PassingMessage;
 
 /// Dock `characters`: a board of all performers, a line each, with what each is in detail and which senders
 /// have ended below. Selects for all docks.
@@ -36,9 +37,9 @@ public:
     [[nodiscard]] bool isDetailShown() const;
     void toggleDetail() { setDetailShown(!isDetailShown()); }
 
-    // Of the selected character; nothing happens where none is.
+    // Of the selected character; it is said where none is.
     void frameSelected();
-    /// Hides all others; shows all again where that is so already.
+    /// Hides all others; shows all again where that is so already, or none is selected and some are hidden.
     void soloSelected();
     void toggleSelected();
     void showPacketsOfSelected();
@@ -65,6 +66,7 @@ private:
     void followSelection();
     void select(const QModelIndex& index);
     [[nodiscard]] std::optional<model::CharacterKey> selected() const;
+    [[nodiscard]] std::optional<model::CharacterKey> selectedOrSay() const;
     [[nodiscard]] bool isSolo(const model::CharacterKey& key) const;
 
     const ProgramView& m_program;
@@ -82,6 +84,7 @@ private:
     QWidget* m_ended;
     QToolButton* m_endedToggle;
     TableView* m_endedTable;
+    PassingMessage* m_message;
     model::Selection m_followed; ///< the selection that the table shows
     bool m_isFollowing = false;
 };

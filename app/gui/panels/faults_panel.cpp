@@ -11,11 +11,7 @@
 
 namespace posewire::gui {
 
-namespace {
-
-constexpr int kRefusalMs = 6000;
-
-} // namespace
+namespace {} // namespace
 
 FaultsPanel::FaultsPanel(model::SessionView& view, Commands& commands, QWidget* parent)
     : Panel(view, commands, parent),
@@ -23,7 +19,7 @@ FaultsPanel::FaultsPanel(model::SessionView& view, Commands& commands, QWidget* 
       m_span(new ElidedLabel(Qt::AlignLeft | Qt::AlignVCenter, this)),
       m_choice(new SpanBar(view, commands, this)),
       m_table(new TableView(tr("Faults"), commands, this)),
-      m_message(new PassingMessage(kRefusalMs, this)) {
+      m_message(footMessage(this)) {
     const int margin = CellDelegate::margin(fontMetrics());
     auto* head = spacedRow({margin, margin / 2, margin, margin / 2}, margin);
     head->addWidget(m_span, 1);
@@ -35,8 +31,6 @@ FaultsPanel::FaultsPanel(model::SessionView& view, Commands& commands, QWidget* 
     column->addWidget(m_message);
     m_span->setObjectName(QStringLiteral("span"));
     m_span->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
-    m_message->setForegroundRole(QPalette::PlaceholderText);
-    m_message->setContentsMargins(10, 3, 10, 4);
     m_table->setModel(&m_faults);
     m_table->setRootIsDecorated(true);
     m_table->setSelectionBehavior(QAbstractItemView::SelectItems);

@@ -22,8 +22,6 @@ namespace posewire::gui {
 
 namespace {
 
-constexpr int kMessageMs = 6000;
-
 QJsonArray flagsOf(std::span<const bool> flags) {
     QJsonArray array;
     for (const bool flag : flags) {
@@ -103,7 +101,7 @@ IncidentsPanel::IncidentsPanel(model::SessionView& view, Commands& commands, QWi
       m_bar(new IncidentBar(this)),
       m_table(new TableView(tr("Incidents"), commands, this)),
       m_chip(new QPushButton(m_table)),
-      m_message(new PassingMessage(kMessageMs, this)) {
+      m_message(footMessage(this)) {
     auto* column = tightColumn(this);
     column->addWidget(m_bar);
     column->addWidget(new Line(this));
@@ -113,8 +111,6 @@ IncidentsPanel::IncidentsPanel(model::SessionView& view, Commands& commands, QWi
     m_chip->setFocusPolicy(Qt::NoFocus); // Ctrl+End does the same
     m_chip->setToolTip(tr("Go to the newest incident and follow (Ctrl+End)"));
     m_chip->hide();
-    m_message->setForegroundRole(QPalette::PlaceholderText);
-    m_message->setContentsMargins(10, 3, 10, 4);
     m_table->setModel(&m_incidents);
     fitColumns();
     m_table->setRootIsDecorated(true);

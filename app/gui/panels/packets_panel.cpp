@@ -15,7 +15,6 @@ namespace posewire::gui {
 
 namespace {
 
-constexpr int kNoticeMs = 6000;
 constexpr int kPollMs = 20;
 
 } // namespace
@@ -27,7 +26,7 @@ PacketsPanel::PacketsPanel(model::SessionView& view, Commands& commands, QWidget
       m_find(new FindBar(this)),
       m_list(new PacketView(tr("Packets"), this)),
       m_clear(new QPushButton(tr("Clear the filter"), m_list)),
-      m_message(new PassingMessage(kNoticeMs, this)) {
+      m_message(footMessage(this)) {
     auto* column = tightColumn(this);
     column->addWidget(m_filter);
     column->addWidget(m_find);
@@ -44,8 +43,6 @@ PacketsPanel::PacketsPanel(model::SessionView& view, Commands& commands, QWidget
     m_clear->setObjectName(QStringLiteral("clearFilter"));
     m_clear->hide();
     m_message->setObjectName(QStringLiteral("message"));
-    m_message->setForegroundRole(QPalette::PlaceholderText);
-    m_message->setContentsMargins(10, 3, 10, 4);
     fitColumns();
     connectParts();
     showEmptyState();

@@ -16,7 +16,6 @@ namespace posewire::gui {
 namespace {
 
 constexpr int kFactsShown = 4;
-constexpr int kCopiedMs = 6000;
 
 } // namespace
 
@@ -30,7 +29,7 @@ StatisticsPanel::StatisticsPanel(model::SessionView& view, Commands& commands, c
       m_facts(new TableView(tr("This computer"), commands, this)),
       m_filterToRange(new QAction(tr("Show only the packets of this range"), this)),
       m_parts(new QSplitter(Qt::Vertical, this)),
-      m_message(new PassingMessage(kCopiedMs, this)) {
+      m_message(footMessage(this)) {
     setUpStreams();
     m_facts->showFacts(m_computer, QStringLiteral("Foreign datagrams"));
     m_facts->setMinimumHeight(m_facts->heightForRows(1));
@@ -40,8 +39,6 @@ StatisticsPanel::StatisticsPanel(model::SessionView& view, Commands& commands, c
     layout->addWidget(new Line(this));
     layout->addWidget(m_parts, 1);
     layout->addWidget(m_message);
-    m_message->setForegroundRole(QPalette::PlaceholderText);
-    m_message->setContentsMargins(10, 3, 10, 4);
     m_parts->setHandleWidth(1);
     m_parts->addWidget(m_table);
     m_parts->addWidget(m_facts);

@@ -165,6 +165,14 @@ void PassingMessage::paintEvent(QPaintEvent* /*event*/) {
                           fontMetrics().elidedText(text(), Qt::ElideRight, room.width()), foregroundRole());
 }
 
+PassingMessage* footMessage(QWidget* parent) {
+    constexpr int kMilliseconds = 6'000;
+    auto* message = new PassingMessage(kMilliseconds, parent);
+    message->setForegroundRole(QPalette::PlaceholderText);
+    message->setContentsMargins(10, 3, 10, 4);
+    return message;
+}
+
 QToolButton* framedButton(const QString& text, const QString& toolTip, QWidget* parent) {
     auto* button = new QToolButton(parent);
     button->setText(text);

@@ -113,6 +113,9 @@ private:
     QTimer m_timer;
 };
 
+/// One for the foot of a dock, in the dim colour.
+[[nodiscard]] PassingMessage* footMessage(QWidget* parent);
+
 /// A button with an outline. It is called by its text.
 [[nodiscard]] QToolButton* framedButton(const QString& text, const QString& toolTip, QWidget* parent);
 

@@ -122,7 +122,9 @@ ThresholdsDialog::ThresholdsDialog(const AlertChoices& choices, QWidget* parent)
     column->addWidget(m_explanation);
     column->addWidget(buttons);
     setChoices(choices);
-    setMinimumWidth(fontMetrics().averageCharWidth() * 62);
+    const int width = fontMetrics().averageCharWidth() * 62;
+    setMinimumSize(width,
+                   column->totalHeightForWidth(width)); // a dialog does not ask for lines of wrapped text
 }
 
 void ThresholdsDialog::addLimit(QFormLayout& form, const model::ThresholdRow& row) {

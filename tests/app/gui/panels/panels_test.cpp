@@ -150,6 +150,22 @@ TEST_F(PanelsTest, ClickingACharacterSelectsItForAllPanels) {
     EXPECT_EQ(m_stage.commands.framed.front(), m_stage.key(1));
 }
 
+TEST_F(PanelsTest, WhatIsOfTheSelectedCharacterSaysWhereNoneIs) {
+    performer::Performer performer(sending(2, {2, 12}));
+    m_stage.perform(performer, 0, 10);
+    const auto panel = open<CharactersPanel>();
+    const auto* message = panel->findChild<PassingMessage*>();
+    panel->soloSelected();
+    EXPECT_EQ(message->said(), "No character is selected.");
+    m_stage.session.setSelection({m_stage.sender(), m_stage.key(1), -1});
+    panel->soloSelected();
+    EXPECT_EQ(message->said(), "");
+    EXPECT_TRUE(m_stage.session.isHidden(m_stage.key(0)) && !m_stage.session.isHidden(m_stage.key(1)));
+    m_stage.session.setSelection({});
+    panel->soloSelected();
+    EXPECT_FALSE(m_stage.session.isHidden(m_stage.key(0))) << "show all needs none";
+}
+
 TEST_F(PanelsTest, CharactersFollowASelectionMadeElsewhereWithoutAskingForIt) {
     performer::Performer performer(sending(2, {2, 12}));
     m_stage.perform(performer, 0, 10);

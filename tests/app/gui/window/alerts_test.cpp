@@ -98,6 +98,17 @@ TEST(BadTurnsTest, PassOnNoMarkup) {
     EXPECT_TRUE(text.contains("Jonas"));
 }
 
+TEST(ThresholdsDialogTest, OpensWithRoomForAllOfIt) {
+    ThresholdsDialog dialog(AlertChoices{});
+    dialog.show();
+    for (const auto* part : dialog.findChildren<QWidget*>()) {
+        if (part->isVisible() && part->sizePolicy().horizontalPolicy() != QSizePolicy::Ignored) {
+            EXPECT_GE(part->height(), part->minimumSizeHint().height())
+                << part->metaObject()->className() << " " << part->objectName().toStdString();
+        }
+    }
+}
+
 TEST(ThresholdsDialogTest, GivesBackWhatItShowsAndTheDefaults) {
     AlertChoices choices;
     choices.thresholds = {3, 20, 400, 2, 30, 10, 0.5};
