@@ -201,6 +201,7 @@ InputsPage::InputsPage(Receiving& receiving, QWidget* parent)
 
 void InputsPage::layOut() {
     m_table->setMinimumHeight(m_table->heightForRows(kTableRows));
+    m_state->setObjectName(QStringLiteral("inputState"));
     m_state->setWordWrap(true);
     m_state->setMinimumHeight(2 * fontMetrics().lineSpacing());
     m_state->setTextInteractionFlags(Qt::TextSelectableByMouse);
@@ -294,7 +295,10 @@ void InputsPage::showChoice() {
     const auto input = selected();
     m_edit->setEnabled(input.has_value());
     m_remove->setEnabled(input.has_value());
-    m_state->setText(m_table->currentIndex().siblingAtColumn(InputModel::kState).data().toString());
+    const QModelIndex state = m_table->currentIndex().siblingAtColumn(InputModel::kState);
+    const QVariant colour = state.data(Qt::ForegroundRole);
+    setTextColour(*m_state, colour.isValid() ? colour.value<QColor>() : theme().text);
+    m_state->setText(state.data().toString());
     m_settings->showFor(input.value_or(InputAddress{}), m_receiving.state().addresses);
 }
 

@@ -227,6 +227,9 @@ TEST_F(InputsDialogTest, TellsWhoHasConnectedByTcp) {
 TEST_F(InputsDialogTest, TriesAgainForAsLongAsASenderDoesNotListen) {
     type({"127.0.0.1", freePort(), Kind::TcpConnection});
     EXPECT_TRUE(tickUntil([&] { return ports()[0].problem.contains("Trying again"); }));
+    const auto* state = dialog.findChild<QLabel*>("inputState");
+    EXPECT_EQ(state->palette().color(QPalette::WindowText), healthColour(inputState(ports()[0]).health))
+        << "as the cell above: " << state->text().toStdString();
     dialog.open(InputsDialog::Page::Help);
     EXPECT_TRUE(tickUntil([&] { return dialog.helpText().contains("MVN itself does not listen"); }));
 }
