@@ -123,6 +123,7 @@ class Faults:
     def __init__(self, take):
         self.take = take
         self.points = defaultdict(list)  # by character: when something could be known to have gone wrong
+        self.late = defaultdict(list)  # by character: when a later sample came before one that came after all
         self.spans = defaultdict(list)  # by character: silences
         self.missing = []  # from when to when a sample is missing
         self.whole = []  # of all characters
@@ -171,6 +172,8 @@ class Faults:
             if whole > known:
                 self.missing.append((known, whole))
                 self.points[stream[0]].append(known if not isWhole else whole)
+                if isWhole:
+                    self.late[stream[0]].append(known)
             later = min([later] + list(parts.values()))
 
     def missing_at(self, moment):
@@ -190,13 +193,13 @@ class Faults:
 
     def is_calm(self, moment, character):
         """Nothing went wrong with it for long, as far as a receiver could know."""
-        last = self.points[character] + [at for span in self.spans[character] for at in span] + self.whole
+        last = self.points[character] + self.late[character] + self.whole
+        last += [at for span in self.spans[character] for at in span]
         if self.take.plan.change:
             begin = self.take.plan.change[0]
             last += [begin, begin + 64 * 4 / self.take.plan.rate]
-        # What begins to be late is seen before it came.
         early = min(last, default=1e9)
-        return moment < early - 1.0 or moment > max(last, default=0) + FORGOTTEN
+        return moment < early - SOON or moment > max(last, default=0) + FORGOTTEN
 
 
 def monitor(cli, path, *more):
