@@ -130,6 +130,14 @@ std::optional<PoseDoubt> doubtOf(const SessionView& session, const Character& ch
     return doubt;
 }
 
+/// The datagrams of its first sample may still be on their way.
+bool isNew(const SessionView& session, const Character& character) {
+    constexpr log::Duration kNew = std::chrono::milliseconds(250);
+    return !session.isRecording() && std::ranges::all_of(character.streams, [&](const Stream* stream) {
+        return session.now() - stream->accounting.firstStamp() < kNew;
+    });
+}
+
 /// Of all characters with the same doubt.
 TakeVerdict onPoses(const SessionView& session, const PoseDoubt& doubt,
                     const std::vector<CharacterKey>& characters, log::Stamp since) {
@@ -174,8 +182,13 @@ TakeVerdict withoutIncident(const SessionView& session, const std::optional<Char
     }
     std::optional<PoseDoubt> first;
     std::vector<CharacterKey> doubtful;
+    std::size_t starting = 0;
     for (const Character* one : characters) {
         const std::optional<PoseDoubt> doubt = doubtOf(session, *one);
+        if (doubt && doubt->reason.empty() && isNew(session, *one)) {
+            ++starting;
+            continue;
+        }
         first = first ? first : doubt;
         if (doubt && doubt == first) {
             doubtful.push_back(one->key);
@@ -187,8 +200,11 @@ TakeVerdict withoutIncident(const SessionView& session, const std::optional<Char
     if (auto late = ifBehind(session)) {
         return *std::move(late);
     }
+    if (starting == characters.size()) {
+        return lasting(TakeVerdict::State::None, "No pose yet", "no pose yet", since);
+    }
     const std::string who =
-        only ? session.displayName(*only).shown() : counted(characters.size(), "character");
+        only ? session.displayName(*only).shown() : counted(characters.size() - starting, "character");
     return lasting(TakeVerdict::State::Good, "Good for the take: " + who, "good", since);
 }
 

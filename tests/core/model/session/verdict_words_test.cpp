@@ -181,6 +181,18 @@ TEST_F(VerdictTest, SaysWhichOfTwoThatSendTheSameIsSilent) {
         << verdict().text;
 }
 
+TEST_F(VerdictTest, WaitsForTheFirstPoseOfOneThatHasJustBegun) {
+    const auto send = [this](wire::Body body) {
+        wire::Datagram datagram{{}, std::move(body), {}};
+        wire::completeHeader(datagram, wire::HeaderEra::Counted);
+        sendBytes(*wire::encode(datagram), m_at, kHere);
+    };
+    send(wire::TimeCode{});
+    EXPECT_EQ(verdict().state, State::None) << verdict().text;
+    send(standingAt(0));
+    EXPECT_EQ(verdict().state, State::Good) << verdict().text;
+}
+
 TEST_F(VerdictTest, NamesThoseWhoLostAboutAsMuchAsTheWorst) {
     std::uint32_t sample = 1;
     const auto lose = [&](std::uint32_t one, std::uint32_t other) {
