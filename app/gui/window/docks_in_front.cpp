@@ -68,6 +68,12 @@ void MainWindow::showDock(const QString& dock) {
     }
 }
 
+void MainWindow::showEvidence(std::optional<std::uint64_t> incident) {
+    m_driver.showLive();
+    m_driver.showIncident(incident, {});
+    mainStop(findDock(QStringLiteral("events"))->panel)->setFocus();
+}
+
 QWidget* MainWindow::showPart(const QString& name) {
     auto* part = findChild<QWidget*>(name);
     for (const Dock& dock : m_docks) {

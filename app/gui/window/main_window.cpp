@@ -123,10 +123,7 @@ void MainWindow::makeBars() {
     m_verdict->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
     addToolBarBreak(Qt::TopToolBarArea);
     addToolBar(Qt::TopToolBarArea, fixedBar(tr("Verdict"), QStringLiteral("verdict"), m_verdict));
-    connect(m_verdict, &VerdictBar::evidenceRequested, this, [this](std::optional<std::uint64_t> incident) {
-        m_driver.showLive();
-        m_driver.showIncident(incident, {});
-    });
+    connect(m_verdict, &VerdictBar::evidenceRequested, this, &MainWindow::showEvidence);
 
     m_health = m_liveHealth = new HealthBar(m_driver.live(), m_driver, this);
     statusBar()->setSizeGripEnabled(false);

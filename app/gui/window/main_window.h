@@ -80,6 +80,8 @@ public:
     void offerRecovered();
     /// Brings a dock to the front, by its object name.
     void showDock(const QString& dock);
+    /// What the live verdict rests on, with the keyboard: Enter leads to its packets.
+    void showEvidence(std::optional<std::uint64_t> incident);
     /// A dock, bar or part of them by its object name, in the front; null where there is none.
     [[nodiscard]] QWidget* showPart(const QString& name);
     /// Shows a place of the user guide, its first page for none; over a dialog that waits for an answer where

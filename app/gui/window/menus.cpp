@@ -118,8 +118,7 @@ bool hasSpeed(const Window& window) {
 
 /// The evidence of the live verdict, as a click on it gives it.
 void showEvidence(Window& window) {
-    window.driver().showLive();
-    window.driver().showIncident(window.driver().live().verdicts().all.incident, {});
+    window.showEvidence(window.driver().live().verdicts().all.incident);
 }
 
 /// What figures are of: the newest seconds, or all.

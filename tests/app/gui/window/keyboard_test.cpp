@@ -123,6 +123,17 @@ TEST_F(KeyboardTest, GoesAlongWithADockThatIsShownOverTheOneThatHadIt) {
     EXPECT_EQ(m_window.focusWidget(), &m_window.viewport()) << "which is seen as before";
 }
 
+TEST_F(KeyboardTest, GoesToTheEvidenceOfTheVerdict) {
+    for (const QString& layout : {QStringLiteral("Check"), QStringLiteral("Debug")}) {
+        m_window.useLayout(layout);
+        QTest::qWait(20);
+        m_window.viewport().setFocus();
+        m_window.findChild<QAction*>("verdictEvidence")->trigger();
+        EXPECT_TRUE(m_window.findChild<QDockWidget*>("events")->isAncestorOf(m_window.focusWidget()))
+            << layout.toStdString();
+    }
+}
+
 TEST_F(KeyboardTest, TabGoesOnlyToWhatCanBeSeen) {
     for (const QString& layout :
          {QStringLiteral("Check"), QStringLiteral("Debug"), QStringLiteral("Inspect")}) {
