@@ -111,7 +111,8 @@ CommandPalette::CommandPalette(const QMenuBar& bar, QWidget* window)
          window->geometry().top() + 2 * row);
 }
 
-/// What cannot be carried out now comes last, and is never the current one.
+/// Those whose name begins with what is typed come first. What cannot be carried out now comes last, and is
+/// never the current one.
 void CommandPalette::list(const QString& typed) {
     m_list->clear();
     std::vector<std::size_t> meant;
@@ -122,6 +123,9 @@ void CommandPalette::list(const QString& typed) {
     }
     const auto disabled = std::ranges::stable_partition(
         meant, [this](std::size_t i) { return m_commands[i].action->isEnabled(); });
+    std::stable_partition(meant.begin(), disabled.begin(), [&](std::size_t i) {
+        return m_commands[i].name.startsWith(typed.trimmed(), Qt::CaseInsensitive);
+    });
     m_choices = static_cast<int>(std::distance(meant.begin(), disabled.begin()));
     for (const std::size_t i : meant) {
         const Command& command = m_commands[i];

@@ -220,6 +220,15 @@ TEST_F(KeyboardTest, CommandsAreMeantByTheBeginningsOfTheirWordsInAnyOrder) {
     }
 }
 
+TEST_F(KeyboardTest, ThePaletteHasTheDockOfANameBeforeWhatIsDoneInIt) {
+    CommandPalette palette(*m_window.menuBar(), &m_window);
+    QTest::keyClicks(palette.findChild<QLineEdit*>(), "null pose");
+    const auto* list = palette.findChild<QTreeWidget*>();
+    ASSERT_GT(list->topLevelItemCount(), 1);
+    EXPECT_TRUE(list->topLevelItem(0)->text(0).endsWith("Null pose"))
+        << list->topLevelItem(0)->text(0).toStdString();
+}
+
 TEST_F(KeyboardTest, ThePaletteChoosesWhatWasTypedAndMovesInItsList) {
     CommandPalette palette(*m_window.menuBar(), &m_window);
     palette.show();
