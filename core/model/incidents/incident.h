@@ -92,6 +92,7 @@ struct Incident {
         bool isCurrent = true;                ///< of kinds that last until they are ended
         std::optional<log::Stamp> lastMany{}; ///< end of the newest gap of kManySamples or more
         std::uint64_t times = 1;              ///< at which it happened, kApart or more from each other
+        bool isAbove = false; ///< of a loss: more than its limit goes on being lost; see judgedShares()
     };
     static constexpr log::Duration kApart = std::chrono::milliseconds(100);
     /// So many missing in a row are seen: that is grave, whatever share of the stream they are.

@@ -211,11 +211,28 @@ void Incidents::takeBack(std::uint64_t number, const Incident::Part& part, std::
     }
 }
 
-void Incidents::noteLimit(std::uint64_t number, double percent, double limit) {
+void Incidents::noteShares(std::uint64_t number, const std::vector<double>& inWindow,
+                           const std::vector<double>& recent, double limit, double hysteresis) {
     Incident* incident = findOwn(number);
-    if (incident != nullptr && percent > incident->value) {
-        incident->value = percent;
-        incident->limit = limit;
+    if (incident == nullptr || inWindow.size() != incident->parts.size()) {
+        return;
+    }
+    bool isOther = false;
+    for (std::size_t i = 0; i < inWindow.size(); ++i) {
+        Incident::Part& part = incident->parts[i];
+        const double percent = 100 * inWindow[i];
+        const bool isInWindow = limit > 0 && percent > limit;
+        const bool isAbove = 100 * recent[i] > limit * (part.isAbove ? hysteresis : 1) &&
+                             (part.isAbove ? limit > 0 : isInWindow);
+        isOther = isOther || isAbove != part.isAbove;
+        part.isAbove = isAbove;
+        if (isInWindow && percent > incident->value) {
+            incident->value = percent;
+            incident->limit = limit;
+            isOther = true;
+        }
+    }
+    if (isOther) {
         changed(*incident);
     }
 }

@@ -48,8 +48,11 @@ public:
     /// Samples of a stream were not lost after all; `gaps` fewer were. What comes to nothing is gone.
     void takeBack(std::uint64_t number, const Incident::Part& part, std::uint64_t samples,
                   std::uint64_t gaps);
-    /// So much of what should have come, in percent, is above a limit: that makes a loss graver, for good.
-    void noteLimit(std::uint64_t number, double percent, double limit);
+    /// So much of what should have come is lost, from 0 to 1 by part: in the window of limits, and in the
+    /// time of a verdict. What is above a limit, in percent, in the window makes a loss graver, for good; a
+    /// part that is above it in both is, until it is below `hysteresis` of it in the longer one.
+    void noteShares(std::uint64_t number, const std::vector<double>& inWindow,
+                    const std::vector<double>& recent, double limit, double hysteresis);
     /// For one character it was none; what comes to nothing is gone.
     void takeBackPart(std::uint64_t number, std::uint8_t character);
     /// It is over.

@@ -18,24 +18,21 @@ double LossShare::ratio(double deviations) const {
     return expected == 0 ? 0 : (count + deviations * std::sqrt(count)) / static_cast<double>(expected);
 }
 
-std::optional<double> shareAbove(double limitPercent, const Incident& incident,
+std::vector<double> judgedShares(const Incident& incident,
                                  const std::function<LossShare(const Incident::Part&)>& shareOf) {
-    const double limit = limitPercent / 100;
-    if (limit <= 0) {
-        return std::nullopt;
-    }
     constexpr double kClearly = -2;
-    double worst = limit;
+    std::vector<double> shares;
     std::map<std::uint8_t, LossShare> sums;
     for (const Incident::Part& part : incident.parts) {
         const LossShare share = shareOf(part);
-        worst = share.ratio(kClearly) > limit ? std::max(worst, share.ratio()) : worst;
+        shares.push_back(share.ratio(kClearly));
         sums[part.character.value_or(0)] += share;
     }
-    for (const auto& [character, share] : sums) {
-        worst = share.lost >= Incident::kFewSamples ? std::max(worst, share.ratio()) : worst;
+    for (std::size_t i = 0; i < shares.size(); ++i) {
+        const LossShare& all = sums[incident.parts[i].character.value_or(0)];
+        shares[i] = std::max(shares[i], all.lost >= Incident::kFewSamples ? all.ratio() : 0);
     }
-    return worst > limit ? std::optional(worst) : std::nullopt;
+    return shares;
 }
 
 std::unordered_map<log::StreamKey, LossesByCause> lossesInSilences(const Incidents& incidents,

@@ -8,6 +8,7 @@
 #include <functional>
 #include <optional>
 #include <unordered_map>
+#include <vector>
 
 /// Whether a loss is above its limit: in the list of incidents and in the verdict by the same rule.
 namespace posewire::model {
@@ -23,12 +24,11 @@ struct LossShare {
     [[nodiscard]] double ratio(double deviations = 0) const;
 };
 
-/// The share, from 0 to 1, of the worst character of a loss that lost more than the limit on all its streams
-/// there, or of its worst stream that clearly did: of many streams that lose at random one is always above.
-/// Nothing where none did, and for a limit of 0.
-[[nodiscard]] std::optional<double>
-shareAbove(double limitPercent, const Incident& incident,
-           const std::function<LossShare(const Incident::Part&)>& shareOf);
+/// The share, from 0 to 1, that each part of a loss is held to its limit by: what its character lost on all
+/// its streams there, 0 where that is a few samples; or what it alone lost by more than chance, where that is
+/// more: of many streams that lose at random one is always above what all lose together.
+[[nodiscard]] std::vector<double>
+judgedShares(const Incident& incident, const std::function<LossShare(const Incident::Part&)>& shareOf);
 
 /// What silences that ended in a range of time took of each stream, by cause: it counts at their end, when
 /// the next sample came. Of all time where no range is given.

@@ -48,10 +48,6 @@ double usualIntervalS(const Stream& stream, const RangeFigures& read) {
     return stream.usualHz > 0 ? 1 / stream.usualHz : meanMs / 1000;
 }
 
-bool isLoss(const Incident* incident) {
-    return incident->kind == IncidentKind::Loss;
-}
-
 /// Of a stream in a window, without what silences took. What has just begun would have brought as much in all
 /// of it: a few samples of its first second are no share of anything.
 LossShare shareIn(const Stream& stream, const TimeRange& window,
@@ -90,31 +86,27 @@ void ThresholdWatch::retire(log::SenderId sender) {
     std::erase_if(m_awake, [sender](const Stream* stream) { return stream->key.sender == sender; });
 }
 
-/// How bad losses are that last, without what silences took.
+/// How bad losses are that last.
 void ThresholdWatch::noteLosses(log::Stamp stamp, Incidents& incidents) const {
-    const std::vector<const Incident*> current = incidents.current();
-    if (std::ranges::none_of(current, isLoss)) {
-        return;
-    }
     const TimeRange window = windowBefore(stamp);
-    const auto silent = lossesInSilences(incidents, window);
-    std::unordered_map<log::StreamKey, const Stream*> awake;
-    for (const Stream* stream : m_awake) {
-        awake[stream->key] = stream;
-    }
-    for (const Incident* loss : current) {
-        if (!isLoss(loss)) {
-            continue;
-        }
-        const auto share = shareAbove(m_thresholds.lossPercent, *loss, [&](const Incident::Part& part) {
-            const log::StreamKey key{loss->sender, part.character.value_or(0), part.type.value_or(0)};
-            const auto stream = awake.find(key);
-            return stream == awake.end() ? LossShare() : shareIn(*stream->second, window, silent);
-        });
-        if (share) {
-            incidents.noteLimit(loss->number, kPercent * *share, m_thresholds.lossPercent);
+    const TimeRange recent{window.to - kRecentTime, window.to};
+    for (const Incident* loss : incidents.current()) {
+        if (loss->kind == IncidentKind::Loss) {
+            incidents.noteShares(loss->number, sharesOf(*loss, window, incidents),
+                                 sharesOf(*loss, recent, incidents), m_thresholds.lossPercent,
+                                 m_thresholds.hysteresis);
         }
     }
+}
+
+std::vector<double> ThresholdWatch::sharesOf(const Incident& loss, const TimeRange& range,
+                                             const Incidents& incidents) const {
+    const auto silent = lossesInSilences(incidents, range);
+    return judgedShares(loss, [&](const Incident::Part& part) {
+        const log::StreamKey key{loss.sender, part.character.value_or(0), part.type.value_or(0)};
+        const auto stream = std::ranges::find(m_awake, key, [](const Stream* one) { return one->key; });
+        return stream == m_awake.end() ? LossShare() : shareIn(**stream, range, silent);
+    });
 }
 
 TimeRange ThresholdWatch::windowBefore(log::Stamp stamp) const {

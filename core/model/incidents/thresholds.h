@@ -43,6 +43,9 @@ struct ThresholdRow {
 /// All thresholds, in the order of forms.
 [[nodiscard]] std::span<const ThresholdRow> thresholdTable();
 
+/// How long what is over is mentioned, and how bad a loss is is judged by.
+inline constexpr log::Duration kRecentTime = std::chrono::seconds(10);
+
 /// Holds the streams to the thresholds, in the time of the log: one event for each episode.
 class ThresholdWatch {
 public:
@@ -64,6 +67,9 @@ private:
     };
     void check(Stream& stream, log::Stamp stamp, Incidents& incidents) const;
     void noteLosses(log::Stamp stamp, Incidents& incidents) const;
+    /// As Incidents::noteShares() takes them.
+    [[nodiscard]] std::vector<double> sharesOf(const Incident& loss, const TimeRange& range,
+                                               const Incidents& incidents) const;
     [[nodiscard]] TimeRange windowBefore(log::Stamp stamp) const;
     [[nodiscard]] double chanceOf(const Stream& stream) const;
     bool noteRate(Stream& stream, log::Stamp to, log::Stamp now, Incidents& incidents) const;

@@ -22,11 +22,15 @@ std::string RecentLosses::amountOf(const ListedIncident& one, std::string_view n
 }
 
 bool RecentLosses::isAboveLimit(const Incident& incident) {
-    const auto shareOfPart = [&](const Incident::Part& part) {
+    const double window = m_session.thresholds().windowS;
+    if (m_range && log::secondsOf(m_session.now() - m_range->from) >= window) {
+        return std::ranges::any_of(incident.parts, &Incident::Part::isAbove);
+    }
+    const std::vector<double> shares = judgedShares(incident, [&](const Incident::Part& part) {
         const FaultCounts counts = countsOf(incident.sender, part);
         return LossShare{counts.total(), counts.expected};
-    };
-    return shareAbove(incident.limit, incident, shareOfPart).has_value();
+    });
+    return std::ranges::any_of(shares, [&](double share) { return 100 * share > incident.limit; });
 }
 
 LossShare RecentLosses::shareOf(const Incident& incident) {

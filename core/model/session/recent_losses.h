@@ -24,7 +24,8 @@ public:
     /// it. Empty for what is told whole: what began in it, or is over, so that it does not grow less, and
     /// began after the reset.
     [[nodiscard]] std::string amountOf(const ListedIncident& one, std::string_view noun);
-    /// By the rule of shareAbove().
+    /// Whether a part of it is above its limit: now, with the hysteresis of limits; of all there is, or just
+    /// after a reset, in that time.
     [[nodiscard]] bool isAboveLimit(const Incident& incident);
     /// What the streams of an incident lost.
     [[nodiscard]] LossShare shareOf(const Incident& incident);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/model/incidents/thresholds.h"
 #include "core/model/session/listed_incidents.h"
 
 #include <map>
@@ -35,7 +36,7 @@ struct TakeVerdict {
 /// What counts: incidents that have ended before it are forgotten, those that began after it are not known.
 struct VerdictSpan {
     /// Live, an incident that is over is mentioned for as long.
-    static constexpr log::Duration kRecent = std::chrono::seconds(10);
+    static constexpr log::Duration kRecent = kRecentTime;
     log::Stamp from = log::Stamp::min();
     log::Stamp to = log::Stamp::max();
 };

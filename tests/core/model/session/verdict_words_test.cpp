@@ -90,6 +90,21 @@ TEST_F(VerdictTest, KeepsToOneAnswerWhileAFewOfManyAreLostAtRandom) {
     EXPECT_LE(answers.size(), 9U) << "in three minutes of about 180 losses";
 }
 
+TEST_F(VerdictTest, ALossThatHoversAboutItsLimitIsBadAgainOnlySeldom) {
+    std::minstd_rand random(11);
+    State before = State::None;
+    int changes = 0;
+    for (std::uint32_t sample = 1; sample <= 18'000; ++sample, m_at += 10ms) {
+        if (sample < 100 || random() % 100 != 0) {
+            pose(sample);
+        }
+        if (sample % 10 == 0) {
+            changes += std::exchange(before, verdict().state) != verdict().state ? 1 : 0;
+        }
+    }
+    EXPECT_LE(changes, 20) << "in three minutes of one in a hundred";
+}
+
 TEST_F(VerdictTest, BurstsThatComeAgainAndAgainAreNotOverBetweenTwo) {
     std::uint32_t next = 1;
     for (int burst = 0; burst < 5; ++burst) {
