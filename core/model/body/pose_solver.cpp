@@ -50,6 +50,7 @@ public:
     SolvedBody run() {
         takeSent();
         fitAllMarkers();
+        fitMarkersAndJoints();
         placePelvis();
         if (!has(segment::kT8, &SegmentSource::orientation)) {
             turn(segment::kT8, m_solved.segments[segment::kPelvis].orientation);
@@ -90,15 +91,34 @@ private:
             if (isTurned && !has(i, &SegmentSource::position)) {
                 placeByMarkers(i);
             } else if (!isTurned) {
-                if (const auto fit = fitMarkers(m_evidence.markers[i], m_evidence.markerTolerance)) {
-                    SegmentSource& source = m_solved.sources[i];
-                    m_solved.segments[i].orientation = fit->rotation;
-                    source.orientation = Provenance::Solved;
-                    if (source.position == Provenance::None) {
-                        m_solved.segments[i].position = fit->position;
-                        source.position = Provenance::Solved;
-                    }
+                fit(i, m_evidence.markers[i]);
+            }
+        }
+    }
+
+    /// Segments that have too few markers, with the joints of those beside them that are fitted.
+    void fitMarkersAndJoints() {
+        for (bool isMore = true; isMore;) {
+            isMore = false;
+            for (std::size_t i = 0; i < kCount; ++i) {
+                const SegmentSource before = m_solved.sources[i];
+                if (!m_evidence.markers[i].empty() && before.orientation == Provenance::None &&
+                    before.position == Provenance::None) {
+                    fit(i, jointsAround(i));
+                    isMore = isMore || has(i, &SegmentSource::orientation);
                 }
+            }
+        }
+    }
+
+    void fit(std::size_t i, const std::vector<MarkerPair>& pairs) {
+        if (const auto fitted = fitMarkers(pairs, m_evidence.markerTolerance)) {
+            SegmentSource& source = m_solved.sources[i];
+            m_solved.segments[i].orientation = fitted->rotation;
+            source.orientation = Provenance::Solved;
+            if (source.position == Provenance::None) {
+                m_solved.segments[i].position = fitted->position;
+                source.position = Provenance::Solved;
             }
         }
     }
@@ -153,6 +173,20 @@ private:
             if (parentOf(child) == i && has(child, &SegmentSource::position)) {
                 pairs.push_back({bone(child), m_solved.segments[child].position});
             }
+        }
+        return pairs;
+    }
+
+    /// The same, and its origin where the parent, all of which is known, has it.
+    [[nodiscard]] std::vector<MarkerPair> jointsAround(std::size_t i) const {
+        std::vector<MarkerPair> pairs = joints(i);
+        if (i == segment::kPelvis) {
+            return pairs;
+        }
+        const std::size_t parent = parentOf(i);
+        if (has(parent, &SegmentSource::position) && has(parent, &SegmentSource::orientation)) {
+            const SegmentPose& from = m_solved.segments[parent];
+            pairs.push_back({Vector3d::Zero(), from.position + from.orientation * bone(i)});
         }
         return pairs;
     }

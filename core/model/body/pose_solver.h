@@ -35,7 +35,8 @@ struct SolvedBody {
 };
 
 /// Puts a whole body together from what is known of it. What was sent stays as it is, joints may be open.
-/// Segments with three markers or more are fitted to them. What is left is solved from the pelvis outward:
+/// Segments with three markers or more are fitted to them, those with fewer to theirs and to the joints of
+/// fitted ones beside them where these make three. What is left is solved from the pelvis outward:
 /// an origin by the bone from its parent, an orientation from the joints and markers of its segment, and from
 /// the plane in which a knee or an elbow bends; the spine turns as MVN interpolates it. How a limb is turned
 /// about itself where nothing tells goes with its parent by the shortest way, so it moves steadily; it is

@@ -244,6 +244,30 @@ TEST(PosesOfMarkers, BearMarkersThatAreLostOrExchanged) {
     EXPECT_LT(errors.angle, 1.0);
 }
 
+TEST(PosesOfMarkers, TakeTheJointsBesideThemForMarkersThatAreLost) {
+    const auto lose = [](wire::Datagram& datagram) {
+        auto* message = std::get_if<wire::PointPositions>(&datagram.body);
+        if (message == nullptr) {
+            return;
+        }
+        std::erase_if(message->points, [](const wire::Point& point) {
+            for (const PointReference& lost : {PointReference{segment::kRightUpperArm + 1, 3},
+                                               PointReference{segment::kRightUpperArm + 1, 4},
+                                               PointReference{segment::kRightForeArm + 1, 3}}) {
+                if (point.id == encodePointId(PointIdCoding::By256, lost)) {
+                    return true;
+                }
+            }
+            return false;
+        });
+        wire::completeHeader(datagram, wire::HeaderEra::Counted);
+    };
+    const Errors errors = errorsOf({3, 13}, "wave", lose);
+    EXPECT_LT(errors.position, 4e-3)
+        << "the hand says where the forearm ends, and that where the upper arm does";
+    EXPECT_LT(errors.angle, 1.0);
+}
+
 TEST(PosesWithHoles, AreSolvedFromWhatIsLeft) {
     const auto damage = [](wire::Datagram& datagram) {
         if (auto* message = std::get_if<wire::PoseQuaternion>(&datagram.body)) {
