@@ -26,6 +26,7 @@ constexpr qreal kToSpare = 6;
 
 /// In heights of a plate: how far from its head a label may be.
 constexpr qreal kMostWhole = 2.4;
+constexpr qreal kMostNamed = 3.2;
 constexpr qreal kMostBrief = 5;
 
 struct Candidate {
@@ -100,9 +101,13 @@ public:
             return {};
         }
         const std::array forms{std::tuple(LabelForm::Whole, own.whole, kMostWhole),
+                               std::tuple(LabelForm::Named, own.named, kMostNamed),
                                std::tuple(LabelForm::Brief, own.brief, kMostBrief)};
         for (const bool mayCover : {false, true}) { // rather short than on somebody's head
             for (const auto& [form, size, most] : forms) {
+                if (size.isEmpty()) {
+                    continue;
+                }
                 if (const auto found = find(which, form, size, most, mayCover)) {
                     m_taken.push_back(found->plate);
                     return *found;

@@ -17,6 +17,7 @@ namespace posewire::gui {
 /// How much of a label there is room for.
 enum class LabelForm : std::uint8_t {
     Whole, ///< name and state
+    Named, ///< the name, without its middle where it is long, and the symbol of the state
     Brief, ///< initials, and the symbol of the state
     Mark,  ///< the mark alone, above the head
     None,  ///< nothing: the head is out of sight, behind a nearer one or under a label or button
@@ -37,6 +38,7 @@ struct LabelPlace {
     QSizeF whole;
     QSizeF brief;
     std::optional<PlacedLabel> before{}; ///< in the picture before, so that nothing flickers
+    QSizeF named{};                      ///< empty where the brief form shows as much
 };
 
 /// Finds a place for each label by its head: nowhere on another, on what is `taken`, on its own head or

@@ -46,7 +46,9 @@ qreal paintText(QPainter& painter, qreal left, const QRectF& row, const QString&
 struct LabelText {
     QString name;
     QString status;
+    QString shortName;
     qreal whole = 0; ///< widths of a plate
+    qreal named = 0; ///< 0 where initials are no shorter
     qreal brief = 0;
 };
 
@@ -56,14 +58,21 @@ qreal markSide(const QFontMetricsF& metrics) {
 
 LabelText textOf(const ViewportLabel& label, const QFontMetricsF& metrics, qreal width) {
     const qreal unit = metrics.height();
-    LabelText text{{}, healthText(label.state.health, label.state.text)};
+    LabelText text;
+    text.status = healthText(label.state.health, label.state.text);
     // However long a name is, how its character does is in sight.
     const qreal frame = 1.6 * unit + markSide(metrics);
     const qreal rest = frame + 0.6 * unit + metrics.horizontalAdvance(text.status);
     text.name = metrics.elidedText(label.name, Qt::ElideRight, std::clamp(width - rest, 3 * unit, 16 * unit));
     text.whole = rest + metrics.horizontalAdvance(text.name);
-    text.brief = frame + 0.4 * unit +
-                 metrics.horizontalAdvance(initialsOf(label.name) + healthSymbol(label.state.health));
+    const QString symbol = healthSymbol(label.state.health);
+    text.brief = frame + 0.4 * unit + metrics.horizontalAdvance(initialsOf(label.name) + symbol);
+    // The end tells it from others as well as the beginning does.
+    text.shortName = metrics.elidedText(label.name, Qt::ElideMiddle, 5.5 * unit);
+    text.named = frame + 0.4 * unit + metrics.horizontalAdvance(text.shortName + symbol);
+    if (text.named <= text.brief) {
+        text.named = 0;
+    }
     return text;
 }
 
@@ -274,7 +283,8 @@ void ViewportOverlay::placeAll() {
         const auto before = m_before.find(label.key);
         places.push_back({label.anchor, label.head, label.depth, weightOf(label), QSizeF(text.whole, height),
                           QSizeF(text.brief, height),
-                          before == m_before.end() ? std::nullopt : std::optional(before->second)});
+                          before == m_before.end() ? std::nullopt : std::optional(before->second),
+                          QSizeF(text.named, height)});
     }
     m_placed = placeLabels(places, rect(), takenRoom());
     m_before.clear();
@@ -333,7 +343,10 @@ void ViewportOverlay::paintLabel(QPainter& painter, const ViewportLabel& label,
     const LabelText text = textOf(label, metrics, width());
     const bool isWhole = placed.form == LabelForm::Whole;
     qreal x = plate.left() + unit + side;
-    x = paintText(painter, x, plate, isWhole ? text.name : initialsOf(label.name), theme().text);
+    const QString name = isWhole                           ? text.name
+                         : placed.form == LabelForm::Named ? text.shortName
+                                                           : initialsOf(label.name);
+    x = paintText(painter, x, plate, name, theme().text);
     paintText(painter, x + (isWhole ? 0.6 : 0.4) * unit, plate,
               isWhole ? text.status : healthSymbol(label.state.health), healthColour(label.state.health));
 }

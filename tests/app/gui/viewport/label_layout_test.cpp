@@ -83,6 +83,32 @@ TEST(LabelLayout, GetsShorterBeforeItLiesOnAnyHead) {
     EXPECT_LE(covered, 1U) << "only where not even initials have room";
 }
 
+TEST(LabelLayout, KeepsPartOfTheNameWhereThereIsRoomForThat) {
+    LabelPlace place = labelAt(300, 200, 5);
+    place.named = {120, 24};
+    const QRectF leftOf(0, 100, 220, 130);
+    const QRectF rightOf(380, 100, 260, 130);
+    EXPECT_EQ(placeLabels(std::vector{place}, kViewport, {leftOf, rightOf})[0].form, LabelForm::Named);
+    place.named = {};
+    EXPECT_EQ(placeLabels(std::vector{place}, kViewport, {leftOf, rightOf})[0].form, LabelForm::Brief);
+    const auto few = [](const std::vector<LabelPlace>& places) {
+        const auto placed = placeLabels(places, kViewport, {});
+        return std::ranges::count_if(placed,
+                                     [](const PlacedLabel& label) { return label.form == LabelForm::Brief; });
+    };
+    std::ptrdiff_t without = 0;
+    std::ptrdiff_t with = 0;
+    for (unsigned seed = 1; seed <= 60; ++seed) {
+        auto places = crowd(seed, 12);
+        without += few(places);
+        for (LabelPlace& one : places) {
+            one.named = {110, 24};
+        }
+        with += few(places);
+    }
+    EXPECT_LT(2 * with, without);
+}
+
 TEST(LabelLayout, StaysByItsHeadInACrowdAndGetsShorterInstead) {
     std::size_t briefs = 0;
     std::size_t shown = 0;
