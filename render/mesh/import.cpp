@@ -4,8 +4,12 @@
 #include "render/mesh/import_materials.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <fstream>
 #include <map>
+#include <string_view>
 #include <utility>
 
 #include <assimp/DefaultIOSystem.h>
@@ -279,10 +283,32 @@ tl::expected<ImportedCharacter, std::string> converted(const Assimp::Importer& i
                                                        const std::filesystem::path& folder) {
     if (scene == nullptr || scene->mRootNode == nullptr) {
         const std::string reason = importer.GetErrorString();
-        return tl::make_unexpected(reason.empty() ? std::string("the file cannot be read as a mesh")
-                                                  : reason);
+        const bool isUnknown = reason.empty() || reason.starts_with("No suitable reader");
+        return tl::make_unexpected(isUnknown
+                                       ? "the file cannot be read as a mesh: it is of no format that is "
+                                         "known, such as glTF, FBX or Collada, or it is damaged"
+                                       : reason);
     }
     return Conversion(*scene, folder).run();
+}
+
+/// What is wrong with a file whatever is in it; empty for nothing. A binary glTF says how long it is.
+std::string faultOf(const std::string& path, std::uintmax_t size) {
+    if (size == 0) {
+        return "the file is empty";
+    }
+    std::array<unsigned char, 12> head{};
+    std::ifstream file(path, std::ios::binary);
+    file.read(reinterpret_cast<char*>(head.data()), head.size());
+    if (file && std::string_view(reinterpret_cast<const char*>(head.data()), 4) == "glTF") {
+        const std::uintmax_t length =
+            head[8] | head[9] << 8 | head[10] << 16 | std::uintmax_t{head[11]} << 24;
+        if (length > size) {
+            return "the file is cut short: " + std::to_string(size) + " of its " + std::to_string(length) +
+                   " bytes are there";
+        }
+    }
+    return {};
 }
 
 void configure(Assimp::Importer& importer) {
@@ -298,8 +324,12 @@ tl::expected<ImportedCharacter, std::string> importCharacter(const std::string& 
     if (!std::filesystem::is_regular_file(path, problem)) {
         return tl::make_unexpected("there is no file " + path);
     }
-    if (std::filesystem::file_size(path, problem) > kMostImportedBytes || problem) {
+    const std::uintmax_t size = std::filesystem::file_size(path, problem);
+    if (size > kMostImportedBytes || problem) {
         return tl::make_unexpected("the file is larger than 256 MB");
+    }
+    if (std::string fault = faultOf(path, size); !fault.empty()) {
+        return tl::make_unexpected(std::move(fault));
     }
     Assimp::Importer importer;
     configure(importer);

@@ -4,6 +4,7 @@
 #include "render/mesh/mannequin.h"
 #include "tests/render/mesh/gltf_text.h"
 #include "tests/support/paths.h"
+#include "tests/support/temporary_folder.h"
 
 #include <array>
 #include <cstring>
@@ -101,6 +102,23 @@ TEST(Import, RefusesCutFilesWithAMessage) {
         ASSERT_FALSE(imported) << size;
         EXPECT_FALSE(imported.error().empty());
     }
+}
+
+TEST(Import, SaysWhatIsWrongWithAFileInPlainWords) {
+    const auto folder = posewire::test::newTemporaryFolder("import");
+    const auto errorOf = [&folder](const std::string& content) {
+        const auto path = folder / "own.glb";
+        std::ofstream(path, std::ios::binary) << content;
+        const auto imported = importCharacter(path.string());
+        return imported ? std::string() : imported.error();
+    };
+    const std::string whole = readFile(kMannequinPath);
+    EXPECT_EQ(errorOf(""), "the file is empty");
+    EXPECT_EQ(errorOf(whole.substr(0, 5000)),
+              "the file is cut short: 5000 of its " + std::to_string(whole.size()) + " bytes are there");
+    EXPECT_NE(errorOf("no mesh at all").find("no format that is known"), std::string::npos);
+    EXPECT_EQ(errorOf(whole), "");
+    std::filesystem::remove_all(folder);
 }
 
 TEST(Import, RefusesAMeshWithoutBones) {
