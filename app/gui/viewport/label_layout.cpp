@@ -41,6 +41,25 @@ qreal distanceTo(const QRectF& plate, const QPointF& point) {
     return std::hypot(x, y);
 }
 
+/// The share of a line at which it comes into a box; 1 where it never does.
+qreal entryInto(const QRectF& box, const QLineF& line) {
+    qreal in = 0;
+    qreal out = 1;
+    const auto cut = [&](qreal from, qreal way, qreal low, qreal high) {
+        if (way == 0) {
+            out = from < low || from > high ? -1 : out;
+            return;
+        }
+        const qreal first = (low - from) / way;
+        const qreal second = (high - from) / way;
+        in = std::max(in, std::min(first, second));
+        out = std::min(out, std::max(first, second));
+    };
+    cut(line.x1(), line.dx(), box.left(), box.right());
+    cut(line.y1(), line.dy(), box.top(), box.bottom());
+    return in <= out ? in : 1;
+}
+
 /// From what a plate belongs to: the point above a head, or the head, which is large where the eye is near.
 qreal awayFrom(const LabelPlace& place, const QRectF& plate) {
     const QRectF& head = place.head;
@@ -195,7 +214,8 @@ std::vector<PlacedLabel> placeLabels(std::span<const LabelPlace> places, const Q
     return placed;
 }
 
-std::optional<QLineF> leaderOf(const PlacedLabel& label, const LabelPlace& place) {
+std::optional<QLineF> leaderOf(const PlacedLabel& label, const LabelPlace& place,
+                               std::span<const QRectF> nearer) {
     const bool isAbove = label.plate.bottom() <= place.anchor.y() + kApart;
     const bool isLeft = label.plate.center().x() < place.head.center().x();
     const QPointF end =
@@ -204,8 +224,24 @@ std::optional<QLineF> leaderOf(const PlacedLabel& label, const LabelPlace& place
     if (label.form > LabelForm::Brief || distanceTo(label.plate, end) <= kLeader) {
         return std::nullopt;
     }
-    return QLineF(std::clamp(end.x(), label.plate.left() + kLeader, label.plate.right() - kLeader),
-                  std::clamp(end.y(), label.plate.top(), label.plate.bottom()), end.x(), end.y());
+    QLineF line(std::clamp(end.x(), label.plate.left() + kLeader, label.plate.right() - kLeader),
+                std::clamp(end.y(), label.plate.top(), label.plate.bottom()), end.x(), end.y());
+    qreal seen = 1;
+    for (const QRectF& head : nearer) {
+        seen = std::min(seen, entryInto(head, line));
+    }
+    line.setP2(line.pointAt(seen));
+    return line.length() > 1 ? std::optional(line) : std::nullopt;
+}
+
+std::vector<QRectF> headsBefore(std::span<const LabelPlace> places, std::size_t which) {
+    std::vector<QRectF> heads;
+    for (const LabelPlace& place : places) {
+        if (place.depth + kAsNear < places[which].depth) {
+            heads.push_back(place.head);
+        }
+    }
+    return heads;
 }
 
 QString initialsOf(const QString& name) {

@@ -35,8 +35,8 @@ struct LabelPlace {
     QRectF head;
     double depth = 0; ///< metres from the eye
     int weight = 0;   ///< the heaviest is served first, of equal ones the nearest
-    QSizeF whole;
-    QSizeF brief;
+    QSizeF whole{};
+    QSizeF brief{};
     std::optional<PlacedLabel> before{}; ///< in the picture before, so that nothing flickers
     QSizeF named{};                      ///< empty where the brief form shows as much
 };
@@ -47,8 +47,12 @@ struct LabelPlace {
 [[nodiscard]] std::vector<PlacedLabel> placeLabels(std::span<const LabelPlace> places, const QRectF& view,
                                                    std::vector<QRectF> taken);
 
-/// The line from a plate to its head; nothing where they are so close that none is needed.
-[[nodiscard]] std::optional<QLineF> leaderOf(const PlacedLabel& label, const LabelPlace& place);
+/// The line from a plate to its head; nothing where they are so close that none is needed. It ends where it
+/// would go on behind a head that is `nearer`.
+[[nodiscard]] std::optional<QLineF> leaderOf(const PlacedLabel& label, const LabelPlace& place,
+                                             std::span<const QRectF> nearer = {});
+/// Heads of those that are nearer to the eye than the one at `which`.
+[[nodiscard]] std::vector<QRectF> headsBefore(std::span<const LabelPlace> places, std::size_t which);
 
 /// "ML", of "Mira Lindqvist"; "ML2", of "Mira Lindqvist 2"; "C7", of "Character 7".
 [[nodiscard]] QString initialsOf(const QString& name);

@@ -298,11 +298,12 @@ void ViewportOverlay::paintEvent(QPaintEvent* /*event*/) {
     painter.setRenderHint(QPainter::Antialiasing);
     painter.setFont(tabularFont());
     placeAll();
+    std::vector<LabelPlace> places;
+    for (const ViewportLabel& label : m_labels) {
+        places.push_back({label.anchor, label.head, label.depth});
+    }
     for (std::size_t i = 0; i < m_labels.size(); ++i) {
-        LabelPlace place;
-        place.anchor = m_labels[i].anchor;
-        place.head = m_labels[i].head;
-        if (const auto leader = leaderOf(m_placed[i], place)) {
+        if (const auto leader = leaderOf(m_placed[i], places[i], headsBefore(places, i))) {
             painter.setPen(QPen(theme().panel, 3));
             painter.drawLine(*leader);
             painter.setPen(QPen(m_labels[i].mark.colour, 1.4));

@@ -178,6 +178,22 @@ TEST(LabelLayout, HasALineToAHeadThatItIsAwayFrom) {
     EXPECT_TRUE(leaderOf(placed[0], labelAt(300, 195, 5)));
 }
 
+TEST(LabelLayout, HasNoLineOnANearerHead) {
+    const std::vector places{labelAt(300, 195, 5), labelAt(300, 130, 2)};
+    const PlacedLabel placed{QRectF(260, 90, 80, 24), LabelForm::Brief, {}};
+    const auto nearer = headsBefore(places, 0);
+    ASSERT_EQ(nearer.size(), 1U);
+    EXPECT_TRUE(headsBefore(places, 1).empty());
+    const auto leader = leaderOf(placed, places[0], nearer);
+    ASSERT_TRUE(leader);
+    EXPECT_NEAR(leader->y1(), 114, 0.1);
+    EXPECT_NEAR(leader->y2(), places[1].head.top(), 0.1) << "it goes on behind";
+    const std::vector beside{QRectF(400, 100, 40, 60)};
+    EXPECT_NEAR(leaderOf(placed, places[0], beside)->y2(), 195, 0.1);
+    const std::vector around{QRectF(250, 80, 100, 200)};
+    EXPECT_FALSE(leaderOf(placed, places[0], around));
+}
+
 TEST(LabelLayout, IsNotThereWhereTheHeadIsOutOfSight) {
     EXPECT_EQ(placeLabels(std::vector{labelAt(-5, 200, 5)}, kViewport, {})[0].form, LabelForm::None);
 }
