@@ -27,6 +27,7 @@ uniform float hasSuit;
 out vec4 fragment;
 
 const vec3 kPlainCloth = vec3(0.70, 0.71, 0.72);
+const vec3 kCoolCloth = vec3(0.60, 0.695, 0.79);
 const float kFinestHatch = 0.015;
 
 // The light's picture through a tent three or five texels wide, in bilinear comparisons whose places and weights move
@@ -141,8 +142,10 @@ float hatching(vec3 at, float metresPerPixel) {
 void showProvenance(inout Paint paint, vec2 solvedAndAssumed, float metresPerPixel) {
     float solved = solvedAndAssumed.x;
     float assumed = solvedAndAssumed.y;
-    vec3 plain = mix(colour * 0.86 + 0.10, kPlainCloth, 0.72);
-    paint.colour = mix(paint.colour, plain, 0.74 * solved);
+    // Orange and red would fade to the colour of skin: they fade further, to cooler cloth.
+    float warmth = clamp(2.5 * (colour.r - colour.b), 0.0, 1.0);
+    vec3 plain = mix(colour * 0.86 + 0.10, mix(kPlainCloth, kCoolCloth, warmth), 0.72 + 0.05 * warmth);
+    paint.colour = mix(paint.colour, plain, (0.74 + 0.12 * warmth) * solved);
     float plainness = max(solved, assumed);
     paint.gloss *= 1.0 - 0.9 * plainness;
     paint.mirror *= 1.0 - plainness;
