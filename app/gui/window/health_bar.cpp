@@ -118,6 +118,10 @@ void HealthBar::say(const QString& text, const QString& helpPlace) {
     m_about->setVisible(!text.isEmpty() && !helpPlace.isEmpty());
 }
 
+QString HealthBar::said() const {
+    return m_message->said();
+}
+
 QString HealthBar::byteRateText(double bytesPerSecond) {
     constexpr double kLeastMegabytes = 0.1;
     const double megabytes = bytesPerSecond / 1e6;

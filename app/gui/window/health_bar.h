@@ -35,6 +35,8 @@ public:
     /// Shows a line for a while, beside the rest; with the place in the guide that tells more, where there is
     /// one.
     void say(const QString& text, const QString& helpPlace = {});
+    /// What it says now; empty where that has passed.
+    [[nodiscard]] QString said() const;
 
 private:
     /// Selects a character, and says in a popup why it is as it is.

@@ -75,8 +75,10 @@ MainWindow::MainWindow(SessionDriver& driver, const SettingsFile& file, const Se
     connectHelp();
     m_driver.setThresholds(m_settings.alerts.thresholds);
     m_driver.setDisplayFilter(m_settings.filter);
-    connect(&m_viewport->ownCharacters(), &OwnCharacters::failed, this,
-            [this](const QString& problem) { say(problem); });
+    connect(&m_viewport->ownCharacters(), &OwnCharacters::failed, this, [this](const QString& problem) {
+        say(problem);
+        m_ownProblem = problem;
+    });
     m_viewport->restoreState(m_settings.viewport);
     m_viewport->setComparison(m_driver.comparison());
     new PressingKeys(this);
@@ -154,7 +156,11 @@ void MainWindow::connectDriver() {
     connect(&m_driver, &SessionDriver::fileOpened, this, [this](bool isRead, const QString& text) {
         showOpening();
         // What there is to know of one that was read is told as long as it shows.
-        say(isRead ? QString() : text, HelpTopic::OpeningFailed);
+        if (isRead) {
+            say(m_ownProblem);
+        } else {
+            say(text, HelpTopic::OpeningFailed);
+        }
     });
     connect(&m_driver, &SessionDriver::comparisonRequested, this, &MainWindow::chooseComparison);
     connect(&m_driver, &SessionDriver::comparisonChanged, this, [this](const QString& text) {

@@ -180,6 +180,7 @@ private:
     QString m_covered; ///< dock that the newest request for another one hid; empty for none
     bool m_isRestored = false;
     bool m_saysOpening = false; ///< the bar at the bottom does
+    QString m_ownProblem;       ///< with a character's file: said again when opening took its place
 };
 
 /// Where a window of that place is wholly seen on the screens there are, moved if it must be; empty if it

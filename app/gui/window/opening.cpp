@@ -188,10 +188,13 @@ void MainWindow::offerRecovered() {
 
 void MainWindow::showOpening() {
     const bool isOpening = m_driver.isOpening();
+    if (!m_saysOpening && m_health->said() != m_ownProblem) {
+        m_ownProblem.clear(); // it has passed
+    }
     if (isOpening) {
         say(m_driver.openingText());
     } else if (m_saysOpening) {
-        say({});
+        say(m_ownProblem);
     }
     m_saysOpening = isOpening;
     m_menus.action("stopOpening")->setEnabled(isOpening); // else Escape is for others

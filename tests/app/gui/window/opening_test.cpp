@@ -32,6 +32,26 @@ TEST_F(MainWindowTest, EscapeStopsOpeningAFileAndIsForOthersElse) {
                     .startsWith("Opening endless was stopped"));
 }
 
+TEST_F(MainWindowTest, SaysWhatIsWrongWithACharacterAlsoWhereAFileIsOpenedMeanwhile) {
+    const auto window = makeWindow();
+    const auto* message = window->findChild<HealthBar*>("healthBar")->findChild<QLabel*>("message");
+    const QString problem = "The mannequin stays";
+    emit window->viewport().ownCharacters().failed(problem);
+    emit driver.fileOpened(true, "");
+    EXPECT_EQ(message->text(), problem);
+    const QString endless = folder.filePath("endless");
+    ASSERT_EQ(::mkfifo(QFile::encodeName(endless).constData(), 0600), 0);
+    driver.openFile(endless);
+    emit driver.tableTick();
+    EXPECT_TRUE(message->text().startsWith("Opening endless"));
+    driver.cancelOpening();
+    window->say("Saved");
+    emit driver.tableTick();
+    emit driver.tableTick();
+    emit driver.fileOpened(true, "");
+    EXPECT_EQ(message->text(), "") << "it has been said";
+}
+
 TEST_F(MainWindowTest, SaysWhereATakeIsAndOffersToOpenIt) {
     Settings settings;
     settings.recording.folder = folder.path();
