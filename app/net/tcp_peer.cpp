@@ -65,7 +65,10 @@ TcpPeer::Claim TcpPeer::claimAt(log::Moment now) const {
     if (!hasSentOne) {
         return silence >= kHalfOpen ? Claim::HalfOpen : Claim::New;
     }
-    return silence >= kIdle ? Claim::Idle : Claim::Active;
+    if (silence >= kIdle) {
+        return Claim::Idle;
+    }
+    return silence >= kQuiet ? Claim::Quiet : Claim::Active;
 }
 
 void TcpPeer::take(const log::TcpFramer::Piece& piece) {

@@ -25,8 +25,10 @@ public:
         HalfOpen, ///< no whole datagram, though it has been connected for kHalfOpen
         Idle,     ///< no whole datagram for kIdle
         New,      ///< no whole datagram so far
+        Quiet,    ///< no whole datagram for kQuiet: one was sent to hold the place
         Active,
     };
+    static constexpr log::Duration kQuiet = std::chrono::seconds(5);
     static constexpr log::Duration kHalfOpen = std::chrono::seconds(10);
     static constexpr log::Duration kIdle = std::chrono::seconds(30);
 

@@ -91,6 +91,30 @@ TEST_F(TcpRoomTest, ConnectionsInUseAreKeptAndTheNewOneIsRefused) {
     EXPECT_THAT(status().note, HasSubstr("1 connection was refused: 64 are open and in use"));
 }
 
+TEST_F(TcpRoomTest, OneDatagramAndSilenceKeepNobodyOut) {
+    auto peers = fill();
+    allSend(peers);
+    clock.forward(seconds(6));
+    const Socket mvn = connected();
+    send(*mvn, datagram(1));
+    ASSERT_TRUE(eventually([&] { return status().datagrams == peers.size() + 1; }));
+    EXPECT_EQ(status().refusedPeers, 0U);
+    EXPECT_THAT(status().note, HasSubstr("1 idle connection was closed to make room"));
+    EXPECT_FALSE(isOpen(*peers[0])) << "the longest silent goes";
+    EXPECT_TRUE(isOpen(*peers[1]));
+}
+
+TEST_F(TcpRoomTest, ASenderThatPausesIsNotPutOutByThoseWhoNeverSent) {
+    auto peers = fill();
+    send(*peers[0], datagram(1));
+    ASSERT_TRUE(eventually([&] { return status().datagrams == 1; }));
+    clock.forward(seconds(6));
+    const Socket late = connected();
+    ASSERT_TRUE(eventually([&] { return status().closedPeers == 1; }));
+    EXPECT_TRUE(isOpen(*peers[0]));
+    EXPECT_FALSE(isOpen(*peers[1]));
+}
+
 TEST_F(TcpRoomTest, AHalfOpenConnectionGoesBeforeAnIdleOne) {
     auto peers = fill();
     for (std::size_t i = 0; i + 1 < peers.size(); ++i) {
