@@ -2,6 +2,7 @@
 #include "app/net/allow_list.h"
 
 #include <QHostInfo>
+#include <QNetworkInterface>
 
 #include <algorithm>
 #include <cctype>
@@ -68,7 +69,11 @@ NetResult<AllowList> AllowList::of(const std::vector<std::string>& entries) {
         if (std::string problem = problemWithEntry(entry); !problem.empty()) {
             return netError(NetError::Kind::BadEndpoint, std::move(problem));
         }
-        if (netOf(entry)) {
+        if (const auto net = netOf(entry)) {
+            if (const std::string problem = problemWithZone(net->first); !problem.empty()) {
+                return netError(NetError::Kind::AddressNotHere,
+                                problem + ", or leave it out to hear that address on all of them");
+            }
             continue;
         }
         const QHostInfo info = QHostInfo::fromName(QString::fromStdString(entry));
@@ -96,8 +101,12 @@ AllowList AllowList::withoutNames(const std::vector<std::string>& entries) {
 
 bool AllowList::allows(const QHostAddress& address) const {
     const QHostAddress asked = plain(address);
+    const auto isOfZone = [&](const QHostAddress& net) {
+        return net.scopeId().isEmpty() ||
+               (zoneOf(net).isValid() && zoneOf(net).index() == zoneOf(asked).index());
+    };
     return m_isEveryone || std::ranges::any_of(m_nets, [&](const Net& net) {
-               return asked.isInSubnet(net.address, net.prefix);
+               return asked.isInSubnet(net.address, net.prefix) && isOfZone(net.address);
            });
 }
 

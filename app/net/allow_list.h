@@ -18,7 +18,8 @@ public:
     AllowList() = default;
 
     /// An entry is an IPv4 or IPv6 address, a net such as 10.0.0.0/8, or the name of a host, which is looked
-    /// up now and may take seconds. Without entries: everyone.
+    /// up now and may take seconds. Without entries: everyone. An address may name the interface it is heard
+    /// on, "fe80::1%eth0", which must be there.
     [[nodiscard]] static NetResult<AllowList> of(const std::vector<std::string>& entries);
 
     /// The addresses and nets of `entries`, without looking up any name: until that is done nobody else is

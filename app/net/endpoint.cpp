@@ -66,7 +66,9 @@ NetResult<QHostAddress> lookUp(const Endpoint& endpoint) {
     const QString host =
         QString::fromStdString(endpoint.host.empty() ? std::string("127.0.0.1") : endpoint.host);
     if (QHostAddress address(host); !address.isNull()) {
-        return address;
+        std::string problem = problemWithZone(address);
+        return problem.empty() ? NetResult<QHostAddress>(address)
+                               : netError(NetError::Kind::AddressNotHere, std::move(problem));
     }
     const QHostInfo info = QHostInfo::fromName(host);
     if (info.addresses().isEmpty()) {
@@ -76,6 +78,28 @@ NetResult<QHostAddress> lookUp(const Endpoint& endpoint) {
     const auto addresses = info.addresses();
     const auto ipv4 = std::ranges::find(addresses, QAbstractSocket::IPv4Protocol, &QHostAddress::protocol);
     return ipv4 == addresses.end() ? addresses.front() : *ipv4;
+}
+
+QNetworkInterface zoneOf(const QHostAddress& address) {
+    const QString zone = address.scopeId();
+    bool isIndex = false;
+    const int index = zone.toInt(&isIndex);
+    if (isIndex) {
+        return QNetworkInterface::interfaceFromIndex(index);
+    }
+    return zone.isEmpty() ? QNetworkInterface() : QNetworkInterface::interfaceFromName(zone);
+}
+
+std::string problemWithZone(const QHostAddress& address) {
+    if (address.scopeId().isEmpty() || zoneOf(address).isValid()) {
+        return {};
+    }
+    std::string names;
+    for (const QNetworkInterface& interface : QNetworkInterface::allInterfaces()) {
+        names += (names.empty() ? "" : ", ") + interface.name().toStdString();
+    }
+    return address.toString().toStdString() + ": there is no interface " + address.scopeId().toStdString() +
+           " here; write one of those that there are after the % (" + names + ")";
 }
 
 std::string textOf(const QHostAddress& address, std::uint16_t port) {

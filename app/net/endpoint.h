@@ -9,6 +9,7 @@
 #include <vector>
 
 class QHostAddress;
+class QNetworkInterface;
 
 /// Where sockets are, in words and as addresses, and why one cannot be there.
 namespace posewire::net {
@@ -60,6 +61,14 @@ struct Endpoint {
 /// The address of a host, IPv4 if it has both; this computer's if the host is empty. Blocks while a name is
 /// resolved.
 [[nodiscard]] NetResult<QHostAddress> lookUp(const Endpoint& endpoint);
+
+/// The interface that an IPv6 address names after its %, by name or index; an invalid one where it names none
+/// or there is none of that name now.
+[[nodiscard]] QNetworkInterface zoneOf(const QHostAddress& address);
+
+/// That an address names an interface that is not here, with what to do, in one line; empty where it names
+/// none or one that is.
+[[nodiscard]] std::string problemWithZone(const QHostAddress& address);
 
 /// An address that this computer has.
 struct LocalAddress {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/net/group_memberships.h"
 
+#include "app/net/endpoint.h"
+
 #include <algorithm>
 
 namespace posewire::net {
@@ -46,7 +48,12 @@ void GroupMemberships::follow(const QList<QNetworkInterface>& interfaces) {
 
 void GroupMemberships::follow(Group& group, const QList<QNetworkInterface>& interfaces) {
     std::vector<Place> places;
+    const bool isOnOne = !group.address.scopeId().isEmpty();
+    const int zone = zoneOf(group.address).index();
     for (const QNetworkInterface& interface : interfaces) {
+        if (isOnOne && interface.index() != zone) {
+            continue;
+        }
         Place place{interface, addressesOf(interface, group.address.protocol()), {}};
         if (canJoin(interface) && !place.addresses.isEmpty()) {
             places.push_back(std::move(place));
@@ -98,7 +105,9 @@ std::string GroupMemberships::problem() const {
     }
     for (const Group& group : m_groups) {
         const std::string address = group.address.toString().toStdString();
-        if (group.places.empty()) {
+        if (std::string zone = problemWithZone(group.address); !zone.empty()) {
+            append(text, zone + ", or connect that one, and the group is joined at once", "; ");
+        } else if (group.places.empty()) {
             append(text,
                    address + " is joined on no interface; connect the network, and it is joined at once",
                    "; ");

@@ -12,7 +12,8 @@
 namespace posewire::net {
 
 /// What one input wants of the interfaces. Its multicast groups: a sender may be reached by any interface, so
-/// a group is joined on all that are up, also on those that appear later. And its own address, where it
+/// a group is joined on all that are up, or on the one that it names ("ff02::1%eth0"), also on those that
+/// appear later. And its own address, where it
 /// listens on one alone. Belongs to the receiving thread.
 class GroupMemberships {
 public:

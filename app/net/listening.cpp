@@ -103,6 +103,10 @@ NetResult<QHostAddress> listenAddress(const std::string& host) {
         return netError(NetError::Kind::BadEndpoint,
                         "\"" + host + "\" is not an IP address to listen on; write one, or leave it out");
     }
+    // A group is joined when its interface comes; an address that is not here cannot be listened on.
+    if (std::string problem = problemWithZone(address); !problem.empty() && !address.isMulticast()) {
+        return netError(NetError::Kind::AddressNotHere, std::move(problem));
+    }
     return address;
 }
 

@@ -2,6 +2,7 @@
 #include "app/net/tcp_peer.h"
 #include "app/net/tcp_thread.h"
 
+#include <QHostAddress>
 #include <QNetworkProxy>
 #include <QTcpSocket>
 
@@ -20,7 +21,10 @@ constexpr log::Duration kSilentAfter = std::chrono::seconds(5);
 constexpr log::Duration kSettled = std::chrono::seconds(1);
 
 /// Why an attempt failed and what to do about it.
-std::string failureText(const QTcpSocket& socket) {
+std::string failureText(const QTcpSocket& socket, const std::string& host) {
+    if (std::string zone = problemWithZone(QHostAddress(QString::fromStdString(host))); !zone.empty()) {
+        return zone + ".";
+    }
     switch (socket.error()) {
     case QAbstractSocket::ConnectionRefusedError:
         return "connection refused; is the sender on, and does it listen there?";
@@ -96,7 +100,7 @@ private:
             m_peer = std::make_unique<TcpPeer>(m_context, m_input, std::move(m_socket), std::uint16_t{0});
             publish(now);
         } else if (state == QAbstractSocket::UnconnectedState) {
-            pause(now, failureText(*m_socket));
+            pause(now, failureText(*m_socket, m_endpoint.host));
         } else if (now - m_begun >= kPatience) {
             pause(now, "no answer; is that computer on, and does a firewall block the port?");
         }

@@ -57,6 +57,14 @@ TEST(MonitorTcp, SaysThatNobodyHasThatName) {
     EXPECT_THAT(run.err, HasSubstr("Trying again"));
 }
 
+TEST(MonitorTcp, SaysThatThereIsNoSuchInterface) {
+    const ProgramRun run =
+        runProgram({"monitor", "--json", "--tcp", "[fe80::1%nope]:9763", "--duration", "1"});
+    EXPECT_EQ(run.status, 1);
+    EXPECT_THAT(run.err, HasSubstr("there is no interface nope here"));
+    EXPECT_THAT(run.err, HasSubstr("Trying again"));
+}
+
 TEST(MonitorTcp, SaysThatASenderIsSilentAndWhenItIsNotAnyMore) {
     QTcpServer server;
     ASSERT_TRUE(server.listen(QHostAddress::LocalHost, 0));

@@ -4,6 +4,7 @@
 #include "tests/app/net/net_fixture.h"
 #include "tests/support/loopback.h"
 
+#include <QNetworkInterface>
 #include <QUdpSocket>
 
 #include <gmock/gmock.h>
@@ -45,6 +46,30 @@ TEST(AllowList, KnowsNetsOfMappedAddresses) {
     EXPECT_FALSE(allows(*list, "10.9.1.2"));
     EXPECT_TRUE(allows(*AllowList::of({"::/0"}), "fd00::1"));
     EXPECT_FALSE(allows(*AllowList::of({"::/0"}), "10.9.0.2"));
+}
+
+TEST(AllowList, RefusesAnInterfaceThatIsNotHereAndHeedsOneThatIs) {
+    const auto refused = AllowList::of({"fe80::1%nope"});
+    ASSERT_FALSE(refused);
+    EXPECT_THAT(refused.error().text,
+                HasSubstr("fe80::1%nope: there is no interface nope here; write one of"));
+    EXPECT_THAT(refused.error().text, HasSubstr("or leave it out"));
+    const AllowList meanwhile = AllowList::withoutNames({"fe80::1%nope"});
+    EXPECT_FALSE(meanwhile.isEveryone());
+    EXPECT_FALSE(allows(meanwhile, "fe80::1")) << "that interface may come yet";
+    const auto interfaces = QNetworkInterface::allInterfaces();
+    if (interfaces.isEmpty()) {
+        GTEST_SKIP() << "there are no interfaces here";
+    }
+    const std::string name = interfaces[0].name().toStdString();
+    const std::string index = std::to_string(interfaces[0].index());
+    const auto list = AllowList::of({"fe80::1%" + name});
+    ASSERT_TRUE(list) << list.error().text;
+    EXPECT_TRUE(allows(*list, ("fe80::1%" + name).c_str()));
+    EXPECT_TRUE(allows(*list, ("fe80::1%" + index).c_str())) << "as the kernel says it";
+    EXPECT_FALSE(allows(*list, "fe80::1%4711"));
+    EXPECT_FALSE(allows(*list, ("fe80::2%" + name).c_str()));
+    EXPECT_TRUE(allows(*AllowList::of({"fe80::1"}), ("fe80::1%" + name).c_str())) << "on any";
 }
 
 TEST(AllowList, LooksUpNames) {

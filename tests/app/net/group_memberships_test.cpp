@@ -71,6 +71,26 @@ TEST_F(GroupMembershipsTest, SayThatTheOwnAddressHasGoneUntilItIsBack) {
     EXPECT_EQ(none.text(), "listening");
 }
 
+TEST_F(GroupMembershipsTest, HoldToTheInterfaceThatAGroupNames) {
+    if (loopback.isEmpty()) {
+        GTEST_SKIP() << "no loopback interface is up here";
+    }
+    GroupMemberships named;
+    const auto note = [this](const QHostAddress& group, const QNetworkInterface&, bool) {
+        done.push_back(group.scopeId().toStdString());
+        return std::string();
+    };
+    named.add(QHostAddress(QStringLiteral("ff02::1%nope")), note);
+    named.add(QHostAddress("ff02::2%" + loopback[0].name()), note);
+    named.follow(loopback);
+    const bool hasIpv6 = !done.empty();
+    EXPECT_THAT(named.problem(), HasSubstr("ff02::1%nope: there is no interface nope here"));
+    EXPECT_THAT(named.problem(), HasSubstr("or connect that one, and the group is joined at once"));
+    if (hasIpv6) {
+        EXPECT_THAT(done, ElementsAre(loopback[0].name().toStdString()));
+    }
+}
+
 TEST_F(GroupMembershipsTest, SayWhereAGroupCouldNotBeJoinedAndTryAgain) {
     if (loopback.isEmpty()) {
         GTEST_SKIP() << "no loopback interface is up here";

@@ -89,6 +89,15 @@ TEST_P(ReceiverErrorsTest, NameInsteadOfAnAddressIsClear) {
     EXPECT_THAT(error.text, HasSubstr("not-an-address"));
 }
 
+TEST_P(ReceiverErrorsTest, AnInterfaceThatIsNotHereIsClear) {
+    const NetError error = errorOf({{"fe80::1%nope", 0}, {}});
+    EXPECT_EQ(error.kind, NetError::Kind::AddressNotHere);
+    EXPECT_THAT(error.text, HasSubstr("fe80::1%nope: there is no interface nope here; write one of those"));
+    const auto target = lookUp({"fe80::1%nope", 9763});
+    ASSERT_FALSE(target);
+    EXPECT_THAT(target.error().text, HasSubstr("there is no interface nope here"));
+}
+
 TEST_P(ReceiverErrorsTest, GroupsThatAreNoneAreClear) {
     UdpInput where{Endpoint{"", 0}, {}};
     where.groups.emplace_back("10.0.0.1");
