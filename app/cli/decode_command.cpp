@@ -229,7 +229,8 @@ ExitStatus decodeFile(const std::string& path, const DecodeOptions& options, con
     }
     RecordWriter writer(console.out, options.asJson, filter);
     log::FileContents contents;
-    const auto result = log::readFile(**file, std::ref(writer), {}, &contents);
+    WatchedInput input(**file, contents, console.complain);
+    const auto result = log::readFile(input, std::ref(writer), {}, &contents);
     writer.endSkipped();
     const std::string complaint = writer.complaint((*file)->name());
     if (!complaint.empty()) {

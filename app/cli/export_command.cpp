@@ -216,7 +216,11 @@ ExitStatus exportRecording(const ExportOptions& options, const Console& console)
     }
     ProgressLine line("posewire-cli export");
     RecordedSession recorded(options.input);
-    const auto read = recorded.read(**file, [&](double share) { line.show("reading", share); });
+    WatchedInput input(**file, recorded.contents(), [&](const std::string& text) {
+        line.clear();
+        console.complain(text);
+    });
+    const auto read = recorded.read(input, [&](double share) { line.show("reading", share); });
     line.clear();
     if (system::Interruption::hasCome()) {
         return console.unusable("interrupted; " + options.output + " was not written");

@@ -45,6 +45,17 @@ tl::expected<std::unique_ptr<log::ByteSource>, log::FileError> openInput(const s
                        : log::openFile(path, std::move(isCancelled));
 }
 
+tl::expected<std::size_t, log::FileError> WatchedInput::read(std::span<std::byte> into) {
+    if (m_tell && m_bytes >= kPatience && m_contents.datagrams == 0) {
+        m_tell(name() + ": nothing of ours in its first " + std::to_string(m_bytes >> 20U) +
+               " MB; still looking, Ctrl+C ends it");
+        m_tell = {};
+    }
+    auto count = m_source.read(into);
+    m_bytes += count.value_or(0);
+    return count;
+}
+
 tl::expected<bool, log::FileError> LineReader::fill() {
     constexpr std::size_t step = std::size_t{64} << 10;
     m_kept.erase(0, m_start);

@@ -2,13 +2,17 @@
 #pragma once
 
 #include "core/log/byte_io.h"
+#include "core/log/file_contents.h"
 #include "core/log/output_file.h"
 
+#include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace posewire::cli {
 
@@ -16,6 +20,26 @@ namespace posewire::cli {
 /// have no end. `isCancelled` as in log::openFile().
 tl::expected<std::unique_ptr<log::ByteSource>, log::FileError> openInput(const std::string& path,
                                                                          log::IsCancelled isCancelled = {});
+
+/// Says once that the first MB hold nothing of ours: a file may have no end.
+class WatchedInput final : public log::ByteSource {
+public:
+    static constexpr std::uint64_t kPatience = std::uint64_t{64} << 20; ///< bytes
+
+    /// `contents` is kept up while `source` is read; all outlive this.
+    WatchedInput(log::ByteSource& source, const log::FileContents& contents,
+                 std::function<void(const std::string&)> tell)
+        : m_source(source), m_contents(contents), m_tell(std::move(tell)) {}
+
+    tl::expected<std::size_t, log::FileError> read(std::span<std::byte> into) override;
+    [[nodiscard]] std::string name() const override { return m_source.name(); }
+
+private:
+    log::ByteSource& m_source;
+    const log::FileContents& m_contents;
+    std::function<void(const std::string&)> m_tell; ///< empty once it was called
+    std::uint64_t m_bytes = 0;
+};
 
 /// Why standard output could not be written, by its errno, as one line for the user.
 [[nodiscard]] std::string standardOutputFailure(int error);

@@ -150,7 +150,8 @@ ExitStatus monitorFile(const MonitorOptions& options, Console& console) {
             replay.takeReception(*reception);
         }
     };
-    const auto read = log::readFile(**file, std::ref(replay), takeNotes, &contents);
+    WatchedInput input(**file, contents, console.complain);
+    const auto read = log::readFile(input, std::ref(replay), takeNotes, &contents);
     replay.end();
     log::Recorder::Result recorded = replay.recorded();
     if (recorder && recorded) {

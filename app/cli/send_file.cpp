@@ -79,12 +79,13 @@ private:
 };
 
 tl::expected<void, log::FileError> sendOnce(const std::string& path, RecordSender& sender,
-                                            log::FileContents& contents) {
+                                            log::FileContents& contents, const Console& console) {
     const auto file = openInput(path, [&] { return sender.isRoundOver(); });
     if (!file) {
         return tl::unexpected(file.error());
     }
-    return log::readFile(**file, std::ref(sender), {}, &contents);
+    WatchedInput input(**file, contents, console.complain);
+    return log::readFile(input, std::ref(sender), {}, &contents);
 }
 
 ExitStatus concludeFile(const std::string& path, const RecordSender& sender,
@@ -115,7 +116,7 @@ ExitStatus sendFile(const SendOptions& options, std::vector<SendLine>& lines, Co
     bool isToBegin = true;
     while (isToBegin) {
         const std::uint64_t before = records.datagrams();
-        const auto result = sendOnce(options.file, records, contents);
+        const auto result = sendOnce(options.file, records, contents, console);
         if (reading == ExitStatus::Fine) { // a file that is cut off is told once
             reading = readingStatus(result, console);
         }

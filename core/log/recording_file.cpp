@@ -456,7 +456,9 @@ tl::expected<void, FileError> readFile(ByteSource& source, const FileVisitor& vi
     if (!count) {
         return tl::unexpected(count.error());
     }
-    std::uint64_t datagrams = 0;
+    FileContents unasked;
+    std::uint64_t& datagrams = (contents != nullptr ? *contents : unasked).datagrams;
+    datagrams = 0;
     const FileVisitor counted = [&](const FileRecord& record) {
         datagrams += wire::startsWithMagic(record.bytes) ? 1 : 0;
         visit(record);

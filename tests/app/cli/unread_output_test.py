@@ -165,6 +165,23 @@ def check_files_without_end(cli: str, folder: Path) -> None:
             process.communicate(timeout=10)
 
 
+def check_files_of_nothing(cli: str, folder: Path) -> None:
+    """A file that goes on and on without anything of ours is told long before its end, once."""
+    nothing = folder / "nothing"
+    with open(nothing, "wb") as file:
+        file.truncate(100 << 20)
+    for command in (["monitor", str(nothing), "--json"], ["decode", str(nothing)],
+                    ["report", str(nothing), "-o", str(folder / "report.html")],
+                    ["export", str(nothing), "--to", str(folder / "motion.csv")],
+                    ["send", "--to", "127.0.0.1:9", "--file", str(nothing)]):
+        done = subprocess.run([cli, *command], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, check=False)
+        assert done.stderr.count("nothing of ours in its first 64 MB; still looking, Ctrl+C ends it") == 1, done.stderr
+    with open(nothing, "r+b") as file:
+        file.write(pose(0))
+    done = subprocess.run([cli, "decode", str(nothing)], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, check=False)
+    assert "still looking" not in done.stderr, done.stderr
+
+
 def check_cancelled_output(cli: str, folder: Path) -> None:
     pipe, target = folder / "lines", folder / "target.bin"
     os.mkfifo(pipe)
@@ -249,8 +266,8 @@ def check_slow_recording(cli: str, folder: Path) -> None:
 def main() -> int:
     cli = sys.argv[1]
     checks = [check_blocked_table, check_blocked_lines, check_nobody_ever_reads, check_reader_gone, check_every_end,
-              check_file_size, check_files_without_end, check_cancelled_output, check_interrupted_file,
-              check_silent_pipe, check_interrupted_truth, check_slow_recording]
+              check_file_size, check_files_without_end, check_files_of_nothing, check_cancelled_output,
+              check_interrupted_file, check_silent_pipe, check_interrupted_truth, check_slow_recording]
     for check in checks:
         with tempfile.TemporaryDirectory() as name:
             check(cli, Path(name))
