@@ -22,10 +22,12 @@ class SendLine {
 public:
     struct Sender {
         std::string address;
+        std::string target; ///< as asked for
         bool isTcp = false;
         net::DatagramSender sender;
         performer::Truth datagrams;        ///< used by UDP
         performer::StreamedTruth streamed; ///< used by TCP
+        bool isRefusalTold = false;
 
         [[nodiscard]] const performer::Truth& truth() const { return isTcp ? streamed.truth() : datagrams; }
     };
@@ -41,6 +43,8 @@ public:
     net::NetResult<void> finish();
 
     [[nodiscard]] const std::vector<Sender>& senders() const { return m_senders; }
+    /// Says of each target once that the network has refused something: there may be no end to it.
+    void tellRefusals(const Console& console);
 
 private:
     SendLine(const performer::FaultSettings& faults, bool keepsTruth)

@@ -46,6 +46,10 @@ ExitStatus conclude(const SendOptions& options, std::vector<SendLine>& lines, Co
         for (const SendLine::Sender& sender : line.senders()) {
             sent += sender.sender.sent();
             refused += sender.sender.refused();
+            if (sender.sender.sent() == 0 && sender.sender.refused() != 0) {
+                console.complain(sender.target + ": nothing was sent there");
+                status = worse(status, ExitStatus::Faults);
+            }
         }
     }
     if (refused != 0) {
@@ -110,6 +114,9 @@ ExitStatus sendPerformance(const SendOptions& options, const performer::Performe
             offer(frame, due(index), lines[line].faults());
         }
         sent = round.sendUntil(due(index + 1));
+        for (SendLine& line : lines) {
+            line.tellRefusals(console);
+        }
     }
     if (sent && !isInterrupted(options)) {
         sent = round.sendRest();

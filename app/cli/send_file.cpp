@@ -11,8 +11,9 @@ namespace {
 /// Sends records when they are due, until an error.
 class RecordSender {
 public:
-    RecordSender(const SendOptions& options, std::vector<SendLine>& lines)
+    RecordSender(const SendOptions& options, std::vector<SendLine>& lines, const Console& console)
         : m_lines(lines),
+          m_console(console),
           m_schedule(m_clock),
           m_round(lines, m_schedule),
           m_pacer(1.0 / options.performer.rateHz, options.speed, options.fromSeconds,
@@ -41,6 +42,9 @@ public:
             line.faults().offer({record.bytes.begin(), record.bytes.end()}, *due);
         }
         note(m_round.sendUntil(*due + log::Duration(1)));
+        for (SendLine& line : m_lines) {
+            line.tellRefusals(m_console);
+        }
     }
 
     /// The recording will not be repeated.
@@ -67,6 +71,7 @@ private:
     }
 
     std::vector<SendLine>& m_lines;
+    const Console& m_console;
     log::SystemClock m_clock;
     net::SendSchedule m_schedule;
     SendRound m_round;
@@ -110,7 +115,7 @@ ExitStatus concludeFile(const std::string& path, const RecordSender& sender,
 } // namespace
 
 ExitStatus sendFile(const SendOptions& options, std::vector<SendLine>& lines, Console& console) {
-    RecordSender records(options, lines);
+    RecordSender records(options, lines, console);
     ExitStatus reading = ExitStatus::Fine;
     log::FileContents contents;
     bool isToBegin = true;

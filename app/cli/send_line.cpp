@@ -93,7 +93,8 @@ net::NetResult<SendLine> SendLine::open(const std::vector<net::SendTarget>& targ
         }
         std::string address = sender->localAddress();
         const bool isTcp = target.transport == net::SendTarget::Transport::Tcp;
-        line.m_senders.push_back({std::move(address), isTcp, std::move(*sender), {}, {}});
+        line.m_senders.push_back(
+            {std::move(address), net::textOf(target.endpoint), isTcp, std::move(*sender), {}, {}});
     }
     return line;
 }
@@ -124,6 +125,15 @@ net::NetResult<void> SendLine::finish() {
         }
     }
     return {};
+}
+
+void SendLine::tellRefusals(const Console& console) {
+    for (Sender& sender : m_senders) {
+        if (sender.sender.refused() != 0 && !std::exchange(sender.isRefusalTold, true)) {
+            console.complain(sender.target + ": the network refuses to send there; check the address, and "
+                                             "that the network is connected. Still trying");
+        }
+    }
 }
 
 template <typename Take>

@@ -184,6 +184,27 @@ TEST(SendCommand, SaysWhatIsWrongWithAFileWithoutDatagrams) {
     EXPECT_THAT(run.err, testing::HasSubstr("no datagrams found"));
 }
 
+#ifdef __linux__
+TEST(SendCommand, SaysThatTheNetworkRefusesEverythingAndEndsWithStatusOne) {
+    const std::string nowhere = "[fe80::1%lo]:9763"; // no way leads there
+    Listener listener;
+    for (const bool isOfFile : {false, true}) {
+        std::vector<std::string> arguments{"send", "--to", listener.place(), "--to", nowhere};
+        const std::string file = fileWith(numbered(1) + numbered(2));
+        const std::vector<std::string> more =
+            isOfFile ? std::vector<std::string>{"--file", file}
+                     : std::vector<std::string>{"--types", "02", "--characters", "1", "--duration", "0.1"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const ProgramRun run = runProgram(arguments);
+        EXPECT_EQ(run.status, 1) << run.err;
+        EXPECT_THAT(run.err, testing::HasSubstr(nowhere + ": the network refuses to send there"));
+        EXPECT_THAT(run.err, testing::HasSubstr(nowhere + ": nothing was sent there"));
+        EXPECT_THAT(run.err, testing::Not(testing::HasSubstr(listener.place())));
+        EXPECT_FALSE(listener.datagrams().empty());
+    }
+}
+#endif
+
 TEST(SendCommand, WritesTheTruthAboutEveryDatagramThatLeft) {
     Listener listener;
     const std::string truthFile = newPath();
