@@ -9,7 +9,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
+#include <vector>
+
+#ifdef __linux__
+#include <netinet/in.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <unistd.h>
+#endif
 
 namespace posewire::net {
 namespace {
@@ -154,6 +163,34 @@ TEST_F(TcpRoomTest, WhatTheClosedConnectionHadSentIsKept) {
     EXPECT_EQ(status().bytes, garbage.size());
     EXPECT_EQ(status().skippedBytes, garbage.size());
 }
+
+#ifdef __linux__
+TEST_F(TcpRoomTest, WhereTheSystemLetsNobodyInThatIsToldAndTriedAgain) {
+    sockaddr_in place{};
+    place.sin_family = AF_INET;
+    place.sin_port = htons(status().endpoint.port);
+    place.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    const int client = ::socket(AF_INET, SOCK_STREAM, 0);
+    std::vector<int> files;
+    rlimit before{};
+    ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &before), 0);
+    const rlimit few{std::min<rlim_t>(before.rlim_cur, 512), before.rlim_max};
+    ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &few), 0);
+    for (int file = ::dup(client); file >= 0; file = ::dup(client)) {
+        files.push_back(file);
+    }
+    const bool isConnected = ::connect(client, reinterpret_cast<sockaddr*>(&place), sizeof place) == 0;
+    const bool isTold = eventually([&] { return !status().problem.empty(); });
+    const std::string problem = status().problem;
+    std::ranges::for_each(files, ::close);
+    ::setrlimit(RLIMIT_NOFILE, &before);
+    EXPECT_TRUE(isConnected && isTold);
+    EXPECT_THAT(problem, HasSubstr("the system lets nobody in ("));
+    EXPECT_TRUE(eventually([&] { return status().peers.size() == 1; })) << "it is let in when there is room";
+    EXPECT_EQ(status().problem, "");
+    ::close(client);
+}
+#endif
 
 TEST_F(TcpRoomTest, OthersThanThoseListenedToAreClosedAndCounted) {
     const Socket before = connected();
