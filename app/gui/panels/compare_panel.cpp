@@ -253,6 +253,12 @@ void ComparePanel::showFigures() {
         if (state.range->outside != 0) {
             counts += tr("%1 outside the common time").arg(grouped(state.range->outside));
         }
+        if (state.range->apart != 0) {
+            counts += tr("%1 without a common segment").arg(grouped(state.range->apart));
+        }
+        if (state.range->passedOver != 0) {
+            counts += tr("%1 packets not looked at in time").arg(grouped(state.range->passedOver));
+        }
     }
     counts += state.notes;
     m_counts->setText({}, counts.join(QStringLiteral(" · ")));

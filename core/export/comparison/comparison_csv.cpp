@@ -60,7 +60,13 @@ tl::expected<void, log::FileError> writeComparisonCsv(const ComparisonTask& task
             out.write(csvLine(csvRow(pair, segments, *begin)));
         },
         [&](double share) { return !out.hasFailed() && (!progress || progress(share)); });
-    return !walked && !out.hasFailed() ? walked : out.finish();
+    if (!walked && !out.hasFailed()) {
+        return tl::unexpected(walked.error());
+    }
+    if (walked && *walked != 0) {
+        out.fail(path + ": the log dropped part of the range while it was written; choose a later beginning");
+    }
+    return out.finish();
 }
 
 } // namespace posewire::exporting

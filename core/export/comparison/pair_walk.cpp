@@ -67,9 +67,9 @@ SampleMoment momentOf(const model::CharacterPose& pose) {
 
 } // namespace
 
-tl::expected<void, log::FileError> walkPairs(const ComparisonTask& task,
-                                             const std::function<void(const ComparedPair&)>& visit,
-                                             const ExportProgress& progress) {
+tl::expected<std::uint64_t, log::FileError> walkPairs(const ComparisonTask& task,
+                                                      const std::function<void(const ComparedPair&)>& visit,
+                                                      const ExportProgress& progress) {
     SecondSamples second(task.second);
     model::PoseDifference difference;
     return walkMotion(

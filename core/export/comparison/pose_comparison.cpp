@@ -149,7 +149,9 @@ tl::expected<MotionComparison, log::FileError> compareMotion(const ComparisonTas
     if (!walked) {
         return tl::unexpected(walked.error());
     }
-    return comparing.conclude();
+    MotionComparison result = comparing.conclude();
+    result.passedOver = *walked;
+    return result;
 }
 
 } // namespace posewire::exporting

@@ -27,8 +27,9 @@ struct ComparedPair {
 };
 
 /// Hands out every sample of the first recording in the order of the counters. A pair is valid during the
-/// call. Fails as cancelled only.
-[[nodiscard]] tl::expected<void, log::FileError>
+/// call. Returns how many packets of its range the log of the first had dropped before they were read. Fails
+/// as cancelled only.
+[[nodiscard]] tl::expected<std::uint64_t, log::FileError>
 walkPairs(const ComparisonTask& task, const std::function<void(const ComparedPair&)>& visit,
           const ExportProgress& progress);
 
@@ -61,11 +62,12 @@ struct DifferenceCourse {
 };
 
 struct MotionComparison {
-    std::uint64_t pairs = 0;   ///< that were compared
-    std::uint64_t alone = 0;   ///< samples of the first without a partner, in the time that both have
-    std::uint64_t outside = 0; ///< samples of the first before or after all of the second
-    std::uint64_t apart = 0;   ///< pairs without a segment in common
-    log::Stamp first{};        ///< of the samples of the first recording that were looked at
+    std::uint64_t pairs = 0;      ///< that were compared
+    std::uint64_t alone = 0;      ///< samples of the first without a partner, in the time that both have
+    std::uint64_t outside = 0;    ///< samples of the first before or after all of the second
+    std::uint64_t apart = 0;      ///< pairs without a segment in common
+    std::uint64_t passedOver = 0; ///< packets of the range that were dropped before they were looked at
+    log::Stamp first{};           ///< of the samples of the first recording that were looked at
     log::Stamp last{};
     std::vector<SegmentFigures> segments; ///< that both have
     SegmentFigures all;                   ///< every segment of every pair; its slot means nothing

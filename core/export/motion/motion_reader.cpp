@@ -77,12 +77,13 @@ tl::expected<void, log::FileError> readMotion(const MotionSource& source, Motion
     for (std::size_t i = 0; i < survey.characters.size(); ++i) {
         framings.emplace_back(i, survey.characters[i], survey.first, visit);
     }
-    return walkMotion(
+    const auto walked = walkMotion(
         source, content,
         [&](std::size_t character, const MotionSample& sample, bool beginsRun) {
             framings[character].add(sample, beginsRun);
         },
         progress);
+    return walked ? tl::expected<void, log::FileError>() : tl::unexpected(walked.error());
 }
 
 } // namespace posewire::exporting

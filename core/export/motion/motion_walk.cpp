@@ -121,6 +121,7 @@ struct MotionWalk::Parts {
 
     void read(std::uint64_t number) {
         const auto packet = reader.packet(number);
+        passedOver += packet ? 0 : 1;
         if (!packet || packet->flags.skipped ||
             packet->bytes.size() > model::SessionView::kMostMessageBytes) {
             return;
@@ -138,6 +139,7 @@ struct MotionWalk::Parts {
     std::vector<CharacterFeed> feeds;
     log::LogReader reader;
     std::uint64_t next;
+    std::uint64_t passedOver = 0;
 };
 
 MotionWalk::MotionWalk(const MotionSource& source, MotionContent content, TakeSample take)
@@ -169,15 +171,20 @@ double MotionWalk::share() const {
                      static_cast<double>(source.endPacket - source.firstPacket);
 }
 
-tl::expected<void, log::FileError> walkMotion(const MotionSource& source, MotionContent content,
-                                              const TakeSample& take, const ExportProgress& progress) {
+std::uint64_t MotionWalk::passedOver() const {
+    return m_parts->passedOver;
+}
+
+tl::expected<std::uint64_t, log::FileError> walkMotion(const MotionSource& source, MotionContent content,
+                                                       const TakeSample& take,
+                                                       const ExportProgress& progress) {
     MotionWalk walk(source, content, take);
     do {
         if (progress && !progress(walk.share())) {
             return tl::unexpected(log::FileError{"cancelled", log::FileError::Kind::Cancelled});
         }
     } while (walk.advance());
-    return {};
+    return walk.passedOver();
 }
 
 } // namespace posewire::exporting

@@ -6,6 +6,7 @@
 #include "core/log/byte_io.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 
@@ -37,15 +38,18 @@ public:
     bool advance();
     /// How much of the range was read, from 0 to 1.
     [[nodiscard]] double share() const;
+    /// Packets of the range that the log had dropped before they were read.
+    [[nodiscard]] std::uint64_t passedOver() const;
 
 private:
     struct Parts;
     std::unique_ptr<Parts> m_parts;
 };
 
-/// The same at once. Fails as cancelled only.
-[[nodiscard]] tl::expected<void, log::FileError> walkMotion(const MotionSource& source, MotionContent content,
-                                                            const TakeSample& take,
-                                                            const ExportProgress& progress);
+/// The same at once: how many were passed over. Fails as cancelled only.
+[[nodiscard]] tl::expected<std::uint64_t, log::FileError> walkMotion(const MotionSource& source,
+                                                                     MotionContent content,
+                                                                     const TakeSample& take,
+                                                                     const ExportProgress& progress);
 
 } // namespace posewire::exporting

@@ -108,6 +108,18 @@ TEST_F(ComparePanelTest, ListsSegmentsTheWorstFirst) {
     EXPECT_TRUE(label("counts").startsWith("No partner at this moment"));
 }
 
+TEST_F(ComparePanelTest, TellsWhatWasNotCompared) {
+    compare();
+    auto range = std::make_shared<exporting::MotionComparison>(*m_stage.program.compared.range);
+    range->apart = 3;
+    range->passedOver = 1'200;
+    m_stage.program.compared.range = range;
+    m_panel.refresh();
+    EXPECT_TRUE(label("counts").endsWith("5 without a partner · 3 without a common segment · "
+                                         "1 200 packets not looked at in time"))
+        << qPrintable(label("counts"));
+}
+
 TEST_F(ComparePanelTest, SumsUpTheRange) {
     compare();
     EXPECT_TRUE(label("figures").startsWith("Mean 0.6 mm, 0.50 ° · median 0.1 · 95 % below 9.9"));

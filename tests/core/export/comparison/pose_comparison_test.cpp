@@ -195,6 +195,47 @@ TEST(PoseComparisonTest, StopsWhenItIsNotWantedAnyMore) {
     EXPECT_FALSE(Timetable::of(source, [](double) { return false; }).has_value());
 }
 
+TEST(PoseComparisonTest, CountsWhatTheLogDroppedBeforeItWasLookedAt) {
+    log::PacketLog small{{.memoryCap = std::size_t{1} << 20, .chunkSize = std::size_t{256} << 10}};
+    Recording recording;
+    recording.perform(Recording::settings(), 0, 600);
+    log::LogReader whole(recording.packets);
+    const std::uint64_t all = whole.end();
+    const auto begin = [&small] { return log::LogReader(small).begin(); };
+    const auto copy = [&] {
+        for (std::uint64_t number = 0; number < all; ++number) {
+            const auto packet = whole.packet(number);
+            log::Arrival arrival;
+            arrival.stamp = packet->stamp;
+            arrival.sender = small.senders().intern({"127.0.0.1:40001", log::Transport::Udp, 9763});
+            small.writer().append(packet->bytes, arrival);
+        }
+        small.writer().publish();
+    };
+    copy();
+    MotionSource source = recording.source();
+    source.log = &small; // as a session of that log would name it
+    source.characters[0].parts[0].key.sender =
+        small.senders().intern({"127.0.0.1:40001", log::Transport::Udp, 9763});
+    const auto table = recording.timetable();
+    const Partners partners(table, table, {AlignBy::TimeCode, 0});
+    const MotionSource second = recording.source();
+    const ComparisonTask task{source, second, partners};
+    const MotionComparison before = *compareMotion(task, {});
+    EXPECT_EQ(before.passedOver, begin());
+    for (int i = 0; i < 4; ++i) {
+        copy(); // the log goes on while the comparison is held up
+    }
+    const MotionComparison after = *compareMotion(task, {});
+    EXPECT_GT(after.passedOver, before.passedOver);
+    EXPECT_EQ(after.passedOver, std::min(all, begin()));
+    const std::string path = (posewire::test::newTemporaryFolder("comparison") / "late.csv").string();
+    const auto written = writeComparisonCsv(task, before.segments, path, {}, {});
+    ASSERT_FALSE(written);
+    EXPECT_THAT(written.error().text, testing::HasSubstr("the log dropped part of the range"));
+    EXPECT_FALSE(std::filesystem::exists(path));
+}
+
 TEST(PoseComparisonTest, CsvHasARowForEachSampleAndEmptyCellsWithoutAPartner) {
     Recording first;
     Recording second;
