@@ -52,6 +52,15 @@ std::size_t hashOf(const sockaddr_in6& address) {
     return (ipv4 ^ ipv6 * 31U ^ address.sin6_port * 0x9e37U) * 0x9e3779b9U >> 26;
 }
 
+/// With the interface it came by, which Qt leaves out.
+QHostAddress addressOf(const sockaddr_in6& sender) {
+    QHostAddress address(reinterpret_cast<const sockaddr*>(&sender));
+    if (sender.sin6_family == AF_INET6 && sender.sin6_scope_id != 0) {
+        address.setScopeId(QString::number(sender.sin6_scope_id));
+    }
+    return address;
+}
+
 } // namespace
 
 void prepare(int descriptor) {
@@ -150,8 +159,7 @@ Received MessageBatch::received(std::size_t index) const {
 SenderCache::Id SenderCache::look(const sockaddr_in6& address) {
     Entry& entry = m_entries[hashOf(address)];
     if (std::memcmp(&entry.address, &address, sizeof address) != 0) {
-        const bool isHeard = m_allowed->isEveryone() ||
-                             m_allowed->allows(QHostAddress(reinterpret_cast<const sockaddr*>(&address)));
+        const bool isHeard = m_allowed->isEveryone() || m_allowed->allows(addressOf(address));
         entry = {address, std::nullopt};
         if (isHeard) { // one who is not gets no place in the table of senders
             entry.id = m_table->intern({senderText(address), log::Transport::Udp, m_localPort});

@@ -180,6 +180,50 @@ def check_address(cli):
         return 0 <= gone < back and len(json.loads(out)["sources"]) == 1
 
 
+def link_local(spaces, name, device):
+    wait_for(lambda: "fe80" in spaces.run(name, "ip", "-6", "-br", "address", "show", "dev", device, "-tentative"),
+             "a link-local address")
+    return re.search(r"fe80[^/]*", spaces.run(name, "ip", "-6", "-br", "address", "show", "dev", device))[0]
+
+
+def check_zones(cli):
+    """A group that names an interface is joined there alone, when it comes; a sender that is named with one is heard
+    there alone."""
+    with Namespaces() as spaces:
+        sender, receiver = spaces.names
+        for name in spaces.names:
+            spaces.run(name, "sh", "-c", "for file in /proc/sys/net/ipv6/conf/*/disable_ipv6; do echo 0 > $file; done")
+        group = [cli, "monitor", "--udp", str(PORT), "--multicast", "ff02::77%late", "--json", "--duration", "60"]
+        monitor = subprocess.Popen([*inside(receiver), *group], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        wait_for(lambda: f":{PORT:04X} " in spaces.run(receiver, "cat", "/proc/net/udp6"), "the monitor listens")
+        spaces.run(sender, "ip", "link", "add", "late-out", "type", "veth", "peer", "name", "late", "netns", receiver)
+        for name, device in ((sender, "late-out"), (receiver, "late")):
+            spaces.run(name, "ip", "link", "set", device, "up")
+        wait_for(lambda: "ff02::77" in spaces.run(receiver, "ip", "maddress", "show", "dev", "late"), "the group is joined")
+        elsewhere = "ff02::77" in spaces.run(receiver, "ip", "maddress", "show", "dev", "receiver")
+        address = link_local(spaces, sender, "late-out")
+        send = [cli, "send", "--characters", "1", "--types", "02", "--rate", "50", "--duration", "1", "--to"]
+        spaces.run(sender, *send, f"[ff02::77%late-out]:{PORT}")
+        time.sleep(0.5)
+        monitor.terminate()
+        out, told = monitor.communicate(timeout=30)
+        heard = [source["datagrams"] for source in json.loads(out)["sources"]]
+        missing, well = told.find("there is no interface late here"), told.find("all is well now")
+        good = heard == [50] and not elsewhere and 0 <= missing < well
+        counts = []
+        for zone in ("late", "receiver"):
+            alone = [cli, "monitor", "--udp", str(PORT), "--from", f"{address}%{zone}", "--json", "--duration", "60"]
+            monitor = subprocess.Popen([*inside(receiver), *alone], stdout=subprocess.PIPE, text=True)
+            wait_for(lambda: f":{PORT:04X} " in spaces.run(receiver, "cat", "/proc/net/udp6"), "the monitor listens")
+            spaces.run(sender, *send, f"[{link_local(spaces, receiver, 'late')}%late-out]:{PORT}")
+            time.sleep(0.5)
+            monitor.terminate()
+            report = json.loads(monitor.communicate(timeout=30)[0])
+            counts.append((sum(source["datagrams"] for source in report["sources"]), report["local"]["refusedDatagrams"]))
+        print(f"interfaces by name: a group {heard}, told {told!r}, a sender {counts}")
+        return good and counts == [(50, 0), (0, 50)]
+
+
 def streams_of(report):
     return [stream for source in report["sources"] for character in source["characters"] for stream in character["streams"]]
 
@@ -239,7 +283,7 @@ def main():
         skip("this takes the rights of an administrator")
     if shutil.which("ip") is None or shutil.which("tc") is None:
         skip("there is no ip or no tc command (package iproute2)")
-    sys.exit(0 if all([check_groups(cli), check_address(cli)] + [check(seed, cli) for seed in seeds]) else 1)
+    sys.exit(0 if all([check_groups(cli), check_address(cli), check_zones(cli)] + [check(seed, cli) for seed in seeds]) else 1)
 
 
 if __name__ == "__main__":
