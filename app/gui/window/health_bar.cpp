@@ -122,6 +122,13 @@ QString HealthBar::said() const {
     return m_message->said();
 }
 
+void HealthBar::takeMessage(HealthBar& from) {
+    if (const QString text = from.m_message->said(); !text.isEmpty()) {
+        say(text, from.m_helpPlace);
+        from.say({});
+    }
+}
+
 QString HealthBar::byteRateText(double bytesPerSecond) {
     constexpr double kLeastMegabytes = 0.1;
     const double megabytes = bytesPerSecond / 1e6;

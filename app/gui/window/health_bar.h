@@ -37,6 +37,8 @@ public:
     void say(const QString& text, const QString& helpPlace = {});
     /// What it says now; empty where that has passed.
     [[nodiscard]] QString said() const;
+    /// What another one is saying goes on here.
+    void takeMessage(HealthBar& from);
 
 private:
     /// Selects a character, and says in a popup why it is as it is.

@@ -75,10 +75,7 @@ MainWindow::MainWindow(SessionDriver& driver, const SettingsFile& file, const Se
     connectHelp();
     m_driver.setThresholds(m_settings.alerts.thresholds);
     m_driver.setDisplayFilter(m_settings.filter);
-    connect(&m_viewport->ownCharacters(), &OwnCharacters::failed, this, [this](const QString& problem) {
-        say(problem);
-        m_ownProblem = problem;
-    });
+    connect(&m_viewport->ownCharacters(), &OwnCharacters::failed, this, &MainWindow::sayAlsoAfterOpening);
     m_viewport->restoreState(m_settings.viewport);
     m_viewport->setComparison(m_driver.comparison());
     new PressingKeys(this);
@@ -157,7 +154,7 @@ void MainWindow::connectDriver() {
         showOpening();
         // What there is to know of one that was read is told as long as it shows.
         if (isRead) {
-            say(m_ownProblem);
+            say(m_sayAgain);
         } else {
             say(text, HelpTopic::OpeningFailed);
         }
@@ -167,7 +164,7 @@ void MainWindow::connectDriver() {
         showOpening();
         showReceiving();
         if (!text.isEmpty()) {
-            say(text);
+            sayAlsoAfterOpening(text);
         }
     });
     connect(&m_driver, &SessionDriver::relayStopped, this, &MainWindow::keepRelays);
@@ -443,6 +440,11 @@ bool MainWindow::isOn(const MenuEntry& entry) const {
 
 void MainWindow::say(const QString& text) {
     m_health->say(text);
+}
+
+void MainWindow::sayAlsoAfterOpening(const QString& text) {
+    say(text);
+    m_sayAgain = text;
 }
 
 void MainWindow::say(const QString& text, HelpTopic topic) {

@@ -116,6 +116,8 @@ protected:
     void closeEvent(QCloseEvent* event) override;
 
 private:
+    /// Also once a file has been opened, which is told of meanwhile.
+    void sayAlsoAfterOpening(const QString& text);
     void noteRecent(const QString& path);
     [[nodiscard]] QString placeOfRecordings() const;
     /// What a dock shows of one session.
@@ -180,7 +182,7 @@ private:
     QString m_covered; ///< dock that the newest request for another one hid; empty for none
     bool m_isRestored = false;
     bool m_saysOpening = false; ///< the bar at the bottom does
-    QString m_ownProblem;       ///< with a character's file: said again when opening took its place
+    QString m_sayAgain;         ///< of which the bar at the bottom says that a file is being opened instead
 };
 
 /// Where a window of that place is wholly seen on the screens there are, moved if it must be; empty if it

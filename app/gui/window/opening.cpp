@@ -188,13 +188,13 @@ void MainWindow::offerRecovered() {
 
 void MainWindow::showOpening() {
     const bool isOpening = m_driver.isOpening();
-    if (!m_saysOpening && m_health->said() != m_ownProblem) {
-        m_ownProblem.clear(); // it has passed
+    if (!m_saysOpening && m_health->said() != m_sayAgain) {
+        m_sayAgain.clear(); // it has passed
     }
     if (isOpening) {
         say(m_driver.openingText());
     } else if (m_saysOpening) {
-        say(m_ownProblem);
+        say(m_sayAgain);
     }
     m_saysOpening = isOpening;
     m_menus.action("stopOpening")->setEnabled(isOpening); // else Escape is for others

@@ -62,9 +62,12 @@ void MainWindow::showSession() {
         m_fileHealth = new HealthBar(m_driver.session(), m_driver, this);
         statusBar()->insertWidget(0, m_fileHealth, 1);
     }
-    m_health->hide();
-    m_health = isFile ? m_fileHealth : m_liveHealth;
+    HealthBar* const before = std::exchange(m_health, isFile ? m_fileHealth : m_liveHealth);
+    before->hide();
     m_health->show();
+    if (before != m_health) {
+        m_health->takeMessage(*before);
+    }
     m_transport->showSession(m_driver.session(), !isFile);
     m_viewport->showSession(m_driver.session(), isFile ? m_driver.file()->name() : QString());
     m_menus.showStates();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/window/health_bar.h"
 #include "tests/app/gui/window/main_window_fixture.h"
+#include "tests/support/golden.h"
 
 #include <QFile>
 #include <QFileInfo>
@@ -12,6 +13,16 @@
 /// Which files the window opens and records.
 namespace posewire::gui {
 namespace {
+
+/// Of the bar at the bottom that shows.
+QString shownMessage(const QWidget& window) {
+    for (const auto* bar : window.findChildren<HealthBar*>("healthBar")) {
+        if (!bar->isHidden()) {
+            return bar->findChild<QLabel*>("message")->text();
+        }
+    }
+    return {};
+}
 
 TEST_F(MainWindowTest, EscapeStopsOpeningAFileAndIsForOthersElse) {
     const auto window = makeWindow();
@@ -50,6 +61,39 @@ TEST_F(MainWindowTest, SaysWhatIsWrongWithACharacterAlsoWhereAFileIsOpenedMeanwh
     emit driver.tableTick();
     emit driver.fileOpened(true, "");
     EXPECT_EQ(message->text(), "") << "it has been said";
+}
+
+TEST_F(MainWindowTest, SaysWhyNothingIsComparedAlsoWhenARecordingIsShownThen) {
+    const auto window = makeWindow();
+    emit driver.comparisonChanged("Nothing to compare with: it is empty");
+    emit driver.fileOpened(true, {});
+    const auto* message = window->findChild<HealthBar*>("healthBar")->findChild<QLabel*>("message");
+    EXPECT_FALSE(message->isHidden());
+    EXPECT_EQ(message->text(), "Nothing to compare with: it is empty");
+    HealthBar other(driver.session(), driver);
+    other.takeMessage(*window->findChild<HealthBar*>("healthBar"));
+    EXPECT_EQ(other.findChild<QLabel*>("message")->text(), "Nothing to compare with: it is empty");
+    EXPECT_TRUE(message->isHidden());
+}
+
+TEST_F(MainWindowTest, SaysWhyNothingIsComparedOnceARecordingIsOpen) {
+    const auto window = makeWindow();
+    const auto fileWith = [this](const char* name, const std::vector<std::byte>& bytes) {
+        QFile made(folder.filePath(name));
+        EXPECT_TRUE(made.open(QIODevice::WriteOnly));
+        made.write(reinterpret_cast<const char*>(bytes.data()), static_cast<qint64>(bytes.size()));
+        return made.fileName();
+    };
+    driver.openFile(fileWith("take.mxtp", posewire::test::golden("02_quaternion_counted").bytes));
+    driver.compareWith(fileWith("empty.mxtp", {}));
+    EXPECT_TRUE(QTest::qWaitFor([this] {
+        driver.tick();
+        emit driver.tableTick();
+        return !driver.isOpening() && driver.isFileShown();
+    }));
+    emit driver.tableTick();
+    const QString said = shownMessage(*window);
+    EXPECT_TRUE(said.startsWith("Nothing to compare with: ")) << qPrintable(said);
 }
 
 TEST_F(MainWindowTest, SaysWhereATakeIsAndOffersToOpenIt) {
