@@ -108,6 +108,20 @@ void addFindings(const ReceivingState& receiving, EmptyState& state) {
     }
 }
 
+/// Whoever is not listened to is not heard, and may be the one that is waited for.
+void addAllowed(const ReceivingState& receiving, EmptyState& state) {
+    if (!receiving.allowedProblem.isEmpty()) {
+        state.level = Health::Warning;
+        state.lines += receiving.allowedProblem;
+    }
+    if (receiving.refusedDatagrams != 0) {
+        state.level = Health::Warning;
+        state.lines += tr("%1 datagrams came from others than those listened to: see Input > Inputs, Listen "
+                          "only to")
+                           .arg(grouped(receiving.refusedDatagrams));
+    }
+}
+
 EmptyState waiting(const ReceivingState& receiving) {
     const auto listening = std::ranges::find_if(receiving.ports, [](const PortState& state) {
         return state.problem.isEmpty() && state.port.kind != InputAddress::Kind::TcpConnection;
@@ -129,6 +143,7 @@ EmptyState waiting(const ReceivingState& receiving) {
             state.lines += port.problem;
         }
     }
+    addAllowed(receiving, state);
     addFindings(receiving, state);
     return state;
 }

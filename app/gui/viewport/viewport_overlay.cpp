@@ -374,6 +374,15 @@ void ViewportOverlay::paintTexts(QPainter& painter, std::vector<QRectF>& taken) 
     }
 }
 
+bool ViewportOverlay::isCardPlain() const {
+    return m_card.level == Health::Unknown || m_card.level == Health::Good;
+}
+
+/// As it is painted.
+QString ViewportOverlay::cardTitle() const {
+    return isCardPlain() ? m_card.title : healthText(m_card.level, m_card.title);
+}
+
 ViewportOverlay::CardLayout ViewportOverlay::layOutCard() const {
     QFont titleFont = font();
     titleFont.setWeight(QFont::DemiBold);
@@ -383,7 +392,7 @@ ViewportOverlay::CardLayout ViewportOverlay::layOutCard() const {
     const QString text = m_card.lines.join(QLatin1Char('\n'));
     const QRectF room(0, 0, most - 3 * unit, height());
     const QRectF titleRoom =
-        QFontMetricsF(titleFont).boundingRect(room, Qt::AlignHCenter | Qt::TextWordWrap, m_card.title);
+        QFontMetricsF(titleFont).boundingRect(room, Qt::AlignHCenter | Qt::TextWordWrap, cardTitle());
     const QRectF narrow(0, 0, balancedWidth(metrics, text, room.width()), height());
     const QRectF textRoom = metrics.boundingRect(narrow, Qt::AlignHCenter | Qt::TextWordWrap, text);
     const QSizeF button = m_cardHelp->sizeHint();
@@ -405,15 +414,14 @@ ViewportOverlay::CardLayout ViewportOverlay::layOutCard() const {
 
 void ViewportOverlay::paintCard(QPainter& painter) const {
     const CardLayout layout = layOutCard();
-    const bool isPlain = m_card.level == Health::Unknown || m_card.level == Health::Good;
+    const bool isPlain = isCardPlain();
     paintPlate(painter, layout.card, isPlain ? theme().line : healthColour(m_card.level), 1.4 * kRadius,
                1); // sentences are read: nothing shines through
     QFont titleFont = font();
     titleFont.setWeight(QFont::DemiBold);
     painter.setFont(titleFont);
     painter.setPen(isPlain ? theme().text : healthColour(m_card.level));
-    const QString symbol = isPlain ? QString() : healthSymbol(m_card.level) + QLatin1Char(' ');
-    painter.drawText(layout.title, Qt::AlignHCenter | Qt::AlignTop | Qt::TextWordWrap, symbol + m_card.title);
+    painter.drawText(layout.title, Qt::AlignHCenter | Qt::AlignTop | Qt::TextWordWrap, cardTitle());
     painter.setFont(font());
     painter.setPen(theme().dim);
     painter.drawText(layout.text, Qt::AlignHCenter | Qt::AlignTop | Qt::TextWordWrap,

@@ -48,6 +48,8 @@ private:
         QRectF text;
         QPoint button;
     };
+    [[nodiscard]] bool isCardPlain() const;
+    [[nodiscard]] QString cardTitle() const;
     [[nodiscard]] CardLayout layOutCard() const;
     void makeCardHelp();
     void placeCardHelp();

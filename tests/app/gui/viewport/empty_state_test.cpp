@@ -28,6 +28,19 @@ TEST(EmptyState, SaysWhatIsWaitedForAndWhatToTypeInMvn) {
     EXPECT_THAT(textOf(state), testing::HasSubstr("host 192.168.10.5, port 9763"));
 }
 
+TEST(EmptyState, SaysThatOthersThanThoseListenedToSend) {
+    Stage stage;
+    ReceivingState receiving = listening();
+    receiving.refusedDatagrams = 1'200;
+    EXPECT_EQ(emptyState(stage.session, receiving).level, Health::Warning);
+    EXPECT_THAT(textOf(emptyState(stage.session, receiving)),
+                testing::HasSubstr("1 200 datagrams came from others than those listened to"));
+    receiving = listening();
+    receiving.allowedProblem = "fe80::1%nope: there is no interface nope here";
+    EXPECT_EQ(emptyState(stage.session, receiving).level, Health::Warning);
+    EXPECT_THAT(textOf(emptyState(stage.session, receiving)), testing::HasSubstr("no interface nope here"));
+}
+
 TEST(EmptyState, SaysWhyAPortIsNotOpen) {
     Stage stage;
     ReceivingState receiving = listening();
