@@ -5,7 +5,6 @@
 #include "app/gui/theme/words.h"
 #include "core/model/session/losses.h"
 
-#include <QLocale>
 #include <QStringList>
 
 #include <algorithm>
@@ -184,8 +183,7 @@ PropertyValue buffer(const Source& from) {
 PropertyValue delay(const Source& from) {
     const log::Duration longest = from.program.receivingState().longestDelay;
     const double milliseconds = log::millisecondsOf(longest);
-    return {tr("%1 ms").arg(QLocale().toString(milliseconds, 'f', 1)),
-            longest < kLongDelay ? Health::Good : Health::Warning,
+    return {tr("%1 ms").arg(fixed(milliseconds, 1)), longest < kLongDelay ? Health::Good : Health::Warning,
             tr("The longest time the receiving thread took between two looks at its ports; the buffer has to "
                "last that long")};
 }

@@ -16,11 +16,12 @@ constexpr std::size_t kMostHatches = 32;
 /// a line and does not hide the curves.
 constexpr double kLeastHatch = 0.06;
 
-/// Writes the minus sign as tables do.
+/// Writes the minus sign and the decimal point as tables do.
 class Ticker : public QCPAxisTicker {
 protected:
-    QString getTickLabel(double tick, const QLocale& locale, QChar format, int precision) override {
-        return QCPAxisTicker::getTickLabel(tick, locale, format, precision)
+    QString getTickLabel(double tick, const QLocale& /*of the country*/, QChar format,
+                         int precision) override {
+        return QCPAxisTicker::getTickLabel(tick, QLocale::c(), format, precision)
             .replace(QLatin1Char('-'), QChar(0x2212));
     }
 };

@@ -4,6 +4,7 @@
 #include "tests/app/gui/models/stage.h"
 
 #include <QAbstractItemModelTester>
+#include <QLocale>
 
 #include <algorithm>
 
@@ -147,7 +148,11 @@ TEST_F(ComputerFactsTest, FollowTheStateOfReceivingAndWarnOfASmallBuffer) {
     m_program.receiving.receiveBufferBytes = 212'992 / 2;
     EXPECT_EQ(text("Receive buffer"), QStringLiteral("▲ 104 KB"));
     EXPECT_TRUE(fact("Receive buffer").toolTip.contains("rmem_max"));
+    const QLocale before;
+    QLocale::setDefault(QLocale(QLocale::German));
     m_program.receiving.longestDelay = 47'300us;
+    EXPECT_EQ(text("Longest delay"), QStringLiteral("● 47.3 ms")) << "as all numbers, in every country";
+    QLocale::setDefault(before);
     EXPECT_EQ(fact("Longest delay").health, Health::Good);
     m_program.receiving.longestDelay = 400ms;
     EXPECT_EQ(fact("Longest delay").health, Health::Warning);
