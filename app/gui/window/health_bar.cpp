@@ -104,6 +104,8 @@ HealthBar::HealthBar(model::SessionView& session, Commands& commands, QWidget* p
     m_message->setObjectName(QStringLiteral("message"));
     for (QLabel* figure : {m_rate, m_history, m_dropped}) {
         figure->setFont(tabularFont());
+        const int margin = ColourText::marginsOf(figure->fontMetrics()) / 2; // as the buttons beside them
+        figure->setContentsMargins(margin, 0, margin, 0);
         row->addWidget(figure);
     }
     m_dropped->setToolTip(
