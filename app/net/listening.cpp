@@ -131,7 +131,7 @@ NetError listenError(const std::string& protocol, const Endpoint& endpoint,
             error == QAbstractSocket::UnsupportedSocketOperationError) {
             return {NetError::Kind::AddressNotHere,
                     endpoint.host + " may be on every interface; name the one that is meant, as in " +
-                        endpoint.host + "%eth0"};
+                        endpoint.host.substr(0, endpoint.host.find('%')) + "%eth0"};
         }
         return {NetError::Kind::Other, "cannot listen on " + port + ": " + systemText.toStdString() +
                                            "; choose another port or address"};
