@@ -4,6 +4,7 @@
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
 #include "app/gui/viewport/camera_motion.h"
+#include "app/gui/viewport/picking.h"
 
 #include <algorithm>
 #include <cmath>
@@ -49,8 +50,10 @@ std::optional<ViewportLabel> labelOf(const Figure& figure, const render::Camera&
 std::vector<ViewportLabel> labelsOf(const SceneFrame& frame, model::SessionView& session,
                                     const QSizeF& size) {
     std::vector<ViewportLabel> labels;
-    for (const Figure& figure : frame.figures) {
+    for (std::size_t i = 0; i < frame.figures.size(); ++i) {
+        const Figure& figure = frame.figures[i];
         if (auto label = labelOf(figure, frame.camera, session, size)) {
+            label->isBehind = figure.body != nullptr && isBehindAnother(frame, i, label->head.center(), size);
             labels.push_back(std::move(*label));
         }
     }

@@ -24,6 +24,7 @@ struct ViewportLabel {
     QString name;
     PropertyValue state; ///< how it does
     bool isSelected = false;
+    bool isBehind = false; ///< its head is hidden by somebody else
 };
 
 /// A few words of an overlay.

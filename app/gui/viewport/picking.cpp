@@ -2,13 +2,13 @@
 #include "app/gui/viewport/picking.h"
 
 #include "app/gui/viewport/camera_motion.h"
-#include "render/picking.h"
 
 #include <QLineF>
 #include <QPolygonF>
 
 #include <algorithm>
 #include <limits>
+#include <vector>
 
 namespace posewire::gui {
 namespace {
@@ -56,13 +56,38 @@ std::optional<PickedSegment> pickIn(const SceneFrame& frame, const model::Sessio
     for (std::size_t i = 0; i < frame.figures.size(); ++i) {
         const Figure& figure = frame.figures[i];
         if (figure.body != nullptr) {
-            targets.push_back({static_cast<std::uint32_t>(i), &figure.capsules(), figure.drawnPalette()});
+            targets.push_back(targetOf(figure, static_cast<std::uint32_t>(i)));
         }
     }
     const auto aspect = static_cast<float>(view.width() / view.height());
     const auto pick =
         render::pickSegment(frame.camera.rayThrough(screenPoint(pointer, view), aspect), targets);
     return pick ? std::optional(PickedSegment{frame.figures[pick->id].key, pick->segment}) : std::nullopt;
+}
+
+render::PickTarget targetOf(const Figure& figure, std::uint32_t id) {
+    return {id, &figure.capsules(), figure.drawnPalette()};
+}
+
+bool isBehindAnother(const SceneFrame& frame, std::size_t which, const QPointF& there, const QSizeF& view) {
+    constexpr float kFlesh = 0.3F; // metres around the origins of segments
+    const auto aspect = static_cast<float>(view.width() / view.height());
+    const render::Ray ray = frame.camera.rayThrough(screenPoint(there, view), aspect);
+    const float own = glm::dot(frame.figures[which].labelPosition - ray.origin, ray.direction);
+    const auto mayMeet = [&ray](const Figure& figure) {
+        const glm::vec3 offset = figure.bounds.centre() - ray.origin;
+        const float along = glm::dot(offset, ray.direction);
+        return glm::distance(offset, along * ray.direction) <= figure.bounds.radius() + kFlesh;
+    };
+    std::vector<render::PickTarget> others;
+    for (std::size_t i = 0; i < frame.figures.size(); ++i) {
+        const Figure& figure = frame.figures[i];
+        if (i != which && figure.body != nullptr && !figure.bounds.isEmpty() && mayMeet(figure)) {
+            others.push_back(targetOf(figure, static_cast<std::uint32_t>(i)));
+        }
+    }
+    const auto pick = render::pickSegment(ray, others);
+    return pick && pick->distance < own;
 }
 
 QRectF roomOf(const SceneFrame& frame, const model::CharacterKey& key, const QSizeF& view) {

@@ -2,11 +2,14 @@
 #pragma once
 
 #include "app/gui/viewport/scene.h"
+#include "render/picking.h"
 
 #include <QPointF>
 #include <QRectF>
 #include <QSizeF>
 
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 
 namespace posewire::gui {
@@ -22,6 +25,13 @@ struct PickedSegment {
 /// origin is near, else the nearest segment of a body.
 [[nodiscard]] std::optional<PickedSegment> pickIn(const SceneFrame& frame, const model::SessionView& session,
                                                   const QPointF& pointer, const QSizeF& view);
+
+/// A figure that has a body, to be met by a ray; it must outlive the target.
+[[nodiscard]] render::PickTarget targetOf(const Figure& figure, std::uint32_t id);
+/// Whether, in a picture of that size, somebody else is seen there nearer than the label of
+/// `frame.figures[which]` is.
+[[nodiscard]] bool isBehindAnother(const SceneFrame& frame, std::size_t which, const QPointF& there,
+                                   const QSizeF& view);
 
 /// The rectangle that a figure takes in a picture of that size; empty where it is not in it, or partly behind
 /// the eye.

@@ -71,6 +71,17 @@ render::Bounds boundsOf(const std::array<glm::vec3, render::kSegmentCount>& orig
     return bounds;
 }
 
+/// So much above the head; of who is upside down, above all of the body, which else would lie under it.
+glm::vec3 aboveBody(const Figure& figure, const glm::vec3& head, float height) {
+    constexpr float kSurely = 0.4F; // metres from the head up to the pelvis; from none on it shifts over
+    constexpr float kFlesh = 0.25F; // around the origins of segments
+    const glm::vec3 pelvis =
+        render::transformPoint(figure.palette[render::Pelvis], figure.body->fit.origins[render::Pelvis]);
+    const glm::vec3 middle = figure.bounds.centre();
+    const glm::vec3 above(middle.x, middle.y, figure.bounds.max.z + kFlesh);
+    return glm::mix(head + glm::vec3(0, 0, height), above, glm::smoothstep(0.0F, kSurely, pelvis.z - head.z));
+}
+
 void makePalette(const model::CharacterPose& pose, Figure& figure) {
     std::array<glm::vec3, render::kSegmentCount> positions{};
     std::array<glm::quat, render::kSegmentCount> orientations{};
@@ -271,7 +282,7 @@ Figure SceneBuilder::bodyOf(const model::SessionView& session, const model::Char
     makePalette(pose, figure);
     const glm::vec3 head = figure.body->fit.origins[render::Head];
     figure.labelPosition =
-        render::transformPoint(figure.palette[render::Head], head) + glm::vec3(0, 0, kLabelHeight);
+        aboveBody(figure, render::transformPoint(figure.palette[render::Head], head), kLabelHeight);
     return figure;
 }
 
@@ -293,7 +304,7 @@ void SceneBuilder::dress(Figure& figure) {
     constexpr float kAboveHead = 0.06F;
     const auto head = static_cast<std::size_t>(dressed->body.segmentJoints[render::Head]);
     const glm::vec3 top = own->scale * dressed->body.joints[head].origin + glm::vec3(0, 0, own->top);
-    figure.labelPosition = render::transformPoint(bones[head], top) + glm::vec3(0, 0, kAboveHead);
+    figure.labelPosition = aboveBody(figure, render::transformPoint(bones[head], top), kAboveHead);
     figure.own = own;
     figure.bones = std::move(bones);
 }

@@ -34,7 +34,7 @@ struct Figure {
     std::array<render::DualQuaternion, render::kJointCount> palette{};
     std::vector<FigureProp> props;
     render::CharacterLook look;
-    glm::vec3 labelPosition{0.0F}; ///< above the head
+    glm::vec3 labelPosition{0.0F}; ///< above the head; above all of who is upside down
     render::Bounds bounds;         ///< of the segment origins
 
     bool operator==(const Figure&) const = default;

@@ -26,11 +26,16 @@ constexpr QLatin1String kButtons("viewportButtons");
 constexpr int kByButtons = 4; // pixels
 constexpr double kBackgroundOpacity = 0.9;
 
-void paintPlate(QPainter& painter, const QRectF& plate, const QColor& border, qreal radius,
+void paintPlate(QPainter& painter, const QRectF& plate, const QPen& border, qreal radius,
                 double opacity = kBackgroundOpacity) {
-    painter.setPen(QPen(border, 1));
+    painter.setPen(border);
     painter.setBrush(withAlpha(theme().raised, opacity));
     painter.drawRoundedRect(plate.adjusted(0.5, 0.5, -0.5, -0.5), radius, radius);
+}
+
+/// As in drawings: what is hidden has broken lines.
+Qt::PenStyle styleOf(const ViewportLabel& label) {
+    return label.isBehind ? Qt::DashLine : Qt::SolidLine;
 }
 
 /// Text in one colour at the left; returns where it ends.
@@ -306,7 +311,7 @@ void ViewportOverlay::paintEvent(QPaintEvent* /*event*/) {
         if (const auto leader = leaderOf(m_placed[i], places[i], headsBefore(places, i))) {
             painter.setPen(QPen(theme().panel, 3));
             painter.drawLine(*leader);
-            painter.setPen(QPen(m_labels[i].mark.colour, 1.4));
+            painter.setPen(QPen(m_labels[i].mark.colour, 1.4, styleOf(m_labels[i])));
             painter.drawLine(*leader);
         }
     }
@@ -338,7 +343,8 @@ void ViewportOverlay::paintLabel(QPainter& painter, const ViewportLabel& label,
         return;
     }
     const QRectF& plate = placed.plate;
-    paintPlate(painter, plate, label.isSelected ? theme().accent : theme().line, kRadius);
+    const QColor& border = label.isSelected ? theme().accent : label.isBehind ? theme().dim : theme().line;
+    paintPlate(painter, plate, QPen(border, 1, styleOf(label)), kRadius);
     paintMark(painter, QRectF(plate.left() + 0.6 * unit, plate.center().y() - side / 2, side, side),
               label.mark);
     const LabelText text = textOf(label, metrics, width());
@@ -347,7 +353,7 @@ void ViewportOverlay::paintLabel(QPainter& painter, const ViewportLabel& label,
     const QString name = isWhole                           ? text.name
                          : placed.form == LabelForm::Named ? text.shortName
                                                            : initialsOf(label.name);
-    x = paintText(painter, x, plate, name, theme().text);
+    x = paintText(painter, x, plate, name, label.isBehind ? theme().dim : theme().text);
     paintText(painter, x + (isWhole ? 0.6 : 0.4) * unit, plate,
               isWhole ? text.status : healthSymbol(label.state.health), healthColour(label.state.health));
 }

@@ -2,9 +2,12 @@
 #include "app/gui/viewport/scene.h"
 
 #include "app/gui/models/stream_state.h"
+#include "app/gui/viewport/labels.h"
 #include "tests/app/gui/models/stage.h"
 
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 namespace posewire::gui {
 namespace {
@@ -75,6 +78,50 @@ TEST_F(SceneBuilderTest, ACorruptSegmentDoesNotLeadTheCameraAway) {
         << "it is drawn as sent";
     EXPECT_LT(glm::distance(figure.bounds.centre(), well.centre()), 0.2F);
     EXPECT_LT(figure.bounds.radius(), 1.5F * well.radius());
+}
+
+TEST_F(SceneBuilderTest, TheLabelOfWhoIsUpsideDownIsAboveAllOfTheBody) {
+    perform(1);
+    const Figure upright = build().figures.at(0);
+    EXPECT_GT(upright.labelPosition.z, upright.bounds.max.z);
+    performer::Performer performer(sending(1, {2}));
+    wire::Datagram datagram = performer.frame(3).front();
+    for (wire::SegmentQuaternion& segment : std::get<wire::PoseQuaternion>(datagram.body).segments) {
+        auto& [w, x, y, z] = segment.orientation; // half a turn about x
+        segment.position = {segment.position[0], -segment.position[1], 1.9F - segment.position[2]};
+        segment.orientation = {-x, w, -z, y};
+    }
+    stage.send(datagram, stage.now + 4ms);
+    stage.follow();
+    const Figure figure = build().figures.at(0);
+    EXPECT_LT(stage.session.pose(stage.key())->segments[render::Head].position.z(), 0.6);
+    EXPECT_GT(figure.labelPosition.z, figure.bounds.max.z + 0.1F);
+    EXPECT_NEAR(figure.labelPosition.x, figure.bounds.centre().x, 0.01F);
+}
+
+TEST_F(SceneBuilderTest, TheLabelSaysWhoIsHiddenBehindSomebodyElse) {
+    perform(2);
+    SceneFrame frame = build();
+    const QSizeF view(800, 600);
+    const auto headOf = [&frame](std::size_t figure) {
+        return frame.figures.at(figure).labelPosition - glm::vec3(0, 0, 0.2F);
+    };
+    const auto behind = [&] {
+        std::vector<bool> all;
+        for (const ViewportLabel& label : labelsOf(frame, stage.session, view)) {
+            all.push_back(label.isBehind);
+        }
+        return all;
+    };
+    const glm::vec3 between = headOf(1) - headOf(0);
+    frame.camera.target = headOf(1);
+    frame.camera.pitch = 0;
+    frame.camera.distance = 9;
+    frame.camera.yaw = std::atan2(-between.y, -between.x);
+    ASSERT_LT(glm::dot(headOf(0) - frame.camera.eye(), frame.camera.forward()), 9) << "the first is nearer";
+    EXPECT_EQ(behind(), (std::vector{false, true}));
+    frame.camera.yaw += 1.5F;
+    EXPECT_EQ(behind(), (std::vector{false, false}));
 }
 
 TEST_F(SceneBuilderTest, PropsLookLikeWhatTheyAreCalled) {
