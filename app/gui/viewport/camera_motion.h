@@ -18,6 +18,8 @@ public:
     [[nodiscard]] const render::Camera& camera() const { return m_camera; }
     /// Whether follow() moves it.
     [[nodiscard]] bool isFollowing() const { return m_isFollowing; }
+    /// On its way to where what it follows is.
+    [[nodiscard]] bool isGliding() const { return m_isFollowing && m_isGliding; }
     /// Looks from there; one that follows moves to the first characters it is given, and looks the same way.
     void restore(const render::Camera& camera, bool isFollowing,
                  std::optional<render::StandardView> standardView = {}) {

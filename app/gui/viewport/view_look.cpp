@@ -36,6 +36,14 @@ void ViewLook::fillPanes(SceneBuilder& builder, double seconds, const QSize& vie
     frame.panes = std::move(all);
 }
 
+bool ViewLook::isGliding() const {
+    bool isAny = false;
+    for (int pane = 0; pane < panes.count(); ++pane) {
+        isAny = isAny || panes.motionOf(pane).isGliding();
+    }
+    return isAny;
+}
+
 void ViewLook::aim(CameraMotion& motion, double seconds, SceneFrame& frame) const {
     motion.follow(boxesOf(frame), aspectOf(frame), seconds);
     frame.camera = motion.camera();

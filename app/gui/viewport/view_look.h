@@ -22,6 +22,9 @@ struct ViewLook {
     /// The same for all panes of a view of that size, in logical pixels: what is in them is built once.
     void fillPanes(SceneBuilder& builder, double seconds, const QSize& view, SceneFrame& frame);
 
+    /// Whether a camera is on its way to what it follows.
+    [[nodiscard]] bool isGliding() const;
+
 private:
     void aim(CameraMotion& motion, double seconds, SceneFrame& frame) const;
 };

@@ -32,6 +32,9 @@ public:
     [[nodiscard]] CameraMotion& motion() { return motionOf(m_active); }
     [[nodiscard]] const CameraMotion& motion() const { return m_motions[static_cast<std::size_t>(m_active)]; }
     [[nodiscard]] CameraMotion& motionOf(int pane) { return m_motions[static_cast<std::size_t>(pane)]; }
+    [[nodiscard]] const CameraMotion& motionOf(int pane) const {
+        return m_motions[static_cast<std::size_t>(pane)];
+    }
 
     /// Where a pane is in a view of that size.
     [[nodiscard]] QRect place(int pane, const QSize& view) const;

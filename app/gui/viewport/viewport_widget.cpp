@@ -149,8 +149,8 @@ void ViewportWidget::drawNext() {
     m_builder->setComparison(m_comparison);
     // Between two moments at rest no pictures come in which the camera could glide.
     const model::Cursor& cursor = m_session->cursor();
-    const bool isElsewhere =
-        cursor.mode == model::Cursor::Mode::Paused && cursor.speed == 0 && cursor.packet != m_followedPacket;
+    const bool isAtRest = cursor.mode == model::Cursor::Mode::Paused && cursor.speed == 0;
+    const bool isElsewhere = isAtRest && cursor.packet != m_followedPacket;
     const double seconds =
         isElsewhere ? std::numeric_limits<double>::infinity() : log::secondsOf(m_session->now() - m_followed);
     m_followedPacket = cursor.packet;
@@ -162,7 +162,7 @@ void ViewportWidget::drawNext() {
     m_followed = m_session->now();
     m_drawingBuilt = m_session->now();
     m_isOutdated = false;
-    if (m_builder->isUnderWay()) {
+    if (m_builder->isUnderWay() || (isAtRest && m_look.isGliding())) {
         m_glideTimer.start();
     }
     m_drawing = frame;

@@ -216,6 +216,20 @@ TEST_F(Viewport, ShowsTheBodyWhereverAPausedMomentHasIt) {
     }
 }
 
+TEST_F(Viewport, TheCameraFinishesItsWayWhilePaused) {
+    stage.session.setCursor({model::Cursor::Mode::Paused, stage.session.end() - 1});
+    viewport.refresh();
+    ASSERT_TRUE(settle());
+    viewport.face(render::StandardView::Top); // from there a body is smaller
+    EXPECT_TRUE(viewport.look().isGliding());
+    EXPECT_TRUE(QTest::qWaitFor(
+        [this] {
+            stage.session.follow(stage.now += 20ms);
+            return !viewport.look().isGliding();
+        },
+        20'000));
+}
+
 TEST_F(Viewport, TwoViewsOfOneSessionDrawAtOnce) {
     ViewportWidget other(stage.session, stage.commands);
     other.resize(320, 240);
