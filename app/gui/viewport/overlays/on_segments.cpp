@@ -30,14 +30,19 @@ void drawArc(const OverlaySubject& subject, int segment, SceneFrame& frame) {
     constexpr int kSteps = 16;
     const int child = onlyChild(segment);
     const auto joint = jointReading(subject, segment);
-    if (child < 0 || !joint) {
+    if (!joint) {
         return;
     }
+    const QString text = QStringLiteral("%1 °").arg(joint->degrees[2], 0, 'f', 1);
     const int parent = model::bodySegments()[static_cast<std::size_t>(segment)].parent;
     const auto place = [&](int one) {
         return pointOf(subject.pose.segments[static_cast<std::size_t>(one)].position);
     };
     const glm::vec3 at = place(segment);
+    if (child < 0) { // the end of a limb, or where it branches: no bone to turn to
+        frame.texts.push_back({at, text, theme().warning});
+        return;
+    }
     const glm::vec3 along = glm::normalize(at - place(parent));
     const glm::vec3 bone = glm::normalize(place(child) - at);
     const glm::vec4 ink = inkOf(theme().warning, subject.strength);
@@ -53,7 +58,6 @@ void drawArc(const OverlaySubject& subject, int segment, SceneFrame& frame) {
         frame.lines.push_back({before, next, ink, 2.0F});
         before = next;
     }
-    const QString text = QStringLiteral("%1 °").arg(joint->degrees[2], 0, 'f', 1);
     frame.texts.push_back(
         {at + 1.4F * kRadius * glm::normalize(along + bone + glm::vec3(0, 0, 1e-3F)), text, theme().warning});
 }

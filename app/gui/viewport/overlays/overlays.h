@@ -31,7 +31,7 @@ struct OverlayEntry {
 // The entries' own; each takes what the character sends, and draws nothing where that is not on the air.
 void drawSegmentNames(const OverlaySubject& subject, SceneFrame& frame);
 /// An arc from the line of the parent's bone to the segment's own, with the flexion (type 20 where it is
-/// sent): at the selected joint, else at elbows and knees.
+/// sent): at the selected joint, else at elbows and knees. The angle alone where no one bone follows.
 void drawJointAngles(const OverlaySubject& subject, SceneFrame& frame);
 /// Type 03, with names.
 void drawMarkers(const OverlaySubject& subject, SceneFrame& frame);

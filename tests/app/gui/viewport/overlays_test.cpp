@@ -102,6 +102,14 @@ TEST_F(OverlayTest, TheAngleOfASelectedJointIsThatOfType20) {
     EXPECT_EQ(frame.texts[0].text, QStringLiteral("%1 °").arg(knee, 0, 'f', 1));
 }
 
+TEST_F(OverlayTest, EachJointOfTheBodyHasAnAngleWhereItIsSelected) {
+    perform({2, 13, 20});
+    for (int segment = 1; segment < model::kBodySegmentCount; ++segment) {
+        select(0, segment);
+        EXPECT_EQ(with(Overlay::JointAngles).texts.size(), 1U) << segment;
+    }
+}
+
 TEST_F(OverlayTest, TheAngleIsComputedFromThePoseWhereType20IsNotSent) {
     perform({2, 13, 20});
     select(0, model::segment::kRightLowerLeg);
