@@ -125,6 +125,7 @@ void SegmentCard::place() {
         return common.width() * common.height();
     };
     m_isLeft = covered(!m_isLeft) < kBetter * covered(m_isLeft) ? !m_isLeft : m_isLeft;
+    m_isLeft = m_pointer && cornerFor(size, m_isLeft).contains(*m_pointer) ? !m_isLeft : m_isLeft;
     const QRect card = cornerFor(size, m_isLeft);
     setGeometry(card);
     setVisible(card.width() <= kMost * room.width() && card.height() <= kMost * room.height());

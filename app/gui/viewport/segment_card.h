@@ -3,6 +3,7 @@
 
 #include "app/gui/viewport/segment_facts.h"
 
+#include <QPoint>
 #include <QRectF>
 #include <QWidget>
 
@@ -23,6 +24,8 @@ public:
     [[nodiscard]] const std::optional<SegmentFacts>& facts() const { return m_facts; }
     /// Where what it tells of is seen, in the viewport: it goes to the other side where it would lie on that.
     void keepClearOf(const QRectF& seen) { m_seen = seen; }
+    /// In the viewport, where it rests; nothing where it does not. The card never lies under it.
+    void setPointer(std::optional<QPoint> pointer) { m_pointer = pointer; }
     /// At the lower right, where mostly floor is, or at the lower left; it is not shown where it would cover
     /// most of the viewport.
     void place();
@@ -48,6 +51,7 @@ private:
     const QWidget& m_banner;
     std::optional<SegmentFacts> m_facts;
     QRectF m_seen;
+    std::optional<QPoint> m_pointer;
     bool m_isLeft = false;
 };
 

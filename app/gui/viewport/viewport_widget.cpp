@@ -42,6 +42,8 @@ ViewportWidget::ViewportWidget(model::SessionView& session, Commands& commands, 
         overlay = new ViewportOverlay(this);
         overlay->hide();
     }
+    m_banner->raise(); // over the labels of all views
+    m_card->raise();
     constexpr int kRest = 120; // milliseconds: a pointer that passes by asks nothing
     m_hoverTimer.setSingleShot(true);
     m_hoverTimer.setInterval(kRest);
@@ -187,7 +189,8 @@ void ViewportWidget::onPresented() {
 
 void ViewportWidget::updateOverlay() {
     const SceneFrame nothing;
-    const SceneFrame& shown = m_shown == nullptr ? nothing : *m_shown;
+    const bool hasPicture = m_shown != nullptr && failure().isEmpty();
+    const SceneFrame& shown = hasPicture ? *m_shown : nothing;
     updatePanes(shown);
     updateWords();
     if (const QString problem = failure(); !problem.isEmpty()) {
@@ -230,6 +233,7 @@ void ViewportWidget::updateCard() {
         const QRect pane = m_look.panes.place(m_look.panes.active(), size());
         m_card->keepClearOf(roomOf(*m_shown, about->key, pane.size()).translated(pane.topLeft()));
     }
+    m_card->setPointer(m_hovered ? std::optional(m_pointer.toPoint()) : std::nullopt);
     m_card->setFacts(isThere ? std::optional(segmentFacts({*m_session, about->key, *pose}, about->segment))
                              : std::nullopt);
 }
@@ -444,11 +448,10 @@ void ViewportWidget::mouseReleaseEvent(QMouseEvent* event) {
     if (m_isDragging || event->button() != Qt::LeftButton) {
         return;
     }
-    model::Selection selection;
-    if (const auto pick = pickAt(event->position())) {
-        selection = {pick->key.sender, pick->key, pick->segment};
-    }
-    m_commands.select(selection);
+    m_hovered = pickAt(event->position()); // who walks may be elsewhere than when the pointer came to rest
+    m_commands.select(m_hovered ? model::Selection{m_hovered->key.sender, m_hovered->key, m_hovered->segment}
+                                : model::Selection());
+    updateCard();
 }
 
 void ViewportWidget::mouseDoubleClickEvent(QMouseEvent* event) {
@@ -463,6 +466,8 @@ void ViewportWidget::wheelEvent(QWheelEvent* event) {
     m_look.panes.motion().zoom(event->angleDelta().y() / kWheelStep, event->position() - pane.topLeft(),
                                pane.size());
     event->accept();
+    m_pointer = event->position();
+    m_hoverTimer.start();
     refresh();
 }
 

@@ -131,6 +131,22 @@ TEST_F(SegmentFactsTest, StandAsideOfTheBodyThatTheyAreAbout) {
     EXPECT_GT(card.x(), 450);
 }
 
+TEST_F(SegmentFactsTest, NeverLieUnderThePointer) {
+    perform({2, 13});
+    QWidget viewport;
+    viewport.resize(900, 700);
+    QWidget banner(&viewport);
+    banner.hide();
+    SegmentCard card(&viewport, banner);
+    card.keepClearOf(viewport.rect()); // as near as that, it is on both sides
+    for (const QPoint pointer : {QPoint(800, 640), QPoint(100, 640), QPoint(870, 600)}) {
+        card.setPointer(pointer);
+        card.setFacts(facts(model::segment::kHead));
+        EXPECT_FALSE(card.isHidden());
+        EXPECT_FALSE(card.geometry().contains(pointer)) << pointer.x();
+    }
+}
+
 TEST_F(SegmentFactsTest, ATrackedObjectIsPickedByItsOrigin) {
     wire::PoseQuaternion objects;
     objects.segments = {{1, {0.5F, 0, 1}, {1, 0, 0, 0}}, {2, {-0.5F, 0, 1}, {1, 0, 0, 0}}};

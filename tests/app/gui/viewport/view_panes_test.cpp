@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/viewport/view_panes.h"
 
+#include "app/gui/viewport/pose_banner.h"
+#include "app/gui/viewport/segment_card.h"
 #include "app/gui/viewport/viewport_overlay.h"
 #include "app/gui/viewport/viewport_widget.h"
 #include "render/offscreen.h"
@@ -135,6 +137,15 @@ TEST_F(SplitViewport, LabelsTheCharactersInEachView) {
     for (const ViewportOverlay* overlay : overlays) {
         EXPECT_EQ(overlay->labels().size(), 2U);
         EXPECT_LE(overlay->width(), kWidget.width() / 2);
+    }
+}
+
+TEST_F(SplitViewport, BannerAndCardLieOverTheLabelsOfAllViews) {
+    const QObjectList& order = m_viewport.children();
+    const auto placeOf = [&order](const QObject* one) { return order.indexOf(const_cast<QObject*>(one)); };
+    for (const ViewportOverlay* overlay : m_viewport.findChildren<ViewportOverlay*>()) {
+        EXPECT_GT(placeOf(m_viewport.findChild<SegmentCard*>()), placeOf(overlay));
+        EXPECT_GT(placeOf(m_viewport.findChild<PoseBanner*>()), placeOf(overlay));
     }
 }
 

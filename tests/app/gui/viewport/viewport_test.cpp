@@ -131,6 +131,22 @@ TEST_F(Viewport, ShowsTheValuesOfWhatThePointerRestsOn) {
     EXPECT_TRUE(QTest::qWaitFor([&] { return card->facts() && card->facts()->segment == "Head"; }));
 }
 
+TEST_F(Viewport, AClickShowsTheValuesOfWhatIsClicked) {
+    const auto* card = viewport.findChild<SegmentCard*>();
+    viewport.resize(900, 700);
+    ASSERT_TRUE(
+        QTest::qWaitFor([this] { return viewport.overlay().labels().at(0).anchor.x() > 400; }, 20'000));
+    restOn(middleOfFigure());
+    ASSERT_TRUE(QTest::qWaitFor([&] { return card->facts().has_value(); }));
+    // As where somebody walks on under a pointer that rests.
+    const QPoint head = viewport.overlay().labels()[0].head.center().toPoint();
+    QTest::mouseClick(&viewport, Qt::LeftButton, {}, head);
+    ASSERT_TRUE(card->facts().has_value());
+    EXPECT_EQ(card->facts()->segment, "Head");
+    QTest::mouseClick(&viewport, Qt::LeftButton, {}, QPoint(5, viewport.height() - 5));
+    EXPECT_FALSE(card->facts().has_value());
+}
+
 QJsonObject cameraOf(const ViewportWidget& viewport) {
     return viewport.state()["panes"].toObject()["cameras"].toArray().at(0).toObject();
 }
