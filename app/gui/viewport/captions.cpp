@@ -5,10 +5,13 @@
 #include "app/gui/models/text.h"
 #include "app/gui/theme/words.h"
 #include "app/net/connection_help.h"
+#include "core/log/ip_address.h"
 #include "core/model/body/character_pose.h"
 
 #include <algorithm>
+#include <chrono>
 #include <span>
+#include <string>
 
 namespace posewire::gui {
 
@@ -177,6 +180,27 @@ double shownAgeSeconds(model::SessionView& session, const model::CharacterKey& k
         return session.ageSeconds(key);
     }
     return std::max(0.0, log::secondsOf(session.cursorStamp() - pose->stamp));
+}
+
+bool isRenumbered(model::SessionView& session, const model::CharacterKey& key) {
+    constexpr log::Duration kEarly = std::chrono::seconds(2); // metadata may come before the last pose
+    const model::CharacterPose* pose = session.pose(key);
+    if (pose == nullptr || shownAgeSeconds(session, key) < kStaleAge) {
+        return false;
+    }
+    const log::Stamp silent = pose->stamp;
+    const model::ForeignText name = session.displayName(key);
+    const auto hostOf = [&session](const model::CharacterKey& one) {
+        return std::string(log::hostOf(session.addressOf(one.sender).shown()));
+    };
+    return std::ranges::any_of(session.currentCharacters(), [&](const model::Character* other) {
+        const model::MetadataTag* tag = session.metadata(other->key).find("name");
+        const bool isNamesake = other->key != key && tag != nullptr &&
+                                session.displayName(other->key) == name && hostOf(other->key) == hostOf(key);
+        const model::CharacterPose* its = isNamesake ? session.pose(other->key) : nullptr;
+        return its != nullptr && log::secondsOf(its->stamp - silent) >= kStaleAge &&
+               tag->values.back().stamp + kEarly >= silent;
+    });
 }
 
 PropertyValue characterHealth(model::SessionView& session, const model::CharacterKey& key) {

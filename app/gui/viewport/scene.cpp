@@ -226,7 +226,7 @@ void SceneBuilder::build(AxesMode axes, const Overlays& overlays, SceneFrame& fr
     for (const model::Character* shown : characters) {
         const model::Character& character = *shown;
         const model::CharacterPose* pose = poseOf(character.key);
-        if (pose == nullptr) {
+        if (pose == nullptr || isRenumbered(m_session, character.key)) {
             continue;
         }
         if (pose->isObjects) {

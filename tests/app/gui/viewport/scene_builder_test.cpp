@@ -124,6 +124,43 @@ TEST_F(SceneBuilderTest, TheLabelSaysWhoIsHiddenBehindSomebodyElse) {
     EXPECT_EQ(behind(), (std::vector{false, false}));
 }
 
+/// Sends the frames from second to second, as a character of each of the IDs.
+void performAs(Stage& stage, const std::vector<int>& ids, int fromSecond, int toSecond) {
+    constexpr int kRate = 240;
+    performer::Performer performer(sending(1, {2, 12, 13}));
+    for (int frame = fromSecond * kRate; frame < toSecond * kRate; ++frame) {
+        for (wire::Datagram datagram : performer.frame(static_cast<std::uint64_t>(frame))) {
+            for (const int id : ids) {
+                datagram.header.character = static_cast<std::uint8_t>(id);
+                stage.send(datagram, Stage::kStart + log::durationOf(static_cast<double>(frame) / kRate));
+            }
+        }
+    }
+    stage.follow();
+}
+
+TEST_F(SceneBuilderTest, WhoGoesOnUnderAnotherIdLeavesNoFigureBehind) {
+    performAs(stage, {0}, 0, 2);
+    EXPECT_EQ(build().figures.size(), 1U);
+    performAs(stage, {30}, 2, 4);
+    const SceneFrame frame = build();
+    ASSERT_EQ(frame.figures.size(), 1U);
+    EXPECT_EQ(frame.figures[0].key, stage.key(30));
+    EXPECT_EQ(stage.session.currentCharacters().size(), 2U) << "that it is silent is not kept back";
+    stage.session.follow(stage.now + 5s);
+    EXPECT_EQ(build().figures.size(), 1U) << "also where that one falls silent too";
+    performAs(stage, {0, 30}, 4, 5);
+    EXPECT_EQ(build().figures.size(), 2U) << "it is back";
+}
+
+TEST_F(SceneBuilderTest, WhoFallsSilentStaysWhileANamesakeGoesOn) {
+    performAs(stage, {0, 30}, 0, 3);
+    performAs(stage, {30}, 3, 5);
+    const SceneFrame frame = build();
+    ASSERT_EQ(frame.figures.size(), 2U);
+    EXPECT_TRUE(frame.figures[0].look.isHatched);
+}
+
 TEST_F(SceneBuilderTest, PropsLookLikeWhatTheyAreCalled) {
     performer::PerformerSettings settings = sending(1, {2, 12, 13});
     settings.props = 4;
