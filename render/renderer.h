@@ -37,7 +37,8 @@ struct RenderQuality {
     bool plainFloor = false;
     /// Shadows are those of the low meshes.
     bool lowShadows = false;
-    /// Bodies that are less tall than this in the picture are drawn by their low meshes; device pixels.
+    /// Bodies that are less tall than this in the picture are drawn by their low meshes; device pixels. Where
+    /// a segment is selected, only those that are small anyhow.
     float lowBodiesBelow = 0.0F;
     /// Where a body shades itself, the edge of the shadow is not softened.
     bool hardSelfShadow = false;

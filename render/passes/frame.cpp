@@ -118,6 +118,9 @@ void fitLight(Frame& frame, int shadowMapSize) {
     }
 }
 
+/// Of a body with a selected segment; device pixels of its height.
+constexpr float kLeastWithBorder = 160.0F;
+
 /// Where each is in the picture, and by what mesh it is drawn there.
 void placeOnScreen(Frame& frame, const MeshStore& meshes, float lowBodiesBelow) {
     const glm::mat4& viewProjection = frame.block.viewProjection;
@@ -140,7 +143,10 @@ void placeOnScreen(Frame& frame, const MeshStore& meshes, float lowBodiesBelow) 
         }
         const float height = 0.5F * (box.max.y - box.min.y) * frame.block.viewport.y;
         const GpuMesh* low = lowMesh(*character.instance, *character.mesh, meshes);
-        if (isVisible && low != nullptr && height < lowBodiesBelow) {
+        // The border of a segment is ragged on few vertices, and only one character has a selected one.
+        const bool hasBorder = selectedBit(character.instance->look) != 0;
+        const float below = hasBorder ? std::min(lowBodiesBelow, kLeastWithBorder) : lowBodiesBelow;
+        if (isVisible && low != nullptr && height < below) {
             character.drawn = low;
         }
     }

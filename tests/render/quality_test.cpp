@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 namespace posewire::render::test {
 namespace {
@@ -155,6 +156,16 @@ TEST_F(QualityTest, SmallBodiesAreOfTheLowMesh) {
     RenderQuality quality = m_interactive;
     quality.lowShadows = true;
     EXPECT_LT(compareImages(shootWith(quality), small, 2).shareBeyond, 0.002);
+}
+
+TEST_F(QualityTest, ASelectedSegmentIsNotOfTheLowMesh) {
+    add(grounded(standingPose(), mesh()), kBlue).lowMesh = m_low;
+    scene.camera.distance = 3.0F;
+    RenderQuality coarse = m_interactive;
+    coarse.lowBodiesBelow = std::numeric_limits<float>::max();
+    EXPECT_NE(shootWith(coarse).pixels, shootWith(m_interactive).pixels);
+    characters[0].look.selectedSegment = T12;
+    EXPECT_EQ(shootWith(coarse).pixels, shootWith(m_interactive).pixels);
 }
 
 double areaOf(std::span<const glm::vec4> rectangles) {
