@@ -3,9 +3,8 @@
 // palettes and looks, a camera that follows, and the texts and places of their labels. The floor is moving
 // 52,000 points by a rigid motion, a millisecond where the limit was set.
 //   scene_bench [--check] [--brief]
-#include "app/gui/models/text.h"
 #include "app/gui/viewport/camera_motion.h"
-#include "app/gui/viewport/captions.h"
+#include "app/gui/viewport/labels.h"
 #include "app/gui/viewport/scene.h"
 #include "tests/app/gui/models/stage.h"
 
@@ -82,11 +81,9 @@ Costs prepare(Stage& stage, SceneBuilder& builder, CameraMotion& motion) {
     motion.follow(boxes, kAspect, 0.016);
     const double followed = threadCpuMs();
     std::size_t letters = 0;
-    for (const Figure& figure : frame.figures) {
-        const auto place = motion.camera().project(figure.labelPosition, kAspect);
-        const QString name = shown(stage.session.displayName(figure.key));
-        const PropertyValue health = characterHealth(stage.session, figure.key);
-        letters += static_cast<std::size_t>(name.size() + health.text.size()) + (place ? 1 : 0);
+    frame.camera = motion.camera();
+    for (const ViewportLabel& label : labelsOf(frame, stage.session, {1280, 720})) {
+        letters += static_cast<std::size_t>(label.name.size() + label.state.text.size());
     }
     asm volatile("" : : "r"(letters) : "memory");
     costs.characters = frame.figures.size();
