@@ -73,7 +73,7 @@ LabelText textOf(const ViewportLabel& label, const QFontMetricsF& metrics, qreal
     const QString symbol = healthSymbol(label.state.health);
     text.brief = frame + 0.4 * unit + metrics.horizontalAdvance(initialsOf(label.name) + symbol);
     // The end tells it from others as well as the beginning does.
-    text.shortName = metrics.elidedText(label.name, Qt::ElideMiddle, 5.5 * unit);
+    text.shortName = metrics.elidedText(label.name, Qt::ElideMiddle, 8 * unit);
     text.named = frame + 0.4 * unit + metrics.horizontalAdvance(text.shortName + symbol);
     if (text.named <= text.brief) {
         text.named = 0;

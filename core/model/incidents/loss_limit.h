@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/log/stream_index.h"
 #include "core/model/accounting/stream_counts.h"
 #include "core/model/incidents/incidents.h"
 

@@ -88,25 +88,31 @@ void ThresholdWatch::retire(log::SenderId sender) {
 
 /// How bad losses are that last.
 void ThresholdWatch::noteLosses(log::Stamp stamp, Incidents& incidents) const {
-    const TimeRange window = windowBefore(stamp);
-    const TimeRange recent{window.to - kRecentTime, window.to};
-    for (const Incident* loss : incidents.current()) {
-        if (loss->kind == IncidentKind::Loss) {
-            incidents.noteShares(loss->number, sharesOf(*loss, window, incidents),
-                                 sharesOf(*loss, recent, incidents), m_thresholds.lossPercent,
-                                 m_thresholds.hysteresis);
-        }
+    std::vector<const Incident*> losses = incidents.current();
+    std::erase_if(losses, [](const Incident* one) { return one->kind != IncidentKind::Loss; });
+    if (losses.empty()) {
+        return;
     }
-}
-
-std::vector<double> ThresholdWatch::sharesOf(const Incident& loss, const TimeRange& range,
-                                             const Incidents& incidents) const {
-    const auto silent = lossesInSilences(incidents, range);
-    return judgedShares(loss, [&](const Incident::Part& part) {
-        const log::StreamKey key{loss.sender, part.character.value_or(0), part.type.value_or(0)};
-        const auto stream = std::ranges::find(m_awake, key, [](const Stream* one) { return one->key; });
-        return stream == m_awake.end() ? LossShare() : shareIn(**stream, range, silent);
-    });
+    std::unordered_map<log::StreamKey, const Stream*> awake;
+    for (const Stream* stream : m_awake) {
+        awake[stream->key] = stream;
+    }
+    const auto sharesIn = [&](const TimeRange& range) {
+        return [&, range, silent = lossesInSilences(incidents, range)](const Incident& loss) {
+            return judgedShares(loss, [&](const Incident::Part& part) {
+                const auto stream =
+                    awake.find({loss.sender, part.character.value_or(0), part.type.value_or(0)});
+                return stream == awake.end() ? LossShare() : shareIn(*stream->second, range, silent);
+            });
+        };
+    };
+    const TimeRange window = windowBefore(stamp);
+    const auto inWindow = sharesIn(window);
+    const auto recently = sharesIn({window.to - kRecentTime, window.to});
+    for (const Incident* loss : losses) {
+        incidents.noteShares(loss->number, inWindow(*loss), recently(*loss), m_thresholds.lossPercent,
+                             m_thresholds.hysteresis);
+    }
 }
 
 TimeRange ThresholdWatch::windowBefore(log::Stamp stamp) const {

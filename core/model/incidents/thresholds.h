@@ -67,9 +67,6 @@ private:
     };
     void check(Stream& stream, log::Stamp stamp, Incidents& incidents) const;
     void noteLosses(log::Stamp stamp, Incidents& incidents) const;
-    /// As Incidents::noteShares() takes them.
-    [[nodiscard]] std::vector<double> sharesOf(const Incident& loss, const TimeRange& range,
-                                               const Incidents& incidents) const;
     [[nodiscard]] TimeRange windowBefore(log::Stamp stamp) const;
     [[nodiscard]] double chanceOf(const Stream& stream) const;
     bool noteRate(Stream& stream, log::Stamp to, log::Stamp now, Incidents& incidents) const;
