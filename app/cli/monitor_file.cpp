@@ -17,6 +17,7 @@ public:
           m_clock(run.log().timeline()),
           m_name(log::nameOf(log::pathOf(options.file).filename())),
           m_followsClosely(options.asJsonLines),
+          m_interval(log::durationOf(options.intervalSeconds)),
           m_longest(options.durationSeconds > 0 ? log::durationOf(options.durationSeconds)
                                                 : log::Duration::max()) {}
 
@@ -33,6 +34,7 @@ public:
         if (m_isDone) {
             return;
         }
+        tellSilenceUntil(stamp);
         m_last = std::max(m_last.value_or(stamp), stamp);
         m_newest = stamp;
         auto& log = m_run.log();
@@ -67,7 +69,9 @@ public:
     /// All of it is there.
     void end() {
         if (m_last && m_reception) {
-            m_last = std::max(*m_last, m_newest + m_reception->afterLast);
+            const log::Stamp end = std::max(*m_last, m_newest + m_reception->afterLast);
+            tellSilenceUntil(end);
+            m_last = end;
         }
         flush();
     }
@@ -96,11 +100,30 @@ public:
 private:
     static constexpr log::Duration kLineStep = std::chrono::milliseconds(10);
 
+    /// Lines come in a silence too, when it turns the verdict and each interval: closely while it is new.
+    void tellSilenceUntil(log::Stamp stamp) {
+        constexpr log::Duration kSilentStep = std::chrono::milliseconds(50);
+        constexpr log::Duration kNew = std::chrono::seconds(2);
+        constexpr int kMostSteps = 10'000;
+        if (!m_followsClosely || !m_last || stamp - *m_last <= kSilentStep) {
+            return;
+        }
+        flush();
+        const log::Stamp from = *m_last;
+        log::Stamp now = from + kSilentStep;
+        for (int steps = 0; now < stamp && steps < kMostSteps && !m_run.isOver(); ++steps) {
+            m_run.follow(now);
+            m_run.show({.durationS = durationS()}, now);
+            now += now - from < kNew ? kSilentStep : std::max(m_interval, kSilentStep);
+        }
+    }
+
     MonitorRun& m_run;
     std::optional<log::Recorder>& m_recorder;
     log::RecordedClock m_clock;
     const std::string m_name;
     const bool m_followsClosely; ///< so that lines come when the verdict changes
+    const log::Duration m_interval;
     const log::Duration m_longest;
     DatagramPacer m_pacer{1.0 / 240, 1.0};
     std::size_t m_waiting = 0;

@@ -11,6 +11,7 @@
 namespace posewire::cli::test {
 namespace {
 
+using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::StartsWith;
@@ -104,6 +105,32 @@ TEST(MonitorCommand, PrintsALineAtOnceWhenWhatWentOnIsOver) {
     }
     EXPECT_GE(overAt, 4.7) << run.out;
     EXPECT_LE(overAt, 5.1) << run.out;
+}
+
+TEST(MonitorCommand, PrintsLinesInASilenceOfARecordingToo) {
+    RecordingFile file;
+    for (std::uint32_t sample = 0; sample < 1500; ++sample) {
+        if (sample < 480 || sample >= 960) { // nothing comes for two seconds
+            file.addPose(sample);
+        }
+    }
+    const ProgramRun run = runProgram({"monitor", file.finish(), "--json-lines", "--interval", "0.5"});
+    const auto begin = RecordingFile::kStart.time_since_epoch() / std::chrono::nanoseconds(1);
+    std::istringstream text(run.out);
+    std::vector<std::string> states;
+    double goodAt = 0; // for the last time before the end of the silence
+    for (std::string one; std::getline(text, one);) {
+        const Json line = Json::parse(one, nullptr, false);
+        const double at = static_cast<double>(line["timeNs"].get<std::int64_t>() - begin) / 1e9;
+        if (at > 1.99 && at < 3.99) {
+            states.push_back(line["verdict"]["state"]);
+            goodAt = states.back() == "good" ? at : goodAt;
+        }
+    }
+    ASSERT_GE(states.size(), 4U) << run.out;
+    EXPECT_LE(goodAt, 2.25);
+    EXPECT_THAT(states, Contains("warning"));
+    EXPECT_EQ(states.back(), "bad");
 }
 
 TEST(MonitorCommand, SaysInItsLastLineWhatIsSettledAtTheEnd) {
