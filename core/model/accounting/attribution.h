@@ -211,6 +211,7 @@ private:
                                     std::uint16_t localPort) const;
     [[nodiscard]] const Damage* damageWithin(const Gap& gap) const;
     [[nodiscard]] bool hasPaused(const Gap& gap, const Sender& sender) const;
+    [[nodiscard]] const Gap* cutBeside(const Gap& gap, const Sender& sender) const;
     [[nodiscard]] Gap* find(std::uint64_t number) {
         return number < m_firstGap ? nullptr : &m_gaps[number - m_firstGap];
     }

@@ -64,16 +64,24 @@ void Attribution::findCause(Gap& gap, const Stream& stream) const {
         }
     }
     const TimeRange when{gap.fromStamp - kMeanwhile, gap.toStamp + kMeanwhile};
+    const std::uint32_t step = stream.accounting.step(); // what others bring between is not missing here
     for (const Stream* other : sender.streams) {
         if (other->key == gap.stream) {
             continue;
         }
-        if (const auto sample = other->accounting.arrivedBetween(gap.fromSample, gap.toSample, when)) {
+        if (const auto sample = other->accounting.arrivedBetween(gap.fromSample, gap.toSample, step, when)) {
             gap.otherType = other->key.type;
             return decide(LossCause::Network, Gap::Evidence::OtherStream, *sample);
         }
     }
-    if (hasPaused(gap, sender)) {
+    if (!hasPaused(gap, sender)) {
+        return;
+    }
+    if (const Gap* cut = cutBeside(gap, sender)) {
+        gap.otherType = cut->stream.type;
+        decide(LossCause::Network, Gap::Evidence::CutOff,
+               cut->isAround(gap.fromSample) ? gap.fromSample : gap.toSample);
+    } else {
         decide(LossCause::Sender, Gap::Evidence::Paused, sender.streams.size());
     }
 }
@@ -115,6 +123,33 @@ bool Attribution::hasPaused(const Gap& gap, const Sender& sender) const {
     const std::int64_t lastedMs = lasted / std::chrono::milliseconds(1);
     const std::int64_t moved = static_cast<std::int32_t>(gap.timeCodeMoved);
     return isSilent && std::abs(moved - lastedMs) <= std::max<std::int64_t>(50, lastedMs / 10);
+}
+
+/// A gap of another stream in the same silence that lacks the sample before or after this one: a sender that
+/// pauses sends its samples whole. Null where there is none.
+const Gap* Attribution::cutBeside(const Gap& gap, const Sender& sender) const {
+    constexpr std::size_t kMostLooked = 512;
+    const auto areNear = [](log::Stamp one, log::Stamp other) {
+        return std::chrono::abs(one - other) < kMeanwhile;
+    };
+    std::size_t looked = 0;
+    for (auto other = m_gaps.rbegin(); other != m_gaps.rend() && looked < kMostLooked; ++other, ++looked) {
+        const bool isBeside = other->stream.sender == gap.stream.sender && other->stream != gap.stream &&
+                              areNear(other->fromStamp, gap.fromStamp) &&
+                              areNear(other->toStamp, gap.toStamp);
+        const auto stream =
+            std::ranges::find(sender.streams, other->stream, [](const Stream* one) { return one->key; });
+        if (!isBeside || other->lost == 0 || stream == sender.streams.end()) {
+            continue;
+        }
+        const std::uint32_t step = std::max((*stream)->accounting.step(), 1U);
+        for (const std::uint32_t sample : {gap.fromSample, gap.toSample}) {
+            if (other->isAround(sample) && (sample - other->fromSample) % step == 0) {
+                return &*other;
+            }
+        }
+    }
+    return nullptr;
 }
 
 } // namespace posewire::model

@@ -30,6 +30,9 @@ std::string Gap::evidenceText() const {
                grouped(figure) + ", which is missing here.";
     case Evidence::Reliable:
         return "TCP loses nothing: " + counted(lost, "sample was", "samples were") + " not sent.";
+    case Evidence::CutOff:
+        return "The silence cut through sample " + grouped(figure) + ": it came here, and not of type " +
+               wire::typeDigits(otherType) + ".";
     case Evidence::Paused:
         return (figure == 1 ? "The only stream of the sender paused for "
                             : "All " + counted(figure, "stream") + " of the sender paused together for ") +

@@ -22,6 +22,7 @@ struct Gap {
         Partial,      ///< of a sample next to it only a part came
         OtherStream,  ///< other streams of the sender brought one of the samples
         Reliable,     ///< TCP loses nothing
+        CutOff,       ///< a silence of all streams began or ended within a sample
         Paused,       ///< all streams of the sender paused together, and the time code moved with the pause
     };
 
@@ -39,7 +40,7 @@ struct Gap {
     std::uint32_t timeCodeMoved = 0; ///< ms
     std::uint64_t figure = 0;        ///< of the evidence: datagrams, a sample, ms
     std::uint64_t incident = 0;      ///< that its loss is told in; 0 for none
-    std::uint8_t otherType = 0;      ///< of the evidence OtherStream
+    std::uint8_t otherType = 0;      ///< of the evidence OtherStream or CutOff
 
     [[nodiscard]] bool isAround(std::uint32_t sample) const;
     /// One sentence with figures.

@@ -230,6 +230,7 @@ void StreamAccounting::addMalformed(log::Stamp stamp) {
 }
 
 std::optional<std::uint32_t> StreamAccounting::arrivedBetween(std::uint32_t from, std::uint32_t to,
+                                                              std::uint32_t step,
                                                               const TimeRange& when) const {
     const SampleWindow& window = m_ledger.present().window();
     for (std::size_t i = window.find(from + 1).index; i < window.size(); ++i) {
@@ -237,7 +238,8 @@ std::optional<std::uint32_t> StreamAccounting::arrivedBetween(std::uint32_t from
         if (distance(entry.sample, to) >= 0 || distance(from, entry.sample) >= 0) {
             break;
         }
-        if (entry.stamp >= when.from && entry.stamp < when.to) {
+        const bool isMeant = (entry.sample - from) % std::max(step, 1U) == 0;
+        if (isMeant && entry.stamp >= when.from && entry.stamp < when.to) {
             return entry.sample;
         }
     }

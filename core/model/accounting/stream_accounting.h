@@ -125,9 +125,10 @@ public:
     /// Where a range that begins or ends at a stamp does so in fact.
     [[nodiscard]] log::Stamp roundedUp(log::Stamp stamp) const { return m_history.roundedUp(stamp); }
 
-    /// The first sample of this stream between two counters, both exclusive, that came in a span of time.
-    [[nodiscard]] std::optional<std::uint32_t> arrivedBetween(std::uint32_t from, std::uint32_t to,
-                                                              const TimeRange& when) const;
+    /// The first sample of this stream between two counters, both exclusive, that came in a span of time and
+    /// is one of every `step` after the first.
+    [[nodiscard]] std::optional<std::uint32_t>
+    arrivedBetween(std::uint32_t from, std::uint32_t to, std::uint32_t step, const TimeRange& when) const;
     /// Whether some but not all datagrams of a sample came. After a restart, samples of before are known for
     /// a while.
     [[nodiscard]] bool isIncomplete(std::uint32_t sample) const;

@@ -140,6 +140,42 @@ TEST_F(AttributionTest, BlamesTheSenderThatPausesAllItsStreams) {
     }
 }
 
+TEST_F(AttributionTest, BlamesOneForASilenceThatCutsThroughASample) {
+    for (std::uint32_t sample = 1; sample <= 400; ++sample, m_at += 4ms) {
+        if (sample <= 100 || sample > 300) {
+            put(sample, {});
+        }
+        if (sample <= 99 || sample > 300) { // a sender that pauses sends its samples whole
+            put(sample, {.type = 24});
+        }
+    }
+    follow();
+    ASSERT_EQ(m_session.gaps().size(), 2U);
+    for (const Gap& gap : m_session.gaps()) {
+        EXPECT_EQ(gap.cause, LossCause::Network) << gap.evidenceText();
+    }
+    EXPECT_EQ(m_session.gaps().front().evidenceText(),
+              "The silence cut through sample 100: it came here, and not of type 24.");
+}
+
+TEST_F(AttributionTest, TakesNoSampleForEvidenceThatTheStreamWouldNotHaveSent) {
+    for (std::uint32_t sample = 1; sample <= 300; ++sample, m_at += 4ms) {
+        if (sample != 151) { // nothing came of it
+            put(sample, {});
+            if (sample % 3 == 1) {
+                put(sample, {.type = 24});
+            }
+        }
+    }
+    follow();
+    std::uint64_t lost = 0;
+    for (const Gap& gap : m_session.gaps()) {
+        lost += gap.lost;
+        EXPECT_EQ(gap.cause, LossCause::Unknown) << gap.evidenceText();
+    }
+    EXPECT_EQ(lost, 2U);
+}
+
 TEST_F(AttributionTest, BlamesThisComputerForWhatWasSentWhileItsInputWasRemoved) {
     silentInBothStreams({.afterClosed = true});
     ASSERT_EQ(m_session.gaps().size(), 2U);
