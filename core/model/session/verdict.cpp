@@ -223,11 +223,28 @@ void easeTo(const VerdictSpan& span, RecentLosses& losses, Incident& incident) {
     }
 }
 
-/// What of it is to one character: that may be over while others still have it.
+/// What of it is to one character: that may be over while others still have it. The last that lost something
+/// does so for as long as anybody.
 ListedIncident ofOne(const SessionView& session, const ListedIncident& one, std::uint8_t character) {
     ListedIncident own{one.incident.of(character), one.state};
-    own.state = one.state == State::Ongoing ? stateOf(session, own.incident) : one.state;
+    const bool isOfTheLast =
+        one.incident.kind == IncidentKind::Loss && own.incident.lastStamp == one.incident.lastStamp;
+    if (one.state == State::Ongoing && !isOfTheLast) {
+        own.state = stateOf(session, own.incident);
+    }
     return own;
+}
+
+/// A loss that goes on is on those for whom it does: who had it too, and has it no more, is not named.
+ListedIncident ofLasting(const SessionView& session, const ListedIncident& one) {
+    if (one.incident.kind != IncidentKind::Loss || one.state != State::Ongoing) {
+        return one;
+    }
+    std::vector<std::uint8_t> lasting = one.incident.characters();
+    std::erase_if(lasting, [&](std::uint8_t character) {
+        return ofOne(session, one, character).state != State::Ongoing;
+    });
+    return lasting.empty() ? one : ListedIncident{one.incident.of(lasting), one.state};
 }
 
 /// With what comes right now; nothing where it is of all there is.
@@ -268,7 +285,8 @@ public:
             if (!concerns(one.incident, line)) {
                 continue;
             }
-            ListedIncident mine = character ? ofOne(m_session, one, character->character) : one;
+            ListedIncident mine =
+                character ? ofOne(m_session, one, character->character) : ofLasting(m_session, one);
             easeTo(m_span, m_losses, mine.incident);
             const bool isMeant = !character || !isPast(mine, m_span);
             if (isMeant && (!worst || rankOf(*worst) < rankOf(mine))) {

@@ -511,11 +511,31 @@ TEST_F(VerdictTest, LossThatGoesOnForAnotherIsOverForOneThatHasNoneAnyMore) {
         if (sample == 700) {
             EXPECT_TRUE(verdictOn(0).isOver) << verdictOn(0).text;
             EXPECT_FALSE(verdictOn(1).isOver) << verdictOn(1).text;
+            EXPECT_EQ(verdict().text.find("2 characters"), std::string::npos) << verdict().text;
         }
     }
     EXPECT_EQ(of(IncidentKind::Loss).size(), 1U) << "it is one incident all the same";
     EXPECT_EQ(verdictOn(0).state, State::Good) << verdictOn(0).text;
     EXPECT_EQ(verdictOn(1).state, State::Bad) << verdictOn(1).text;
+}
+
+TEST_F(VerdictTest, LossGoesOnForAllAsLongAsForOne) {
+    // Of one character, at times that are close to each other for its two streams together.
+    for (std::uint32_t sample = 1; sample <= 1'200; ++sample, m_at += 10ms) {
+        if (sample < 400 || sample > 700 || sample % 18 != 0) {
+            pose(sample);
+        }
+        if (sample < 400 || sample > 700 || sample % 18 != 9) {
+            m_at += 1ms;
+            send(wire::CentreOfMass{}, sample, m_at);
+            m_at -= 1ms;
+        }
+        if (sample > 400) {
+            ASSERT_EQ(verdict().isOver, verdictOn(0).isOver) << verdict().text << '\n'
+                                                             << verdictOn(0).text << " at " << sample;
+            ASSERT_EQ(verdict().state, verdictOn(0).state) << verdict().text << " at " << sample;
+        }
+    }
 }
 
 TEST_F(VerdictTest, SumsOfIncidentsAreTheSumsOfTheStreamsAtEveryMoment) {
