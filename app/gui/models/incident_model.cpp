@@ -76,6 +76,9 @@ QString shortWordsOf(model::SessionView& view, const IncidentLine& line) {
     model::Incident bare = *line.settled;
     bare.cause.reset();
     bare.detail.clear();
+    if (bare.text().empty()) {
+        return wordsOf(view, line); // what there is to say of it is all there is
+    }
     IncidentLine own = line;
     own.settled = &bare;
     QString words = wordsOf(view, own);

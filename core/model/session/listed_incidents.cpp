@@ -401,6 +401,9 @@ std::string briefOf(const SessionView& session, const ListedIncident& listed) {
         return "restarted";
     case IncidentKind::Conflict:
         return "also from " + otherSender(session, incident);
+    case IncidentKind::Step: // with a cause, that is not known, where it ended
+        return incident.cause ? typesText(incident.types()) + " not sent"
+                              : std::string(nameOf(incident.kind));
     default:
         return std::string(nameOf(incident.kind));
     }

@@ -193,6 +193,25 @@ TEST_F(IncidentModelTest, OneOutageIsOneRowThatOpensToItsStreams) {
     EXPECT_EQ(m_model.index(0, 0, outage).parent(), outage);
 }
 
+TEST_F(IncidentModelTest, SaysInFewWordsTooWhatHasACauseAndNoFigures) {
+    performer::Performer performer(sending(1, {2, 21}, 60.0));
+    for (std::uint64_t frame = 0; frame < 600; ++frame) {
+        for (const wire::Datagram& datagram : performer.frame(frame)) {
+            if (frame < 300 || datagram.header.type() != 21) {
+                m_stage.send(datagram, Stage::kStart + log::durationOf(static_cast<double>(frame) / 60));
+            }
+        }
+    }
+    m_stage.follow();
+    m_model.refresh();
+    const int row = rowOfKind(model::IncidentKind::Step);
+    ASSERT_GE(row, 0);
+    EXPECT_TRUE(m_model.index(row, IncidentModel::kText)
+                    .data(kShortTextRole)
+                    .toString()
+                    .startsWith("Type 21 is not sent any more"));
+}
+
 TEST_F(IncidentModelTest, WhatIsOfOneStreamIsOneRow) {
     perform(0, 240, 60, 63);
     EXPECT_EQ(m_model.rowCount(m_model.index(rowOfKind(model::IncidentKind::Loss), 0)), 0);

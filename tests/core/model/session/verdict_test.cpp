@@ -135,6 +135,7 @@ TEST_F(VerdictTest, IsNotGoodWhileATypeIsMissingThatOthersOfItsCharacterGoOnWith
     EXPECT_NE(now.text.find("type 24 is not sent any more while others of the character go on"),
               std::string::npos)
         << now.text;
+    EXPECT_EQ(now.brief, "type 24 not sent");
     EXPECT_FALSE(now.isOver) << "it is still missing";
     both(801, 2'500, false);
     EXPECT_EQ(verdict().state, State::Good) << "that is how it is sent now";
