@@ -164,18 +164,22 @@ void TransportBar::followMode() {
     }
 }
 
-/// Of the character that is shown; of another that still sends where that one has fallen silent.
+/// Of the character that is shown; of another that still sends poses where that one does not.
 const model::CharacterPose* TransportBar::timedPose() {
-    auto key = shownCharacter(*m_session);
-    const auto sends = [this](const model::Character* one) {
-        return one != nullptr && isLive(*m_session, *one);
+    const auto key = shownCharacter(*m_session);
+    const model::CharacterPose* shown = key ? m_session->pose(*key) : nullptr;
+    const auto isNew = [this](const model::CharacterPose* pose) {
+        return pose != nullptr && log::secondsOf(m_session->cursorStamp() - pose->stamp) < kStaleAge;
     };
-    if (key && !sends(m_session->find(*key))) {
-        const auto characters = m_session->currentCharacters();
-        const auto other = std::ranges::find_if(characters, sends);
-        key = other == characters.end() ? key : std::optional((*other)->key);
+    if (!key || isNew(shown)) {
+        return shown;
     }
-    return key ? m_session->pose(*key) : nullptr;
+    for (const model::Character* other : m_session->currentCharacters()) {
+        if (const model::CharacterPose* pose = m_session->pose(other->key); isNew(pose)) {
+            return pose;
+        }
+    }
+    return shown;
 }
 
 void TransportBar::refresh() {

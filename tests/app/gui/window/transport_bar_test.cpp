@@ -43,5 +43,20 @@ TEST_F(TransportBarTest, TheClockGoesOnWhenTheFirstCharacterFallsSilent) {
               timeOfDay(m_stage.session.wallOf(m_stage.now)));
 }
 
+TEST_F(TransportBarTest, TheClockGoesOnWhereOnlyThePoseOfTheFirstCharacterIsNotSentAnyMore) {
+    performer::Performer both(sending(2, {2, 24}, 60.0));
+    for (std::uint64_t frame = 0; frame < 600; ++frame) {
+        for (const wire::Datagram& datagram : both.frame(frame)) {
+            if (datagram.header.character == 1 || frame < 120 || datagram.header.type() != 2) {
+                m_stage.send(datagram, Stage::kStart + log::durationOf(static_cast<double>(frame) / 60));
+            }
+        }
+    }
+    m_stage.follow();
+    m_bar.refresh();
+    EXPECT_EQ(m_bar.findChild<QLabel*>("transportTime")->text(),
+              timeOfDay(m_stage.session.wallOf(m_stage.now)));
+}
+
 } // namespace
 } // namespace posewire::gui
