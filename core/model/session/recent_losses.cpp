@@ -30,7 +30,8 @@ bool RecentLosses::isAboveLimit(const Incident& incident) {
         const FaultCounts counts = countsOf(incident.sender, part);
         return LossShare{counts.total(), counts.expected};
     });
-    return std::ranges::any_of(shares, [&](double share) { return 100 * share > incident.limit; });
+    const double limit = m_session.isRecording() ? incident.limit : m_session.thresholds().lossPercent;
+    return limit > 0 && std::ranges::any_of(shares, [&](double share) { return 100 * share > limit; });
 }
 
 LossShare RecentLosses::shareOf(const Incident& incident) {

@@ -57,6 +57,28 @@ TEST_F(VerdictTest, SaysOfWhatIsOverOnlyWhatWasLostSinceTheReset) {
     EXPECT_NE(verdict().text.find("3 samples lost on Character 0"), std::string::npos) << verdict().text;
 }
 
+TEST_F(VerdictTest, HoldsALossToTheLimitThereIsNowAfterAResetToo) {
+    for (std::uint32_t sample = 1; sample <= 700; ++sample, m_at += 10ms) {
+        if (sample < 300 || sample % 20 != 0) {
+            pose(sample);
+        }
+    }
+    EXPECT_EQ(verdict().state, State::Bad) << verdict().text;
+    for (const double percent : {50.0, 0.0}) { // raised, and switched off
+        Thresholds limits;
+        limits.lossPercent = percent;
+        m_session.setThresholds(limits);
+        m_session.resetForTake();
+        const auto from = static_cast<std::uint32_t>(percent == 0 ? 801 : 701);
+        for (std::uint32_t sample = from; sample < from + 100; ++sample, m_at += 10ms) {
+            if (sample % 20 != 0) {
+                pose(sample);
+            }
+        }
+        EXPECT_EQ(verdict().state, State::Warning) << verdict().text;
+    }
+}
+
 TEST_F(VerdictTest, SaysOfWhatHappenedOnceThatItIsOverHoweverLongItWas) {
     poses(1, 300);
     posesOfOneTimeCode(301, 600);
