@@ -2,6 +2,7 @@
 #include "core/model/accounting/attribution.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 
 /// Whose loss a gap or the rest of a sample was: the evidence.
@@ -125,28 +126,35 @@ bool Attribution::hasPaused(const Gap& gap, const Sender& sender) const {
     return isSilent && std::abs(moved - lastedMs) <= std::max<std::int64_t>(50, lastedMs / 10);
 }
 
-/// A gap of another stream in the same silence that lacks the sample before or after this one: a sender that
-/// pauses sends its samples whole. Null where there is none.
+/// A gap of another stream in the same silence that lacks the sample before or after this one, as that of a
+/// third does: a sender that pauses sends its samples whole, and one may have been lost by itself. Null where
+/// there is none.
 const Gap* Attribution::cutBeside(const Gap& gap, const Sender& sender) const {
     constexpr std::size_t kMostLooked = 512;
     const auto areNear = [](log::Stamp one, log::Stamp other) {
         return std::chrono::abs(one - other) < kMeanwhile;
     };
+    const auto isOwed = [&](const Gap& other, std::uint32_t sample) {
+        const auto stream =
+            std::ranges::find(sender.streams, other.stream, [](const Stream* one) { return one->key; });
+        return stream != sender.streams.end() &&
+               (sample - other.fromSample) % std::max((*stream)->accounting.step(), 1U) == 0;
+    };
+    std::array<const Gap*, 2> lacking{}; // the sample before, the one after
     std::size_t looked = 0;
     for (auto other = m_gaps.rbegin(); other != m_gaps.rend() && looked < kMostLooked; ++other, ++looked) {
         const bool isBeside = other->stream.sender == gap.stream.sender && other->stream != gap.stream &&
-                              areNear(other->fromStamp, gap.fromStamp) &&
+                              other->lost != 0 && areNear(other->fromStamp, gap.fromStamp) &&
                               areNear(other->toStamp, gap.toStamp);
-        const auto stream =
-            std::ranges::find(sender.streams, other->stream, [](const Stream* one) { return one->key; });
-        if (!isBeside || other->lost == 0 || stream == sender.streams.end()) {
-            continue;
-        }
-        const std::uint32_t step = std::max((*stream)->accounting.step(), 1U);
-        for (const std::uint32_t sample : {gap.fromSample, gap.toSample}) {
-            if (other->isAround(sample) && (sample - other->fromSample) % step == 0) {
-                return &*other;
+        for (const std::size_t edge : {0U, 1U}) {
+            const std::uint32_t sample = edge == 0 ? gap.fromSample : gap.toSample;
+            if (!isBeside || !other->isAround(sample) || !isOwed(*other, sample)) {
+                continue;
             }
+            if (lacking[edge] != nullptr && lacking[edge]->stream != other->stream) {
+                return lacking[edge];
+            }
+            lacking[edge] = &*other;
         }
     }
     return nullptr;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/session/recent_losses.h"
 
+#include "core/model/incidents/thresholds.h"
 #include "core/model/session/loss_amount.h"
 
 #include <algorithm>

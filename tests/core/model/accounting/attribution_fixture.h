@@ -23,6 +23,8 @@ protected:
         wire::Datagram datagram;
         if (sent.type == 2) {
             datagram.body = wire::PoseQuaternion{{{1, {0, 0, 1}, {1, 0, 0, 0}}}};
+        } else if (sent.type == 25) {
+            datagram.body = wire::TimeCode{};
         } else {
             datagram.body = wire::CentreOfMass{};
         }

