@@ -126,8 +126,8 @@ bool Attribution::hasPaused(const Gap& gap, const Sender& sender) const {
     return isSilent && std::abs(moved - lastedMs) <= std::max<std::int64_t>(50, lastedMs / 10);
 }
 
-/// A gap of another stream in the same silence that lacks the sample before or after this one, as that of a
-/// third does: a sender that pauses sends its samples whole, and one may have been lost by itself. Null where
+/// A gap of another stream in the same silence that lacks the sample before or after this one, as many others
+/// do: a sender that pauses sends its samples whole, and a few may have been lost by themselves. Null where
 /// there is none.
 const Gap* Attribution::cutBeside(const Gap& gap, const Sender& sender) const {
     constexpr std::size_t kMostLooked = 512;
@@ -140,7 +140,9 @@ const Gap* Attribution::cutBeside(const Gap& gap, const Sender& sender) const {
         return stream != sender.streams.end() &&
                (sample - other.fromSample) % std::max((*stream)->accounting.step(), 1U) == 0;
     };
-    std::array<const Gap*, 2> lacking{}; // the sample before, the one after
+    const std::size_t many = std::max<std::size_t>(2, sender.streams.size() / 5);
+    std::array<const Gap*, 2> first{}; // that lacks the sample before, the one after
+    std::array<std::size_t, 2> lacking{};
     std::size_t looked = 0;
     for (auto other = m_gaps.rbegin(); other != m_gaps.rend() && looked < kMostLooked; ++other, ++looked) {
         const bool isBeside = other->stream.sender == gap.stream.sender && other->stream != gap.stream &&
@@ -151,10 +153,10 @@ const Gap* Attribution::cutBeside(const Gap& gap, const Sender& sender) const {
             if (!isBeside || !other->isAround(sample) || !isOwed(*other, sample)) {
                 continue;
             }
-            if (lacking[edge] != nullptr && lacking[edge]->stream != other->stream) {
-                return lacking[edge];
+            first[edge] = first[edge] == nullptr ? &*other : first[edge];
+            if (++lacking[edge] >= many) {
+                return first[edge];
             }
-            lacking[edge] = &*other;
         }
     }
     return nullptr;
