@@ -130,7 +130,7 @@ bool Attribution::hasPaused(const Gap& gap, const Sender& sender) const {
 /// do: a sender that pauses sends its samples whole, and a few may have been lost by themselves. Null where
 /// there is none.
 const Gap* Attribution::cutBeside(const Gap& gap, const Sender& sender) const {
-    constexpr std::size_t kMostLooked = 512;
+    constexpr std::size_t kMostBeside = 512;
     const auto areNear = [](log::Stamp one, log::Stamp other) {
         return std::chrono::abs(one - other) < kMeanwhile;
     };
@@ -144,7 +144,7 @@ const Gap* Attribution::cutBeside(const Gap& gap, const Sender& sender) const {
     std::array<const Gap*, 2> first{}; // that lacks the sample before, the one after
     std::array<std::size_t, 2> lacking{};
     std::size_t looked = 0;
-    for (auto other = m_gaps.rbegin(); other != m_gaps.rend() && looked < kMostLooked; ++other, ++looked) {
+    for (auto other = m_gaps.rbegin(); other != m_gaps.rend() && looked < kMostBeside; ++other, ++looked) {
         const bool isBeside = other->stream.sender == gap.stream.sender && other->stream != gap.stream &&
                               other->lost != 0 && areNear(other->fromStamp, gap.fromStamp) &&
                               areNear(other->toStamp, gap.toStamp);
