@@ -11,8 +11,6 @@
 
 namespace posewire::gui {
 
-namespace {} // namespace
-
 FaultsPanel::FaultsPanel(model::SessionView& view, Commands& commands, QWidget* parent)
     : Panel(view, commands, parent),
       m_faults(view),

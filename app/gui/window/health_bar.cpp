@@ -125,7 +125,7 @@ QString HealthBar::said() const {
 }
 
 void HealthBar::takeMessage(HealthBar& from) {
-    if (const QString text = from.m_message->said(); !text.isEmpty()) {
+    if (const QString text = from.said(); !text.isEmpty()) {
         say(text, from.m_helpPlace);
         from.say({});
     }

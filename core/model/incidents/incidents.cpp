@@ -222,8 +222,8 @@ void Incidents::noteShares(std::uint64_t number, const std::vector<double>& inWi
         Incident::Part& part = incident->parts[i];
         const double percent = 100 * inWindow[i];
         const bool isInWindow = limit > 0 && percent > limit;
-        const bool isAbove = 100 * recent[i] > limit * (part.isAbove ? hysteresis : 1) &&
-                             (part.isAbove ? limit > 0 : isInWindow);
+        const double enough = limit * (part.isAbove ? hysteresis : 1);
+        const bool isAbove = limit > 0 && 100 * recent[i] > enough && (part.isAbove || isInWindow);
         isOther = isOther || isAbove != part.isAbove;
         part.isAbove = isAbove;
         if (isInWindow && percent > incident->value) {

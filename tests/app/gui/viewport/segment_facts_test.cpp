@@ -110,13 +110,21 @@ TEST_F(SegmentFactsTest, AreSpokenByTheCard) {
     EXPECT_TRUE(card.isHidden());
 }
 
+/// A card in a viewport of 900 × 700 without a banner.
+struct CardView {
+    CardView() {
+        viewport.resize(900, 700);
+        banner.hide();
+    }
+    QWidget viewport;
+    QWidget banner{&viewport};
+    SegmentCard card{&viewport, banner};
+};
+
 TEST_F(SegmentFactsTest, StandAsideOfTheBodyThatTheyAreAbout) {
     perform({2, 13});
-    QWidget viewport;
-    viewport.resize(900, 700);
-    QWidget banner(&viewport);
-    banner.hide();
-    SegmentCard card(&viewport, banner);
+    CardView view;
+    SegmentCard& card = view.card;
     card.keepClearOf({100, 100, 100, 580});
     card.setFacts(facts(model::segment::kHead));
     EXPECT_GT(card.x(), 450) << "at the right, where mostly floor is";
@@ -133,12 +141,9 @@ TEST_F(SegmentFactsTest, StandAsideOfTheBodyThatTheyAreAbout) {
 
 TEST_F(SegmentFactsTest, NeverLieUnderThePointer) {
     perform({2, 13});
-    QWidget viewport;
-    viewport.resize(900, 700);
-    QWidget banner(&viewport);
-    banner.hide();
-    SegmentCard card(&viewport, banner);
-    card.keepClearOf(viewport.rect()); // as near as that, it is on both sides
+    CardView view;
+    SegmentCard& card = view.card;
+    card.keepClearOf(view.viewport.rect()); // as near as that, it is on both sides
     for (const QPoint pointer : {QPoint(800, 640), QPoint(100, 640), QPoint(870, 600)}) {
         card.setPointer(pointer);
         card.setFacts(facts(model::segment::kHead));
