@@ -35,7 +35,7 @@ struct MannequinFileLayout {
     static MannequinFileLayout of(std::size_t vertexCount, std::size_t indexCount);
 };
 
-/// Reads a .glb written by mannequin_generator. Other .glb files are refused: see importCharacter for those.
+/// Reads one of the mannequin's files in `resources`; rejects other .glb files, which importCharacter reads.
 tl::expected<SkinnedMesh, std::string> readMannequinFile(std::string_view bytes);
 
 } // namespace posewire::render

@@ -22,7 +22,6 @@ MAY_INCLUDE = [
     ("core/export", ["core/wire", "core/log", "core/model"]),
     ("core/filter", ["core/wire", "core/log", "core/model"]),
     ("render", []),
-    ("packaging/mannequin", ["render/mesh"]),
     ("packaging/help", ["core/export", "app/gui/help", "app/gui/window"]),
     ("app/usage", []),
     ("app/system", []),
@@ -187,7 +186,7 @@ def main(arguments):
         return self_test()
     root = pathlib.Path(arguments[0])
     found = []
-    for folder in ("core", "render", "app", "packaging/help", "packaging/mannequin", "tests"):
+    for folder in ("core", "render", "app", "packaging/help", "tests"):
         for file in sorted((root / folder).rglob("*")):
             if file.suffix in SOURCES:
                 path = file.relative_to(root).as_posix()

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <deque>
 #include <map>
 #include <string>
 #include <tuple>
@@ -86,6 +87,22 @@ std::array<float, kJointCount> spread(const SkinnedMesh& mesh, std::size_t verte
         weights[mesh.joints[vertex][i]] += mesh.weights[vertex][static_cast<int>(i)];
     }
     return weights;
+}
+
+/// Vertices to skin per triangle if the last 24 are remembered.
+double missesPerTriangle(const SkinnedMesh& mesh) {
+    std::deque<std::uint32_t> cache;
+    std::size_t misses = 0;
+    for (const std::uint32_t vertex : mesh.indices) {
+        if (std::ranges::find(cache, vertex) == cache.end()) {
+            ++misses;
+            cache.push_back(vertex);
+            if (cache.size() > 24) {
+                cache.pop_front();
+            }
+        }
+    }
+    return static_cast<double>(misses) / static_cast<double>(mesh.triangleCount());
 }
 
 class MannequinTest : public testing::TestWithParam<Detail> {
@@ -227,6 +244,16 @@ TEST_P(MannequinTest, HasItsSegmentsWhereTheReferenceNullPosePutsThem) {
         if (std::abs(origin.y) > 0.1F) {
             ASSERT_GT(origin.y * m_mesh.positions[i].y, 0.0F);
         }
+    }
+}
+
+TEST_P(MannequinTest, OrdersTrianglesSoThatVerticesAreSkinnedAboutOnce) {
+    EXPECT_LT(missesPerTriangle(m_mesh), 0.75);
+    // Vertices come in the order of their first use.
+    std::uint32_t next = 0;
+    for (const std::uint32_t vertex : m_mesh.indices) {
+        ASSERT_LE(vertex, next);
+        next = std::max(next, vertex + 1);
     }
 }
 
