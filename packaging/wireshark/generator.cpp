@@ -19,7 +19,7 @@ bool replaceLine(std::string& text, std::string_view line, std::string_view with
 
 } // namespace
 
-/// dissector_generator TEMPLATE OUTPUT: writes what packaging/wireshark/mxtp.lua should be.
+/// dissector_generator TEMPLATE OUTPUT: writes mxtp.lua.
 int main(int argc, char** argv) {
     if (argc != 3) {
         std::cerr << "usage: dissector_generator TEMPLATE OUTPUT\n";
