@@ -7,10 +7,8 @@
 
 namespace posewire::usage {
 
-/// Scripts by which a shell completes commands, options and their values. Each is a whole file, for the
-/// folder where its shell looks for completions.
+/// The script by which bash completes commands, options and their values: a whole file, for the folder where
+/// bash looks for completions.
 [[nodiscard]] std::string bashCompletion(const Program& program);
-[[nodiscard]] std::string fishCompletion(const Program& program);
-[[nodiscard]] std::string zshCompletion(const Program& program);
 
 } // namespace posewire::usage

@@ -2,7 +2,6 @@
 #include "app/usage/usage.h"
 
 #include <algorithm>
-#include <array>
 
 namespace posewire::usage {
 namespace {
@@ -51,17 +50,6 @@ bool takesFile(const Option& option) {
     return std::ranges::any_of(alternativesOf(option), [](const std::string& alternative) {
         return alternative == "FILE" || alternative.starts_with("FILE.");
     });
-}
-
-std::string shortText(std::string_view text) {
-    constexpr std::array<std::string_view, 4> ends{"; ", ". ", ": ", " ("};
-    for (const std::string_view end : ends) {
-        text = text.substr(0, text.find(end));
-    }
-    if (text.ends_with('.')) {
-        text.remove_suffix(1);
-    }
-    return std::string(text);
 }
 
 std::string joined(const std::vector<std::string>& words, std::string_view separator) {

@@ -53,9 +53,6 @@ struct Program {
 /// Whether it may be the name of a file.
 [[nodiscard]] bool takesFile(const Option& option);
 
-/// The first thing that the text says, in one line without a stop, for a list of completions.
-[[nodiscard]] std::string shortText(std::string_view text);
-
 /// `separator` between the words.
 [[nodiscard]] std::string joined(const std::vector<std::string>& words, std::string_view separator);
 

@@ -56,11 +56,8 @@ int main(int argc, char** argv) {
     const Places places{argv[1], argv[2], {argv[3], argv[4]}};
     bool isWritten = true;
     for (const usage::Program& program : std::array{gui::programUsage(), cli::Program().line.usage()}) {
-        isWritten =
-            isWritten && writePage(program, places) &&
-            write(places.output / "bash" / program.name, usage::bashCompletion(program)) &&
-            write(places.output / "fish" / (program.name + ".fish"), usage::fishCompletion(program)) &&
-            write(places.output / "zsh" / ('_' + program.name), usage::zshCompletion(program));
+        isWritten = isWritten && writePage(program, places) &&
+                    write(places.output / "bash" / program.name, usage::bashCompletion(program));
     }
     return isWritten ? 0 : 1;
 }

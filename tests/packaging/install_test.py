@@ -30,8 +30,7 @@ def expected():
     files |= {f"share/doc/posewire/html/{page.stem}.html" for page in (RESOURCES / "help").glob("*.md")}
     files |= {f"share/doc/posewire/html/pictures/{one.name}" for one in (RESOURCES / "pictures/help").glob("*.png")}
     for name in PROGRAMS:
-        files |= {f"bin/{name}", f"share/man/man1/{name}.1.gz", f"share/bash-completion/completions/{name}",
-                  f"share/fish/vendor_completions.d/{name}.fish", f"share/zsh/vendor-completions/_{name}"}
+        files |= {f"bin/{name}", f"share/man/man1/{name}.1.gz", f"share/bash-completion/completions/{name}"}
     for name in PACKAGES:
         files |= {f"share/doc/{name}/{file}" for file in ("copyright", "changelog.gz", "changelog.Debian.gz")}
         files.add(f"share/lintian/overrides/{name}")

@@ -50,14 +50,5 @@ TEST(Usage, AFileIsCalledFileWithOrWithoutASuffix) {
     EXPECT_FALSE(takesFile(withForm("")));
 }
 
-TEST(Usage, AShortTextEndsBeforeItsFirstAside) {
-    EXPECT_EQ(shortText("Colours; those of the system by default."), "Colours");
-    EXPECT_EQ(shortText("Show this text."), "Show this text");
-    EXPECT_EQ(shortText("Listen (repeatable). Others are counted."), "Listen");
-    EXPECT_EQ(shortText("write a report: what was received"), "write a report");
-    EXPECT_EQ(shortText("see example.org"), "see example.org");
-    EXPECT_EQ(shortText(""), "");
-}
-
 } // namespace
 } // namespace posewire::usage
