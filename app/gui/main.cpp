@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/base/logging.h"
+#include "app/gui/base/options.h"
+#include "app/gui/base/saving.h"
 #include "app/gui/ending_signals.h"
-#include "app/gui/logging.h"
-#include "app/gui/options.h"
 #include "app/gui/plots/time_plot.h"
-#include "app/gui/saving.h"
 #include "app/gui/theme/event_watch.h"
 #include "app/gui/theme/icons.h"
 #include "app/gui/viewport/own_characters.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/program.h"
-#include "app/gui/options.h"
+#include "app/gui/base/options.h"
 #include "app/usage/completion.h"
 #include "app/usage/manual_page.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/dock_layout.h"
-#include "app/gui/settings.h"
+#include "app/gui/base/dock_layout.h"
+#include "app/gui/base/settings.h"
 
 #include <QApplication>
 #include <QDockWidget>

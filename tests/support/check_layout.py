@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Holds the source tree to its rules: who may include whom, how long a file may be, how it begins.
+"""Holds the source tree to its rules: who may include whom, no circle of folders, how long a file may be, how it begins.
 
 usage: check_layout.py SOURCE_DIR | check_layout.py --self-test
 Prints one line for each breach and exits 1 if there is one.
@@ -30,12 +30,13 @@ MAY_INCLUDE = [
     ("app/cli", ["core", "app/net", "app/figure", "app/system", "app/usage"]),
     ("app/gui/theme", []),
     ("app/gui/help", ["core", "app/gui/theme"]),
-    ("app/gui/models", ["core", "app/gui/*", "app/gui/theme"]),
+    ("app/gui/base", ["core", "app/net", "app/usage", "app/gui/theme"]),
+    ("app/gui/models", ["core", "app/gui/base", "app/gui/theme"]),
     ("app/gui/plots", ["app/gui/theme"]),
-    ("app/gui/panels", ["core", "app/gui/*", "app/gui/theme", "app/gui/models", "app/gui/plots"]),
-    ("app/gui/driver", ["core", "app/net", "app/system", "app/gui/*"]),
-    ("app/gui/viewport", ["core", "render", "app/net", "app/system", "app/gui/*", "app/gui/theme", "app/gui/models"]),
-    ("app/gui/inputs", ["core", "app/net", "app/gui/*", "app/gui/theme", "app/gui/models", "app/gui/panels", "app/gui/driver"]),
+    ("app/gui/panels", ["core", "app/gui/base", "app/gui/theme", "app/gui/models", "app/gui/plots"]),
+    ("app/gui/driver", ["core", "app/net", "app/system", "app/gui/base"]),
+    ("app/gui/viewport", ["core", "render", "app/net", "app/system", "app/gui/base", "app/gui/theme", "app/gui/models"]),
+    ("app/gui/inputs", ["core", "app/net", "app/gui/base", "app/gui/theme", "app/gui/models", "app/gui/panels", "app/gui/driver"]),
     ("app/gui", ["core", "app/net", "app/figure", "app/system", "app/usage"]),
 ]
 # What a folder must not include, although the table above would let it, or although it is no file of ours.
@@ -132,6 +133,22 @@ def breaches(path, text):
     return found
 
 
+def cycles(texts):
+    """The folders that include each other, directly or by way of others; `texts` by path."""
+    uses = {}
+    for path, text in texts.items():
+        folder = str(pathlib.PurePosixPath(path).parent)
+        targets = {str(pathlib.PurePosixPath(include[1:-1]).parent) for include in INCLUDE.findall(text)
+                   if include.startswith('"') and "/" in include}
+        uses.setdefault(folder, set()).update(targets - {folder})
+    # What is used by no other of those that are left is in no circle, nor what uses no other of them.
+    while ends := [folder for folder in uses
+                   if not uses[folder] & uses.keys() or not any(folder in other for other in uses.values())]:
+        for folder in ends:
+            del uses[folder]
+    return [f"folders in a circle: {', '.join(sorted(uses))}"] if uses else []
+
+
 def self_test():
     head = "// SPDX-License-Identifier: MIT\n#pragma once\n"
     gpl = "// SPDX-License-Identifier: GPL-3.0-or-later\n"
@@ -149,7 +166,7 @@ def self_test():
         ("app/gui/a.cpp", gpl + "#include <unistd.h>\n", 1),
         ("core/log/a.cpp", head.replace("#pragma once\n", "") + "#include <sys/mman.h>\n", 1),
         ("core/log/a_linux.cpp", head.replace("#pragma once\n", "") + "#include <sys/mman.h>\n", 0),
-        ("app/gui/panels/a.cpp", gpl + '#include "app/gui/commands.h"\n', 0),
+        ("app/gui/panels/a.cpp", gpl + '#include "app/gui/base/commands.h"\n', 0),
         ("app/gui/panels/a.cpp", gpl + '#include "app/gui/window/main_window.h"\n', 1),
         ("app/gui/panels/a_panel.cpp", gpl + '#include "app/gui/panels/b_panel.h"\n', 1),
         ("app/gui/panels/a_panel.cpp", gpl + '#include "app/gui/panels/a_panel.h"\n', 0),
@@ -177,7 +194,12 @@ def self_test():
     for path, text, expected in cases:
         found = breaches(path, text)
         assert len(found) == expected, (path, text[:80], found)
-    print(f"{len(cases)} cases as expected")
+    files = {"app/gui/a/x.h": '#include "app/gui/b/x.h"\n', "app/gui/b/x.h": '#include "app/gui/b/y.h"\n',
+             "app/gui/b/y.cpp": '#include "app/gui/c/x.h"\n', "app/net/x.h": '#include "app/gui/a/x.h"\n'}
+    assert cycles(files) == [], cycles(files)
+    files["app/gui/c/x.h"] = '#include "app/gui/a/x.h"\n'
+    assert cycles(files) == ["folders in a circle: app/gui/a, app/gui/b, app/gui/c"], cycles(files)
+    print(f"{len(cases) + 2} cases as expected")
     return 0
 
 
@@ -186,11 +208,16 @@ def main(arguments):
         return self_test()
     root = pathlib.Path(arguments[0])
     found = []
+    acyclic = {}
     for folder in ("core", "render", "app", "packaging/help", "tests"):
         for file in sorted((root / folder).rglob("*")):
             if file.suffix in SOURCES:
                 path = file.relative_to(root).as_posix()
-                found += breaches(path, file.read_text(encoding="utf-8"))
+                text = file.read_text(encoding="utf-8")
+                found += breaches(path, text)
+                if folder in ("core", "app"):
+                    acyclic[path] = text
+    found += cycles(acyclic)
     print("\n".join(found) if found else "every file keeps the rules")
     return 1 if found else 0
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/gui/base/saving.h"
 #include "app/gui/driver/file_import.h"
-#include "app/gui/saving.h"
 #include "core/log/clock.h"
 #include "core/log/packet_log.h"
 #include "core/model/session/session.h"

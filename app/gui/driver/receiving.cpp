@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/driver/receiving.h"
 
-#include "app/gui/logging.h"
-#include "app/gui/saving.h"
+#include "app/gui/base/logging.h"
+#include "app/gui/base/saving.h"
 #include "core/wire/header.h"
 
 #include <QCoreApplication>

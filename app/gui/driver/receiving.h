@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/gui/base/program_view.h"
 #include "app/gui/driver/relaying.h"
-#include "app/gui/program_view.h"
 #include "app/net/allow_list.h"
 #include "app/net/receiver.h"
 #include "core/log/clock.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What is shown against a second recording.
+#include "app/gui/base/logging.h"
+#include "app/gui/base/saving.h"
 #include "app/gui/driver/session_driver.h"
-#include "app/gui/logging.h"
-#include "app/gui/saving.h"
 
 namespace posewire::gui {
 

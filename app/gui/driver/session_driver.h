@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/commands.h"
+#include "app/gui/base/commands.h"
+#include "app/gui/base/program_view.h"
 #include "app/gui/driver/comparing.h"
 #include "app/gui/driver/opened_file.h"
 #include "app/gui/driver/program_health.h"
 #include "app/gui/driver/receiving.h"
 #include "app/gui/driver/replaying.h"
 #include "app/gui/driver/takes.h"
-#include "app/gui/program_view.h"
 #include "core/log/disk_history.h"
 #include "core/model/session/held_up.h"
 #include "core/model/session/playback.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/driver/takes.h"
 
-#include "app/gui/logging.h"
+#include "app/gui/base/logging.h"
 #include "core/log/pcapng_writer.h"
 #include "core/model/session/listed_incidents.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/comparison.h"
+#include "app/gui/base/comparison.h"
 
 #include <QColor>
 #include <QString>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/gui/base/program_view.h"
 #include "app/gui/models/column.h"
-#include "app/gui/program_view.h"
 #include "core/model/session/session_view.h"
 
 namespace posewire::gui {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the menus do with a comparison.
+#include "app/gui/base/saving.h"
 #include "app/gui/panels/compare_panel.h"
-#include "app/gui/saving.h"
 
 namespace posewire::gui {
 

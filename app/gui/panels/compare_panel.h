@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/comparison.h"
+#include "app/gui/base/comparison.h"
+#include "app/gui/base/panel.h"
 #include "app/gui/models/difference_model.h"
-#include "app/gui/panel.h"
 #include "app/gui/panels/compare_bar.h"
 #include "app/gui/panels/table_view.h"
 #include "app/gui/plots/time_plot.h"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/panels/incidents_panel.h"
 
+#include "app/gui/base/saving.h"
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
 #include "app/gui/panels/table_view.h"
-#include "app/gui/saving.h"
 #include "app/gui/theme/help_link.h"
 
 #include <QEvent>

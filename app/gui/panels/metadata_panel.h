@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/gui/base/panel.h"
 #include "app/gui/models/metadata_model.h"
-#include "app/gui/panel.h"
 #include "app/gui/panels/table_view.h"
 #include "app/gui/theme/widgets.h"
 

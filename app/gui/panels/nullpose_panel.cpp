@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/panels/nullpose_panel.h"
 
-#include "app/gui/help_topics.h"
+#include "app/gui/base/help_topics.h"
+#include "app/gui/base/saving.h"
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
 #include "app/gui/panels/cell_delegate.h"
-#include "app/gui/saving.h"
 #include "app/gui/theme/help_link.h"
 #include "app/gui/theme/widgets.h"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/gui/base/panel.h"
 #include "app/gui/models/column.h"
 #include "app/gui/models/null_pose_table.h"
-#include "app/gui/panel.h"
 #include "app/gui/panels/null_pose_figure.h"
 #include "app/gui/panels/table_view.h"
 #include "core/export/formats.h"

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/gui/base/panel.h"
 #include "app/gui/models/display_filter.h"
 #include "app/gui/models/packet_model.h"
 #include "app/gui/models/packet_search.h"
 #include "app/gui/models/packet_text.h"
-#include "app/gui/panel.h"
 #include "app/gui/panels/find_bar.h"
 #include "app/gui/panels/packet_view.h"
 #include "app/gui/theme/widgets.h"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/gui/base/panel.h"
 #include "app/gui/models/column.h"
 #include "app/gui/models/packet_jump.h"
 #include "app/gui/models/statistics_model.h"
-#include "app/gui/panel.h"
 #include "app/gui/panels/range_bar.h"
 #include "app/gui/panels/table_view.h"
 #include "app/gui/theme/widgets.h"

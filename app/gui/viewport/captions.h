@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/help_topics.h"
+#include "app/gui/base/help_topics.h"
+#include "app/gui/base/program_view.h"
 #include "app/gui/models/column.h"
-#include "app/gui/program_view.h"
 #include "app/gui/theme/theme.h"
 #include "core/model/session/session_view.h"
 

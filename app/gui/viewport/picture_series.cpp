@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/viewport/picture_series.h"
 
-#include "app/gui/saving.h"
+#include "app/gui/base/saving.h"
 #include "app/gui/viewport/drawing_thread.h"
 #include "app/gui/viewport/viewport_overlay.h"
 

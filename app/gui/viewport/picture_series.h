@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/commands.h"
+#include "app/gui/base/commands.h"
 #include "app/gui/viewport/view_look.h"
 #include "core/log/time.h"
 #include "core/model/session/session_view.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/viewport/props.h"
 
-#include "app/gui/viewport/overlays/drawing.h"
+#include "app/gui/viewport/overlay_drawing.h"
 #include "core/model/session/prop_names.h"
 
 namespace posewire::gui {

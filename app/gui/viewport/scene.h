@@ -3,7 +3,7 @@
 
 #include "app/gui/viewport/body_fits.h"
 #include "app/gui/viewport/dressed_body.h"
-#include "app/gui/viewport/overlays/choice.h"
+#include "app/gui/viewport/overlay_choice.h"
 #include "app/gui/viewport/props.h"
 #include "core/log/time.h"
 #include "core/model/body/character_pose.h"

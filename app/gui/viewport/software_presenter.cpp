@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/logging.h"
+#include "app/gui/base/logging.h"
 #include "app/gui/theme/theme.h"
 #include "app/gui/viewport/drawing_thread.h"
 #include "app/gui/viewport/picture_health.h"

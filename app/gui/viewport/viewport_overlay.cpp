@@ -4,7 +4,7 @@
 #include "app/gui/theme/event_watch.h"
 #include "app/gui/theme/help_link.h"
 #include "app/gui/theme/widgets.h"
-#include "app/gui/viewport/overlays/overlays.h"
+#include "app/gui/viewport/overlays.h"
 #include "app/gui/viewport/viewport_widget.h"
 
 #include <QCoreApplication>

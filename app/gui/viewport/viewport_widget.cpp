@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/viewport/viewport_widget.h"
 
-#include "app/gui/logging.h"
+#include "app/gui/base/logging.h"
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
 #include "app/gui/viewport/captions.h"
-#include "app/gui/viewport/overlays/overlays.h"
+#include "app/gui/viewport/overlays.h"
 #include "app/gui/viewport/pane_frame.h"
 #include "app/gui/viewport/picture_health.h"
 #include "app/gui/viewport/pose_banner.h"

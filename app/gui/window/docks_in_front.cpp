@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/dock_layout.h"
+#include "app/gui/base/dock_layout.h"
 #include "app/gui/window/health_bar.h"
 #include "app/gui/window/main_window.h"
 

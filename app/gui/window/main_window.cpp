@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/window/main_window.h"
 
-#include "app/gui/dock_layout.h"
+#include "app/gui/base/dock_layout.h"
 #include "app/gui/help/help_pages.h"
 #include "app/gui/inputs/inputs_page.h"
 #include "app/gui/models/comparison_text.h"

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/gui/base/help_topics.h"
+#include "app/gui/base/panel.h"
+#include "app/gui/base/settings.h"
 #include "app/gui/driver/session_driver.h"
-#include "app/gui/help_topics.h"
 #include "app/gui/inputs/inputs_dialog.h"
-#include "app/gui/panel.h"
-#include "app/gui/settings.h"
 #include "app/gui/viewport/viewport_widget.h"
 #include "app/gui/window/alerts.h"
 #include "app/gui/window/menus.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/window/menus.h"
 
-#include "app/gui/dock_layout.h"
+#include "app/gui/base/dock_layout.h"
+#include "app/gui/base/saving.h"
 #include "app/gui/models/shown_character.h"
-#include "app/gui/saving.h"
 #include "app/gui/theme/words.h"
 #include "app/gui/window/main_window.h"
 #include "app/gui/window/report_saving.h"

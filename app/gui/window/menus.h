@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/panel.h"
+#include "app/gui/base/panel.h"
 
 #include <QMap>
 #include <QString>

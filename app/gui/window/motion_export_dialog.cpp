@@ -2,9 +2,9 @@
 #include "app/gui/window/motion_export_dialog.h"
 
 #include "app/figure/mannequin_body.h"
-#include "app/gui/help_topics.h"
+#include "app/gui/base/help_topics.h"
+#include "app/gui/base/saving.h"
 #include "app/gui/models/shown_character.h"
-#include "app/gui/saving.h"
 #include "app/gui/theme/help_link.h"
 #include "app/gui/theme/words.h"
 #include "app/gui/window/range_box.h"

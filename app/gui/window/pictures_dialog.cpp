@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/window/pictures_dialog.h"
 
-#include "app/gui/help_topics.h"
+#include "app/gui/base/help_topics.h"
+#include "app/gui/base/saving.h"
 #include "app/gui/models/text.h"
-#include "app/gui/saving.h"
 #include "app/gui/theme/help_link.h"
 #include "app/gui/theme/widgets.h"
 #include "app/gui/theme/words.h"

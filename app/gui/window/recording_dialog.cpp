@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/window/recording_dialog.h"
 
-#include "app/gui/help_topics.h"
+#include "app/gui/base/help_topics.h"
 #include "app/gui/theme/help_link.h"
 #include "app/gui/theme/plain_text.h"
 #include "app/gui/theme/widgets.h"

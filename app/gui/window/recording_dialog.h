@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/recording_choice.h"
+#include "app/gui/base/recording_choice.h"
 
 #include <QDialog>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/window/recovery_dialog.h"
 
+#include "app/gui/base/help_topics.h"
+#include "app/gui/base/saving.h"
 #include "app/gui/driver/session_driver.h"
-#include "app/gui/help_topics.h"
 #include "app/gui/models/text.h"
-#include "app/gui/saving.h"
 #include "app/gui/theme/help_link.h"
 #include "app/gui/theme/widgets.h"
 

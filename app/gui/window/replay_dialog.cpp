@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/window/replay_dialog.h"
 
-#include "app/gui/help_topics.h"
+#include "app/gui/base/help_topics.h"
 #include "app/gui/inputs/relay_page.h"
 #include "app/gui/models/text.h"
 #include "app/gui/theme/help_link.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/window/report_saving.h"
 
+#include "app/gui/base/saving.h"
 #include "app/gui/models/incident_words.h"
 #include "app/gui/models/text.h"
-#include "app/gui/saving.h"
 #include "app/gui/theme/widgets.h"
 #include "app/gui/theme/words.h"
 

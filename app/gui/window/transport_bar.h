@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/commands.h"
+#include "app/gui/base/commands.h"
+#include "app/gui/base/program_view.h"
 #include "app/gui/driver/takes.h"
-#include "app/gui/program_view.h"
 #include "app/gui/window/time_controls.h"
 #include "core/model/session/session_view.h"
 

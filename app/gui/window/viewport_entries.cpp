@@ -2,7 +2,7 @@
 #include "app/gui/window/viewport_entries.h"
 
 #include "app/gui/theme/words.h"
-#include "app/gui/viewport/overlays/overlays.h"
+#include "app/gui/viewport/overlays.h"
 #include "app/gui/window/main_window.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Every overlay and every source of poses, in both themes: the same walker at the same moment.
 #include "app/gui/theme/theme.h"
-#include "app/gui/viewport/overlays/overlays.h"
+#include "app/gui/viewport/overlays.h"
 #include "core/model/body/segments.h"
 #include "tests/app/gui/figures/figure_studio.h"
 

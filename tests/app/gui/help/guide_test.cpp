@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The guide against the program: whatever it names exists, and whatever leads into it arrives.
 #include "app/cli/program.h"
+#include "app/gui/base/help_topics.h"
+#include "app/gui/base/options.h"
+#include "app/gui/base/panel.h"
 #include "app/gui/help/help_pages.h"
-#include "app/gui/help_topics.h"
 #include "app/gui/models/incident_words.h"
 #include "app/gui/models/statistics_model.h"
-#include "app/gui/options.h"
-#include "app/gui/panel.h"
 #include "app/gui/window/menus.h"
 #include "app/gui/window/texts.h"
 #include "app/usage/usage.h"

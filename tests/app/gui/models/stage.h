@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/commands.h"
-#include "app/gui/comparison.h"
-#include "app/gui/program_view.h"
+#include "app/gui/base/commands.h"
+#include "app/gui/base/comparison.h"
+#include "app/gui/base/program_view.h"
 #include "core/log/packet_log.h"
 #include "core/log/time.h"
 #include "core/model/body/character_pose.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/panel.h"
+#include "app/gui/base/panel.h"
 #include "app/gui/panels/characters_panel.h"
 #include "app/gui/panels/metadata_panel.h"
 #include "app/gui/panels/statistics_panel.h"

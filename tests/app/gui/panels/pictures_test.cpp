@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Photographs every dock, empty and busy, in both themes and at two scales, into the folder `pictures` of the
 // build, for people to look at; checks what a machine can.
-#include "app/gui/panel.h"
+#include "app/gui/base/panel.h"
 #include "app/gui/plots/time_plot.h"
 #include "app/gui/theme/theme.h"
 #include "tests/app/gui/models/stage.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/viewport/overlays/overlays.h"
+#include "app/gui/viewport/overlays.h"
 
 #include "core/model/body/character_pose.h"
 #include "tests/app/gui/models/stage.h"

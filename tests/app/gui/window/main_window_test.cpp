@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/app/gui/window/main_window_fixture.h"
 
-#include "app/gui/dock_layout.h"
+#include "app/gui/base/dock_layout.h"
 #include "app/gui/inputs/inputs_page.h"
 #include "app/gui/panels/find_bar.h"
 #include "app/gui/panels/table_view.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Every layout in the least room: 1920 × 1080 at 200 %.
-#include "app/gui/dock_layout.h"
+#include "app/gui/base/dock_layout.h"
 #include "app/gui/panels/table_view.h"
 #include "app/gui/window/main_window.h"
 #include "app/net/datagram_sender.h"

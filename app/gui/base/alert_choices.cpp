@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/alert_choices.h"
+#include "app/gui/base/alert_choices.h"
 
 namespace posewire::gui {
 

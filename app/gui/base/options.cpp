@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/options.h"
+#include "app/gui/base/options.h"
 
-#include "app/gui/dock_layout.h"
+#include "app/gui/base/dock_layout.h"
 #include "app/gui/theme/words.h"
 #include "app/usage/usage.h"
 #include "core/log/output_file.h"

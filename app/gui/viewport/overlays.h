@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/viewport/overlays/choice.h"
+#include "app/gui/viewport/overlay_choice.h"
 #include "app/gui/viewport/readings.h"
 #include "app/gui/viewport/scene.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/recording_choice.h"
+#include "app/gui/base/recording_choice.h"
 
 #include <QFile>
 #include <QFileInfo>

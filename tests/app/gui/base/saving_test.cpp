@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/saving.h"
+#include "app/gui/base/saving.h"
 
 #include <QDir>
 #include <QFile>

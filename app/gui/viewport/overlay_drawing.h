@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/viewport/overlays/overlays.h"
+#include "app/gui/viewport/overlays.h"
 #include "core/model/body/spaces.h"
 
 #include <QColor>

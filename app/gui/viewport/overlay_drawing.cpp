@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/viewport/overlays/drawing.h"
+#include "app/gui/viewport/overlay_drawing.h"
 
 namespace posewire::gui {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/options.h"
+#include "app/gui/base/options.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/logging.h"
+#include "app/gui/base/logging.h"
 
 #include <QString>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/alert_choices.h"
-#include "app/gui/input_choices.h"
-#include "app/gui/recording_choice.h"
+#include "app/gui/base/alert_choices.h"
+#include "app/gui/base/input_choices.h"
+#include "app/gui/base/recording_choice.h"
 #include "app/gui/theme/theme.h"
 
 #include <QByteArray>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/input_choices.h"
+#include "app/gui/base/input_choices.h"
 
 #include "app/gui/theme/words.h"
 #include "app/net/allow_list.h"

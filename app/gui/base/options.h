@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/input_choices.h"
+#include "app/gui/base/input_choices.h"
 #include "app/gui/theme/theme.h"
 
 #include <QSize>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/settings.h"
+#include "app/gui/base/settings.h"
 
-#include "app/gui/logging.h"
-#include "app/gui/options.h"
-#include "app/gui/saving.h"
-#include "app/gui/small_json.h"
+#include "app/gui/base/logging.h"
+#include "app/gui/base/options.h"
+#include "app/gui/base/saving.h"
+#include "app/gui/base/small_json.h"
 #include "app/gui/theme/words.h"
 
 #include <QCryptographicHash>

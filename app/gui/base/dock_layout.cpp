@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/dock_layout.h"
+#include "app/gui/base/dock_layout.h"
 
-#include "app/gui/saving.h"
-#include "app/gui/small_json.h"
+#include "app/gui/base/saving.h"
+#include "app/gui/base/small_json.h"
 #include "app/gui/theme/words.h"
 
 #include <QDockWidget>
