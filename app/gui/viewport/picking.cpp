@@ -13,32 +13,19 @@
 namespace posewire::gui {
 namespace {
 
-/// Of a pose, what stands free in space: tracked objects, and the props of a body.
-bool isFree(const model::CharacterPose& pose, std::size_t segment) {
-    const auto body = static_cast<std::size_t>(pose.layout.body);
-    const auto props = static_cast<std::size_t>(pose.layout.props);
-    return pose.isPresent(segment) && (pose.isObjects || (segment >= body && segment < body + props));
-}
-
-std::optional<PickedSegment> pickOrigin(const SceneFrame& frame, const model::SessionView& session,
-                                        const QPointF& pointer, const QSizeF& view) {
+std::optional<PickedSegment> pickOrigin(const SceneFrame& frame, const QPointF& pointer, const QSizeF& view) {
     constexpr qreal kNear = 12; // logical pixels
     const auto aspect = static_cast<float>(view.width() / view.height());
     std::optional<PickedSegment> picked;
     qreal nearest = kNear;
     for (const Figure& figure : frame.figures) {
-        const model::CharacterPose* pose = session.pose(figure.key);
-        for (std::size_t i = 0; pose != nullptr && i < pose->segments.size(); ++i) {
-            if (!isFree(*pose, i)) {
-                continue;
-            }
-            const Eigen::Vector3f place = pose->segments[i].position.cast<float>();
-            const auto screen = frame.camera.project({place.x(), place.y(), place.z()}, aspect);
+        for (const FreeSegment& one : figure.free) {
+            const auto screen = frame.camera.project(one.origin, aspect);
             const qreal away = screen ? QLineF(pointer, pointerAt(*screen, view)).length()
                                       : std::numeric_limits<qreal>::max();
             if (away < nearest) {
                 nearest = away;
-                picked = {figure.key, static_cast<int>(i)};
+                picked = {figure.key, one.segment};
             }
         }
     }
@@ -47,9 +34,8 @@ std::optional<PickedSegment> pickOrigin(const SceneFrame& frame, const model::Se
 
 } // namespace
 
-std::optional<PickedSegment> pickIn(const SceneFrame& frame, const model::SessionView& session,
-                                    const QPointF& pointer, const QSizeF& view) {
-    if (const auto origin = pickOrigin(frame, session, pointer, view)) {
+std::optional<PickedSegment> pickIn(const SceneFrame& frame, const QPointF& pointer, const QSizeF& view) {
+    if (const auto origin = pickOrigin(frame, pointer, view)) {
         return origin;
     }
     std::vector<render::PickTarget> targets;

@@ -21,10 +21,10 @@ struct PickedSegment {
     friend bool operator==(const PickedSegment&, const PickedSegment&) = default;
 };
 
-/// What is under the pointer in a picture of that size, in logical pixels: a prop or a tracked object whose
-/// origin is near, else the nearest segment of a body.
-[[nodiscard]] std::optional<PickedSegment> pickIn(const SceneFrame& frame, const model::SessionView& session,
-                                                  const QPointF& pointer, const QSizeF& view);
+/// Picks in a frame as it is drawn, in a picture of that size in logical pixels: a prop or a tracked object
+/// whose origin is near the pointer, else the nearest segment of a body.
+[[nodiscard]] std::optional<PickedSegment> pickIn(const SceneFrame& frame, const QPointF& pointer,
+                                                  const QSizeF& view);
 
 /// A figure that has a body, to be met by a ray; it must outlive the target.
 [[nodiscard]] render::PickTarget targetOf(const Figure& figure, std::uint32_t id);

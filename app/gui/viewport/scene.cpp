@@ -12,6 +12,7 @@
 #include "core/model/body/null_pose_measures.h"
 #include "core/model/body/pose_remark.h"
 #include "core/model/body/reference_body.h"
+#include "core/model/session/prop_names.h"
 
 #include <algorithm>
 #include <cmath>
@@ -145,7 +146,9 @@ void SceneUpload::add(const Figure& figure, render::Renderer& renderer) {
     look.isSelected = false;
     look.selectedSegment = -1;
     for (const FigureProp& prop : figure.props) {
-        m_instances.push_back({m_props.of(prop.shape, renderer), render::MeshId::None, prop.motion, look});
+        render::MeshId& mesh = m_props[static_cast<std::size_t>(prop.shape)];
+        mesh = mesh == render::MeshId::None ? renderer.uploadMesh(prop.shape) : mesh;
+        m_instances.push_back({mesh, render::MeshId::None, prop.motion, look});
     }
 }
 
@@ -269,9 +272,23 @@ void SceneBuilder::addFigure(const model::Character& character, const model::Cha
     const auto provenance = figure.look.provenance;
     figure.look = lookOf(character.key);
     figure.look.provenance = provenance;
-    figure.props = propsOf(m_session, character.key, pose);
+    addProps(pose, figure);
     dress(figure);
     frame.figures.push_back(std::move(figure));
+}
+
+void SceneBuilder::addProps(const model::CharacterPose& pose, Figure& figure) const {
+    for (int prop = 0; prop < pose.layout.props; ++prop) {
+        const auto segment = static_cast<std::size_t>(pose.layout.body + prop);
+        if (segment >= pose.segments.size() || !pose.isPresent(segment)) {
+            continue;
+        }
+        const glm::vec3 origin = pointOf(pose.segments[segment].position);
+        figure.props.push_back(
+            {render::propShapeOf(model::propName(m_session, figure.key, pose.layout, prop)),
+             {render::rigidMotion(turnOf(pose.segments[segment].orientation), glm::vec3(0.0F), origin)}});
+        figure.free.push_back({static_cast<int>(segment), origin});
+    }
 }
 
 Figure SceneBuilder::bodyOf(const model::SessionView& session, const model::CharacterKey& key,
@@ -333,6 +350,7 @@ void SceneBuilder::addObjects(const model::Character& character, const model::Ch
         const bool isHighest = objects.bounds.isEmpty() || position.z > objects.labelPosition.z;
         objects.labelPosition = isHighest ? position : objects.labelPosition;
         objects.bounds.add(position);
+        objects.free.push_back({static_cast<int>(i), position});
         frame.axes.push_back(
             {position, turnOf(pose.segments[i].orientation), kPropAxesLength, 1.0F - objects.look.dim});
     }

@@ -4,12 +4,12 @@
 #include "app/gui/viewport/body_fits.h"
 #include "app/gui/viewport/dressed_body.h"
 #include "app/gui/viewport/overlay_choice.h"
-#include "app/gui/viewport/props.h"
 #include "core/log/time.h"
 #include "core/model/body/character_pose.h"
 #include "core/model/body/pose_interpolation.h"
 #include "core/model/keys.h"
 #include "core/model/session/session_view.h"
+#include "render/mesh/prop_shapes.h"
 #include "render/renderer.h"
 
 #include <QColor>
@@ -25,6 +25,22 @@ namespace posewire::gui {
 
 struct ComparisonState;
 
+/// A prop of a character in a picture, in the shape that its name asks for.
+struct FigureProp {
+    render::PropShape shape = render::PropShape::Generic;
+    std::array<render::DualQuaternion, 1> motion{};
+
+    bool operator==(const FigureProp&) const = default;
+};
+
+/// A tracked object or a prop, by its position in the pose.
+struct FreeSegment {
+    int segment = -1;
+    glm::vec3 origin{0.0F};
+
+    bool operator==(const FreeSegment&) const = default;
+};
+
 /// One character in a picture.
 struct Figure {
     model::CharacterKey key;
@@ -33,6 +49,7 @@ struct Figure {
     std::vector<render::DualQuaternion> bones; ///< of that
     std::array<render::DualQuaternion, render::kJointCount> palette{};
     std::vector<FigureProp> props;
+    std::vector<FreeSegment> free; ///< picked by their origins
     render::CharacterLook look;
     glm::vec3 labelPosition{0.0F}; ///< above the head; above all of who is upside down
     render::Bounds bounds;         ///< of the segment origins
@@ -110,8 +127,8 @@ private:
     [[nodiscard]] static Meshes uploaded(const Figure& figure, render::Renderer& renderer);
     void releaseUnused(const SceneFrame& frame, render::Renderer& renderer);
 
-    std::map<std::shared_ptr<const void>, Meshes> m_meshes; ///< by what is drawn
-    PropMeshes m_props;
+    std::map<std::shared_ptr<const void>, Meshes> m_meshes;        ///< by what is drawn
+    std::array<render::MeshId, render::kPropShapeCount> m_props{}; ///< those that were drawn
     std::vector<render::SkinnedInstance> m_instances;
 };
 
@@ -157,6 +174,7 @@ private:
                                 const model::CharacterPose& pose);
     [[nodiscard]] render::CharacterLook lookOf(const model::CharacterKey& key) const;
     void dress(Figure& figure);
+    void addProps(const model::CharacterPose& pose, Figure& figure) const;
     void addFigure(const model::Character& character, const model::CharacterPose& pose, SceneFrame& frame);
     void addObjects(const model::Character& character, const model::CharacterPose& pose, SceneFrame& frame);
     /// On the floor under the live pelvis, turned as it is; nothing where no null pose was sent.

@@ -130,8 +130,7 @@ std::optional<PickedSegment> ViewportWidget::pickAt(const QPointF& pointer) cons
     if (!isWhole && pane >= m_shown->panes.size()) {
         return std::nullopt;
     }
-    return pickIn(isWhole ? *m_shown : m_shown->panes[pane], *m_session, pointer - place.topLeft(),
-                  place.size());
+    return pickIn(isWhole ? *m_shown : m_shown->panes[pane], pointer - place.topLeft(), place.size());
 }
 
 } // namespace posewire::gui

@@ -204,7 +204,7 @@ TEST_F(DressedScene, IsPickedByItsOwnSegments) {
         figure.bones[joint], figure.own->scale * (body.joints[joint].origin + glm::vec3(0, 0, 0.08F)));
     frame.camera.target = head;
     const QSizeF view(400, 300);
-    const auto picked = pickIn(frame, m_stage.session, {200, 150}, view);
+    const auto picked = pickIn(frame, {200, 150}, view);
     ASSERT_TRUE(picked);
     EXPECT_EQ(picked->key, figure.key);
     EXPECT_EQ(picked->segment, render::Head);

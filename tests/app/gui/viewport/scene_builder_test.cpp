@@ -2,7 +2,9 @@
 #include "app/gui/viewport/scene.h"
 
 #include "app/gui/models/stream_state.h"
+#include "app/gui/viewport/camera_motion.h"
 #include "app/gui/viewport/labels.h"
+#include "app/gui/viewport/picking.h"
 #include "tests/app/gui/models/stage.h"
 
 #include <gtest/gtest.h>
@@ -177,6 +179,34 @@ TEST_F(SceneBuilderTest, PropsLookLikeWhatTheyAreCalled) {
         EXPECT_NEAR(place.x, pose->segments[23 + i].position.x(), 1e-4);
         EXPECT_NEAR(place.z, pose->segments[23 + i].position.z(), 1e-4);
     }
+}
+
+TEST_F(SceneBuilderTest, APropIsPickedAtItsPlaceInThePictureWhileTheStreamGoesOn) {
+    wire::PoseQuaternion pose;
+    for (std::uint32_t id = 1; id <= 24; ++id) {
+        pose.segments.push_back({id, {0, 0, 0.04F * static_cast<float>(id)}, {1, 0, 0, 0}});
+    }
+    const auto sendWithPropAt = [&](float x, std::uint32_t sample) {
+        pose.segments[23].position = {x, 1, 1};
+        wire::Datagram datagram;
+        datagram.body = pose;
+        datagram.header.sampleCounter = sample;
+        datagram.header.bodySegments = 23;
+        datagram.header.props = 1;
+        wire::completeHeader(datagram, wire::HeaderEra::Counted);
+        stage.send(datagram, Stage::kStart + 4ms * sample);
+        stage.follow();
+    };
+    sendWithPropAt(-0.5F, 0);
+    const SceneFrame drawn = build();
+    sendWithPropAt(0.5F, 1);
+    const QSizeF view(640, 480);
+    const auto pickedAt = [&](float x) {
+        const auto screen = drawn.camera.project({x, 1, 1}, 640.0F / 480.0F);
+        return screen ? pickIn(drawn, pointerAt(*screen, view), view) : std::nullopt;
+    };
+    EXPECT_EQ(pickedAt(-0.5F), (PickedSegment{stage.key(), 23}));
+    EXPECT_EQ(pickedAt(0.5F), std::nullopt) << "it is not drawn there yet";
 }
 
 TEST_F(SceneBuilderTest, PropsWithoutANameAreDrawnAllTheSame) {

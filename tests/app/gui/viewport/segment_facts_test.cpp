@@ -166,10 +166,10 @@ TEST_F(SegmentFactsTest, ATrackedObjectIsPickedByItsOrigin) {
     const QSizeF view(640, 480);
     const auto place = frame.camera.project({-0.5F, 0, 1}, 640.0F / 480.0F);
     ASSERT_TRUE(place.has_value());
-    const auto picked = pickIn(frame, stage.session, pointerAt(*place, view) + QPointF(4, 3), view);
+    const auto picked = pickIn(frame, pointerAt(*place, view) + QPointF(4, 3), view);
     ASSERT_TRUE(picked.has_value());
     EXPECT_EQ(picked->segment, 1);
-    EXPECT_FALSE(pickIn(frame, stage.session, {5, 470}, view).has_value());
+    EXPECT_FALSE(pickIn(frame, {5, 470}, view).has_value());
     EXPECT_EQ(facts(1).segment, "Object 2");
 }
 
