@@ -3,242 +3,170 @@
 
 #include <algorithm>
 #include <cctype>
-#include <initializer_list>
+#include <cmath>
+#include <map>
 #include <set>
+#include <tuple>
+#include <utility>
 
 namespace posewire::render {
 namespace {
 
-using Side = BoneName::Side;
-using Keys = std::span<const std::string_view>;
+/// What names are about beside the mappable segments: the bones of a trunk, from below.
+constexpr std::size_t kFirstOfSpine = kMappableCount;
 
-constexpr std::array kLeft{LeftShoulder, LeftUpperArm, LeftForeArm, LeftHand,
-                           LeftUpperLeg, LeftLowerLeg, LeftFoot,    LeftToe};
-constexpr std::array kRight{RightShoulder, RightUpperArm, RightForeArm, RightHand,
-                            RightUpperLeg, RightLowerLeg, RightFoot,    RightToe};
-constexpr std::array kSpine{L5, L3, T12, T8};
+/// A name for a segment, as the naming writes it.
+struct Alias {
+    std::size_t place = 0;
+    std::string name;
+};
 
-/// The first that there is counts. "Leg" is the lower one with Mixamo, the upper one elsewhere.
-Keys keysOf(Segment left) {
-    static constexpr auto kShoulder =
-        std::to_array<std::string_view>({"shoulder", "clavicle", "collar", "collarbone", "clav"});
-    static constexpr auto kUpperArm = std::to_array<std::string_view>({"upperarm", "uparm", "arm"});
-    static constexpr auto kForeArm =
-        std::to_array<std::string_view>({"forearm", "lowerarm", "lowarm", "elbow"});
-    static constexpr auto kHand = std::to_array<std::string_view>({"hand", "wrist"});
-    static constexpr auto kUpperLeg = std::to_array<std::string_view>({"upperleg", "upleg", "thigh", "hip"});
-    static constexpr auto kLowerLeg =
-        std::to_array<std::string_view>({"lowerleg", "lowleg", "calf", "shin", "knee", "leg"});
-    static constexpr auto kFoot = std::to_array<std::string_view>({"foot", "ankle"});
-    static constexpr auto kToe = std::to_array<std::string_view>({"toe", "toes", "toebase", "ball", "toe0"});
-    switch (left) {
-    case LeftShoulder:
-        return kShoulder;
-    case LeftUpperArm:
-        return kUpperArm;
-    case LeftForeArm:
-        return kForeArm;
-    case LeftHand:
-        return kHand;
-    case LeftUpperLeg:
-        return kUpperLeg;
-    case LeftLowerLeg:
-        return kLowerLeg;
-    case LeftFoot:
-        return kFoot;
-    default:
-        return kToe;
-    }
+bool isRequired(std::size_t mappable) {
+    constexpr std::array kRequired{Pelvis,       Head,          LeftUpperArm,  LeftForeArm,   LeftHand,
+                                   LeftUpperLeg, LeftLowerLeg,  LeftFoot,      RightUpperArm, RightForeArm,
+                                   RightHand,    RightUpperLeg, RightLowerLeg, RightFoot};
+    return std::ranges::find(kRequired, mappable) != kRequired.end();
 }
 
-std::string lower(std::string text) {
-    std::ranges::transform(text, text.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return text;
+/// Letters and digits alone, in lower case: "mixamorig:LeftArm" is "mixamorigleftarm".
+std::string plain(std::string_view name) {
+    std::string letters;
+    for (const char letter : name) {
+        const auto c = static_cast<unsigned char>(letter);
+        letters += std::isalnum(c) == 0 ? std::string() : std::string{static_cast<char>(std::tolower(c))};
+    }
+    return letters;
 }
 
-BoneNaming namingOf(std::span<const ImportedBone> bones) {
-    std::set<std::string> names;
-    for (const ImportedBone& bone : bones) {
-        names.insert(lower(bone.name));
+std::string filled(std::string_view pattern, std::string_view side, std::string_view finger, char number) {
+    std::string name;
+    for (const char letter : pattern) {
+        name += letter == '$'   ? std::string(side)
+                : letter == '%' ? std::string(finger)
+                                : std::string{letter == '#' ? number : letter};
     }
-    const auto has = [&names](std::string_view part) {
-        return std::ranges::any_of(names,
-                                   [part](const std::string& name) { return name.find(part) != name.npos; });
-    };
-    if (has("mixamorig") || (has("leftupleg") && has("lefttoebase"))) {
-        return BoneNaming::Mixamo;
-    }
-    if (has("j_bip_") || (has("leftupperarm") && has("leftlowerarm"))) {
-        return BoneNaming::Humanoid;
-    }
-    if (has("upperarm_l") && has("calf_l")) {
-        return BoneNaming::Unreal;
-    }
-    if (has("upper_arm.l") || has("upper_arm_l")) {
-        return BoneNaming::Rigify;
-    }
-    if (has("bip01") || has("bip001")) {
-        return BoneNaming::Biped;
-    }
-    return has("t12") && has("leftforearm") ? BoneNaming::Mvn : BoneNaming::Unknown;
+    return name;
 }
 
-class Search {
+/// All names of a naming, those that count first before others of the same segment.
+class Aliases {
 public:
-    explicit Search(std::span<const ImportedBone> bones) : m_bones(bones) {
-        for (const ImportedBone& bone : bones) {
-            m_names.push_back(readBoneName(bone.name));
+    explicit Aliases(const BoneNaming& naming) {
+        add(Pelvis, naming.pelvis);
+        add(Neck, naming.neck);
+        add(Head, naming.head);
+        for (std::size_t i = 0; i < naming.spine.size(); ++i) {
+            add(kFirstOfSpine + i, naming.spine[i]);
         }
-        m_mapping.naming = namingOf(bones);
+        addSide(naming, naming.left, LeftShoulder, LeftUpperLeg, kSegmentCount);
+        addSide(naming, naming.right, RightShoulder, RightUpperLeg, kSegmentCount + kHandSegmentCount);
     }
-
-    BoneMapping run() {
-        at(Pelvis) = find(std::to_array<std::string_view>({"pelvis", "hips"}), Side::None);
-        at(Head) = find(std::to_array<std::string_view>({"head"}), Side::None);
-        at(Neck) = find(std::to_array<std::string_view>({"neck", "neck1"}), Side::None);
-        for (std::size_t i = 0; i < kLeft.size(); ++i) {
-            at(kLeft[i]) = find(keysOf(kLeft[i]), Side::Left);
-            at(kRight[i]) = find(keysOf(kLeft[i]), Side::Right);
-        }
-        useLegForUpperLeg(Side::Left);
-        useLegForUpperLeg(Side::Right);
-        nameRigifySpine();
-        if (at(Pelvis) < 0) {
-            at(Pelvis) = meeting({at(LeftUpperLeg), at(RightUpperLeg), at(Head)});
-        }
-        findSpine();
-        findFingers();
-        return m_mapping;
-    }
+    const std::vector<Alias>& all() const { return m_all; }
 
 private:
-    int& at(std::size_t segment) { return m_mapping.bones[segment]; }
-    int parentOf(int bone) const { return bone < 0 ? -1 : m_bones[static_cast<std::size_t>(bone)].parent; }
-    const BoneName& nameOf(int bone) const { return m_names[static_cast<std::size_t>(bone)]; }
-
-    /// Rather one that vertices follow: rigs have handles of the same name.
-    int find(Keys keys, Side side) const {
-        for (const std::string_view key : keys) {
-            int found = -1;
-            for (std::size_t i = 0; i < m_bones.size(); ++i) {
-                if (m_names[i].key != key || m_names[i].side != side || m_names[i].isExtra) {
-                    continue;
-                }
-                if (found < 0 ||
-                    (m_bones[i].hasWeights && !m_bones[static_cast<std::size_t>(found)].hasWeights)) {
-                    found = static_cast<int>(i);
-                }
-            }
-            if (found >= 0) {
-                return found;
-            }
+    void addSide(const BoneNaming& naming, std::string_view side, std::size_t arm, std::size_t leg,
+                 std::size_t hand) {
+        for (std::size_t i = 0; i < naming.limbs.size(); ++i) {
+            add(i < 4 ? arm + i : leg + i - 4, naming.limbs[i], side);
         }
-        return -1;
-    }
-
-    bool hangsOn(int bone, int ancestor) const {
-        while (bone >= 0 && bone != ancestor) {
-            bone = parentOf(bone);
+        add(hand, naming.carpus, side);
+        for (std::size_t i = 0; i < naming.thumb.size(); ++i) {
+            add(hand + 1 + i, naming.thumb[i], side);
         }
-        return bone >= 0 && ancestor >= 0;
-    }
-
-    /// The closest bone that all of them hang on.
-    int meeting(std::initializer_list<int> bones) const {
-        int place = *bones.begin();
-        while (place >= 0 && !std::ranges::all_of(bones, [&](int bone) { return hangsOn(bone, place); })) {
-            place = parentOf(place);
-        }
-        return place;
-    }
-
-    void useLegForUpperLeg(Side side) {
-        const Segment upper = side == Side::Left ? LeftUpperLeg : RightUpperLeg;
-        const int leg = find(std::to_array<std::string_view>({"leg"}), side);
-        if (at(upper) < 0 && leg >= 0 && hangsOn(at(upper + 1), leg) && at(upper + 1) != leg) {
-            at(upper) = leg;
-        }
-    }
-
-    /// Blender's Rigify calls everything from pelvis to head a spine.
-    void nameRigifySpine() {
-        const int first = find(std::to_array<std::string_view>({"spine"}), Side::None);
-        const int last = find(std::to_array<std::string_view>({"spine6"}), Side::None);
-        if (at(Pelvis) >= 0 || at(Head) >= 0 || first < 0 || last < 0) {
-            return;
-        }
-        at(Pelvis) = first;
-        at(Head) = last;
-        at(Neck) = find(std::to_array<std::string_view>({"spine4"}), Side::None);
-    }
-
-    /// From the pelvis up to the neck, by what hangs on what, since spines are named in many ways.
-    std::vector<int> spineBones() const {
-        const int top = m_mapping.bones[Neck] >= 0 ? m_mapping.bones[Neck] : m_mapping.bones[Head];
-        const int pelvis = m_mapping.bones[Pelvis];
-        std::vector<int> spine;
-        if (pelvis < 0 || !hangsOn(top, meeting({pelvis, top}))) {
-            return spine;
-        }
-        // Where the trunk hangs beside the pelvis, on what both hang on, it ends there.
-        const int stop = meeting({pelvis, top});
-        for (int bone = parentOf(top); bone >= 0 && bone != stop; bone = parentOf(bone)) {
-            if (!nameOf(bone).key.starts_with("neck")) {
-                spine.insert(spine.begin(), bone);
-            }
-        }
-        return spine;
-    }
-
-    void findSpine() {
-        const std::vector<int> spine = spineBones();
-        const auto count = static_cast<double>(spine.size());
-        std::array<double, kSpine.size()> nearest{};
-        nearest.fill(1.0);
-        for (std::size_t i = 0; i < spine.size(); ++i) {
-            // The last carries the shoulders, as T8 does; the others at even distances below it.
-            const double place = static_cast<double>(i + 1) / count * kSpine.size() - 1.0;
-            const auto segment = static_cast<std::size_t>(
-                std::clamp(place + 0.5, 0.0, static_cast<double>(kSpine.size()) - 1.0));
-            const double away = std::abs(place - static_cast<double>(segment));
-            if (i + 1 == spine.size() || away < nearest[segment]) {
-                nearest[segment] = i + 1 == spine.size() ? -1.0 : away;
-                at(kSpine[segment]) = spine[i];
+        for (std::size_t finger = 0; finger < naming.fingers.size(); ++finger) {
+            for (std::size_t i = 0; i < naming.phalanges.size(); ++i) {
+                add(hand + 4 * (finger + 1) + i, naming.phalanges[i], side, naming.fingers[finger],
+                    static_cast<char>('1' + finger));
             }
         }
     }
 
-    void findFingers() {
-        for (std::size_t i = 0; i < m_bones.size(); ++i) {
-            const BoneName& name = m_names[i];
-            const Segment hand = name.side == Side::Left ? LeftHand : RightHand;
-            if (name.isExtra || !hangsOn(static_cast<int>(i), at(hand))) {
+    void add(std::size_t place, std::string_view patterns, std::string_view side = {},
+             std::string_view finger = {}, char number = '0') {
+        while (!patterns.empty()) {
+            const std::size_t end = std::min(patterns.find('|'), patterns.size());
+            m_all.push_back({place, filled(patterns.substr(0, end), side, finger, number)});
+            patterns.remove_prefix(std::min(end + 1, patterns.size()));
+        }
+    }
+
+    std::vector<Alias> m_all;
+};
+
+/// Bones by place, as one naming finds them behind one prefix.
+using Found = std::map<std::size_t, std::size_t>;
+
+std::map<std::string, Found> findBones(const BoneNaming& naming, std::span<const ImportedBone> bones) {
+    std::map<std::string, Found> byPrefix;
+    std::vector<std::string> names;
+    for (const ImportedBone& bone : bones) {
+        names.push_back(plain(bone.name));
+    }
+    const Aliases aliases(naming);
+    for (const Alias& alias : aliases.all()) {
+        const std::string end = plain(alias.name);
+        for (std::size_t i = 0; i < bones.size(); ++i) {
+            if (!names[i].ends_with(end)) {
                 continue;
             }
-            const std::size_t first = kSegmentCount + (hand == LeftHand ? 0U : kHandSegmentCount);
-            if (name.key == "carpus") {
-                at(first) = static_cast<int>(i);
-            } else if (name.finger >= 0 && name.phalanx >= 0) {
-                const auto finger = static_cast<std::size_t>(name.finger);
-                auto phalanx = static_cast<std::size_t>(name.phalanx);
-                phalanx -= finger == 0 && phalanx == 1 && isFirstOfThumb(static_cast<int>(i)) ? 1U : 0U;
-                const std::size_t place = first + (finger == 0 ? 1U : 4U * finger) + phalanx;
-                at(place) = at(place) < 0 ? static_cast<int>(i) : at(place);
+            Found& found = byPrefix[names[i].substr(0, names[i].size() - end.size())];
+            const auto [entry, isNew] = found.try_emplace(alias.place, i);
+            const std::size_t before = entry->second;
+            // Rigs have handles of the same name as the bone that moves vertices.
+            if (!isNew && names[before] == names[i] && bones[i].hasWeights && !bones[before].hasWeights) {
+                entry->second = i;
             }
         }
     }
+    return byPrefix;
+}
 
-    /// "Proximal" without a metacarpal above it is the thumb's first bone.
-    bool isFirstOfThumb(int bone) const {
-        const int parent = parentOf(bone);
-        return parent < 0 || nameOf(parent).finger != 0;
+/// The last of the spine carries the shoulders, as T8 does; the others are at even distances below it.
+void spread(const std::vector<int>& spine, BoneMapping& mapping) {
+    constexpr std::array kSegments{L5, L3, T12, T8};
+    std::array<double, kSegments.size()> nearest{};
+    nearest.fill(1.0);
+    for (std::size_t i = 0; i < spine.size(); ++i) {
+        const double place =
+            static_cast<double>(i + 1) / static_cast<double>(spine.size()) * kSegments.size() - 1.0;
+        const auto segment = static_cast<std::size_t>(
+            std::clamp(place + 0.5, 0.0, static_cast<double>(kSegments.size()) - 1.0));
+        const double away = std::abs(place - static_cast<double>(segment));
+        if (i + 1 == spine.size() || away < nearest[segment]) {
+            nearest[segment] = i + 1 == spine.size() ? -1.0 : away;
+            mapping.bones[kSegments[segment]] = spine[i];
+        }
     }
+}
 
-    std::span<const ImportedBone> m_bones;
-    std::vector<BoneName> m_names;
-    BoneMapping m_mapping;
-};
+BoneMapping mappingOf(const BoneNaming& naming, const Found& found) {
+    BoneMapping mapping;
+    mapping.naming = &naming;
+    std::set<std::size_t> used;
+    std::vector<int> spine;
+    for (const auto& [place, bone] : found) {
+        if (!used.insert(bone).second) {
+            continue;
+        }
+        if (place >= kFirstOfSpine) {
+            spine.push_back(static_cast<int>(bone));
+        } else {
+            mapping.bones[place] = static_cast<int>(bone);
+        }
+    }
+    spread(spine, mapping);
+    return mapping;
+}
+
+/// "Left Hand (LeftHand)", by a naming; without that the segment alone.
+std::string missingText(std::size_t segment, const BoneNaming* naming) {
+    std::string text = mappableTitle(segment);
+    if (naming != nullptr) {
+        const std::vector<Alias> all = Aliases(*naming).all();
+        text += " (" + std::ranges::find(all, segment, &Alias::place)->name + ")";
+    }
+    return text;
+}
 
 } // namespace
 
@@ -255,21 +183,33 @@ std::string mappableTitle(std::size_t mappable) {
     return title;
 }
 
-bool isRequired(std::size_t mappable) {
-    constexpr std::array kRequired{Pelvis,       Head,          LeftUpperArm,  LeftForeArm,   LeftHand,
-                                   LeftUpperLeg, LeftLowerLeg,  LeftFoot,      RightUpperArm, RightForeArm,
-                                   RightHand,    RightUpperLeg, RightLowerLeg, RightFoot};
-    return std::ranges::find(kRequired, mappable) != kRequired.end();
-}
-
-std::string_view titleOf(BoneNaming naming) {
-    constexpr std::array<std::string_view, 7> kTitles{
-        "unknown", "MVN", "Mixamo", "Unreal", "VRM or Unity humanoid", "Blender Rigify", "3ds Max Biped"};
-    return kTitles[static_cast<std::size_t>(naming)];
+std::string knownNamings() {
+    std::string text;
+    for (const BoneNaming& naming : kBoneNamings) {
+        const bool isLast = &naming == &kBoneNamings.back();
+        text += (text.empty() ? "" : isLast ? " or " : ", ") + std::string(naming.title);
+    }
+    return text;
 }
 
 BoneMapping mapBones(std::span<const ImportedBone> bones) {
-    return Search(bones).run();
+    BoneMapping best;
+    auto most = std::tuple<std::ptrdiff_t, std::ptrdiff_t, std::size_t>(0, 0, 0);
+    for (const BoneNaming& naming : kBoneNamings) {
+        for (const auto& [prefix, found] : findBones(naming, bones)) {
+            const std::tuple score{
+                std::ranges::count_if(found, [](const auto& one) { return isRequired(one.first); }),
+                std::ranges::count_if(found, [&](const auto& one) { return bones[one.second].hasWeights; }),
+                found.size()};
+            if (score > most) {
+                most = score;
+                best = mappingOf(naming, found);
+            }
+        }
+    }
+    // A few names that many programs share say nothing about the rest.
+    const bool isKnown = 2 * missingSegments(best).size() <= missingSegments({}).size();
+    return isKnown ? best : BoneMapping();
 }
 
 std::vector<std::size_t> missingSegments(const BoneMapping& mapping) {
@@ -286,20 +226,13 @@ tl::expected<void, std::string> checkMapping(const BoneMapping& mapping,
                                              std::span<const ImportedBone> bones) {
     std::string missing;
     for (const std::size_t segment : missingSegments(mapping)) {
-        missing += (missing.empty() ? "" : ", ") + mappableTitle(segment);
+        missing += (missing.empty() ? "" : ", ") + missingText(segment, mapping.naming);
     }
     if (!missing.empty()) {
-        return tl::make_unexpected("no bone for " + missing);
-    }
-    std::set<int> used;
-    for (std::size_t i = 0; i < kMappableCount; ++i) {
-        const int bone = mapping.bones[i];
-        if (bone >= static_cast<int>(bones.size())) {
-            return tl::make_unexpected("the file has no such bone for " + mappableTitle(i));
-        }
-        if (bone >= 0 && !used.insert(bone).second) {
-            return tl::make_unexpected("the bone of " + mappableTitle(i) + " has another segment, too");
-        }
+        return tl::make_unexpected("no bone for " + missing +
+                                   (mapping.naming == nullptr
+                                        ? "; known are the bone names of " + knownNamings()
+                                        : ", as " + std::string(mapping.naming->title) + " names them"));
     }
     for (const Segment upper : {LeftUpperArm, RightUpperArm, LeftUpperLeg, RightUpperLeg}) {
         for (const std::size_t segment : {std::size_t{upper} + 1, std::size_t{upper} + 2}) {

@@ -114,6 +114,7 @@ ReadCharacter readCharacterFile(const QString& path) {
     read->path = path;
     read->sum = QString::fromLatin1(sum.result().toHex());
     read->character = std::move(*imported);
+    read->mapping = render::mapBones(read->character.bones);
     read->textures = std::make_shared<const std::vector<render::TextureImage>>(
         texturesOf(read->character, &read->remarks));
     for (render::ImportedTexture& texture : read->character.textures) {

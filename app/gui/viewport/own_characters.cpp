@@ -12,20 +12,6 @@
 
 namespace posewire::gui {
 
-namespace {
-
-int boneNamed(const QString& name, const render::ImportedCharacter& character) {
-    const auto bone = std::ranges::find(character.bones, name.toStdString(), &render::ImportedBone::name);
-    return bone == character.bones.end() ? -1 : static_cast<int>(bone - character.bones.begin());
-}
-
-QString key(std::size_t mappable) {
-    const std::string_view name = render::mappableName(mappable);
-    return QString::fromLatin1(name.data(), static_cast<qsizetype>(name.size()));
-}
-
-} // namespace
-
 CharacterReading::CharacterReading(QObject* parent, Reader read)
     : QObject(parent), m_read(std::move(read)), m_recipient(std::make_shared<Recipient>()) {
     m_recipient->reading = this;
@@ -59,7 +45,7 @@ void CharacterReading::begin(const QString& path, std::function<void(const ReadC
 
 tl::expected<std::shared_ptr<const DressedBody>, QString> bodyOf(const CharacterFile& file,
                                                                  const BodyChoice& choice) {
-    auto body = render::makeOwnBody(file.character, choice.mapping, choice.rest);
+    auto body = render::makeOwnBody(file.character, file.mapping, choice.rest);
     if (!body) {
         return tl::unexpected(QString::fromStdString(body.error()));
     }
@@ -67,35 +53,16 @@ tl::expected<std::shared_ptr<const DressedBody>, QString> bodyOf(const Character
 }
 
 QJsonObject jsonOf(const CharacterFile& file, const BodyChoice& choice) {
-    QJsonObject bones;
-    for (std::size_t i = 0; i < render::kMappableCount; ++i) {
-        const int bone = choice.mapping.bones[i];
-        if (bone >= 0 && bone < static_cast<int>(file.character.bones.size())) {
-            bones[key(i)] = QString::fromStdString(file.character.bones[static_cast<std::size_t>(bone)].name);
-        }
-    }
     return {{"file", QDir().absoluteFilePath(file.path)},
             {"sum", file.sum},
-            {"bones", bones},
             {"unit", choice.rest.unit},
             {"quarterTurns", choice.rest.quarterTurns},
             {"straightened", choice.rest.isStraightened},
             {"scaled", choice.isScaled}};
 }
 
-BodyChoice choiceOf(const QJsonObject& kept, const CharacterFile& file) {
+BodyChoice choiceOf(const QJsonObject& kept) {
     BodyChoice choice;
-    choice.mapping = render::mapBones(file.character.bones);
-    const QJsonObject bones = kept["bones"].toObject();
-    if (!bones.isEmpty()) {
-        render::BoneMapping mapping = choice.mapping;
-        for (std::size_t i = 0; i < render::kMappableCount; ++i) {
-            mapping.bones[i] = boneNamed(bones[key(i)].toString(), file.character);
-        }
-        if (render::checkMapping(mapping, file.character.bones)) {
-            choice.mapping = mapping;
-        }
-    }
     constexpr double kLargestUnit = 1'000;
     choice.rest.unit = static_cast<float>(std::clamp(kept["unit"].toDouble(), 0.0, kLargestUnit));
     choice.rest.quarterTurns = kept["quarterTurns"].toInt() & 3;
@@ -176,7 +143,7 @@ void OwnCharacters::finish(const QString& name, const ReadCharacter& file) {
     if (kept != m_kept.end() && std::ranges::find(m_waiting, name) != m_waiting.end()) {
         std::erase(m_waiting, name);
         const auto body =
-            file ? bodyOf(**file, choiceOf(kept->second, **file))
+            file ? bodyOf(**file, choiceOf(kept->second))
                  : tl::expected<std::shared_ptr<const DressedBody>, QString>(tl::unexpected(file.error()));
         if (body) {
             (name.isEmpty() ? m_wardrobe.forAll : m_wardrobe.byName[name]) = *body;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "app/gui/viewport/dressed_body.h"
-#include "render/mesh/character_file.h"
 
 #include <QJsonArray>
 #include <QJsonObject>
@@ -24,6 +23,7 @@ struct CharacterFile {
     QString path;
     QString sum; ///< SHA-256 of its bytes
     render::ImportedCharacter character;
+    render::BoneMapping mapping;
     std::shared_ptr<const std::vector<render::TextureImage>>
         textures;        ///< by texture; empty where there is none
     QStringList remarks; ///< what is odd about it, in sentences
@@ -62,7 +62,6 @@ private:
 
 /// How a file becomes a body, as the operator chose it.
 struct BodyChoice {
-    render::BoneMapping mapping;
     render::RestChoice rest;
     bool isScaled = true;
 
@@ -71,10 +70,10 @@ struct BodyChoice {
 [[nodiscard]] tl::expected<std::shared_ptr<const DressedBody>, QString> bodyOf(const CharacterFile& file,
                                                                                const BodyChoice& choice);
 
-/// Choices by the names of bones, as they are kept from one run to the next.
+/// Choices as they are kept from one run to the next.
 [[nodiscard]] QJsonObject jsonOf(const CharacterFile& file, const BodyChoice& choice);
-/// What makes no sense for the file is as it would be found.
-[[nodiscard]] BodyChoice choiceOf(const QJsonObject& kept, const CharacterFile& file);
+/// Values that make no sense are as they would be found.
+[[nodiscard]] BodyChoice choiceOf(const QJsonObject& kept);
 
 /// Which characters have bodies of the user's own. Kept with their files from one run to the next: these are
 /// read again one after the other, and until then, or where one is gone or broken, the mannequin stands

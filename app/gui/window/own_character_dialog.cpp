@@ -4,7 +4,6 @@
 #include "app/gui/models/text.h"
 #include "app/gui/theme/theme.h"
 #include "app/gui/theme/widgets.h"
-#include "app/gui/viewport/bone_table.h"
 #include "app/gui/window/body_preview.h"
 
 #include <QDialogButtonBox>
@@ -64,8 +63,6 @@ OwnCharacterDialog::OwnCharacterDialog(OwnCharacters& characters, const QStringL
       m_heading(new ComboBox(this)),
       m_rest(new ComboBox(this)),
       m_size(new ComboBox(this)),
-      m_bones(new BoneTable(this)),
-      m_detect(new QPushButton(tr("&Detect again"), this)),
       m_who(new ComboBox(this)),
       m_apply(new QPushButton(tr("&Apply"), this)),
       m_mannequin(new QPushButton(tr("Use the &mannequin"), this)) {
@@ -76,7 +73,7 @@ OwnCharacterDialog::OwnCharacterDialog(OwnCharacters& characters, const QStringL
     }
     m_who->setCurrentIndex(std::max(0, m_who->findData(selected)));
     makeForm();
-    resize(QSize(52, 40) * fontMetrics().height());
+    resize(QSize(52, 34) * fontMetrics().height());
     const QJsonObject kept = characters.keptFor(who());
     if (const QString path = kept["file"].toString(); !path.isEmpty()) {
         read(path);
@@ -103,19 +100,12 @@ void OwnCharacterDialog::makeForm() {
     form->addRow(tr("&Heading"), m_heading);
     form->addRow(tr("&Rest pose"), m_rest);
     form->addRow(tr("&Size"), m_size);
-    auto* right = new QVBoxLayout;
-    right->addLayout(form);
-    right->addWidget(m_bones, 1);
-    auto* under = spacedRow({}, 8);
-    under->addStretch(1);
-    under->addWidget(m_detect);
-    right->addLayout(under);
     auto* left = new QVBoxLayout;
     left->addWidget(m_preview, 1);
     left->addWidget(m_state);
     auto* middle = spacedRow({}, fontMetrics().height());
     middle->addLayout(left, 1);
-    middle->addLayout(right, 1);
+    middle->addLayout(form);
     auto* target = new QFormLayout;
     target->addRow(tr("F&or"), m_who);
     auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel, this);
@@ -129,8 +119,6 @@ void OwnCharacterDialog::makeForm() {
     column->addLayout(target);
     column->addWidget(buttons);
     connect(m_browse, &QPushButton::clicked, this, &OwnCharacterDialog::askForFile);
-    connect(m_detect, &QPushButton::clicked, this, &OwnCharacterDialog::detect);
-    connect(m_bones, &BoneTable::mappingChanged, this, &OwnCharacterDialog::makeBody);
     for (QComboBox* each : {m_unit, m_heading, m_rest, m_size}) {
         connect(each, &QComboBox::activated, this, &OwnCharacterDialog::makeBody);
     }
@@ -171,22 +159,19 @@ void OwnCharacterDialog::take(const ReadCharacter& file) {
         m_problem = file.error();
         m_file.reset();
         m_body.reset();
-        m_bones->setBones({});
         m_preview->setBody(nullptr);
         describe();
     } else {
         m_file = *file;
-        m_bones->setBones(m_file->character.bones);
         const QJsonObject kept = m_characters.keptFor(who());
         // What was chosen for another file is of no use here.
-        showChoice(choiceOf(kept["sum"].toString() == m_file->sum ? kept : QJsonObject(), *m_file));
+        showChoice(choiceOf(kept["sum"].toString() == m_file->sum ? kept : QJsonObject()));
         makeBody();
     }
     emit finished();
 }
 
 void OwnCharacterDialog::showChoice(const BodyChoice& choice) {
-    m_bones->setMapping(choice.mapping);
     const auto unit = std::ranges::find(kUnits, choice.rest.unit);
     m_unit->setCurrentIndex(unit == kUnits.end() ? 0 : static_cast<int>(unit - kUnits.begin()));
     m_heading->setCurrentIndex(choice.rest.quarterTurns);
@@ -196,16 +181,10 @@ void OwnCharacterDialog::showChoice(const BodyChoice& choice) {
 
 BodyChoice OwnCharacterDialog::choice() const {
     BodyChoice choice;
-    choice.mapping = m_bones->mapping();
     choice.rest = {kUnits.at(static_cast<std::size_t>(m_unit->currentIndex())), m_heading->currentIndex(),
                    m_rest->currentIndex() == Straightened};
     choice.isScaled = m_size->currentIndex() == OfPerformer;
     return choice;
-}
-
-void OwnCharacterDialog::detect() {
-    showChoice(choiceOf({}, *m_file));
-    makeBody();
 }
 
 void OwnCharacterDialog::makeBody() {
@@ -214,7 +193,7 @@ void OwnCharacterDialog::makeBody() {
     }
     auto body = bodyOf(*m_file, choice());
     m_body = body ? *body : nullptr;
-    m_problem = body ? QString() : tr("It cannot be posed yet: %1.").arg(body.error());
+    m_problem = body ? QString() : tr("It cannot be posed: %1.").arg(body.error());
     m_preview->setBody(m_body);
     describe();
 }
@@ -224,15 +203,16 @@ void OwnCharacterDialog::describe() {
     if (m_isReading) {
         lines += tr("Reading %1 …").arg(QFileInfo(m_path->text()).fileName());
     } else if (m_file == nullptr && m_problem.isEmpty()) {
-        lines += tr("Characters of Mixamo, Unreal, VRM, Unity, Blender's Rigify and MVN are recognised by "
-                    "the names of "
-                    "their bones; any other can be mapped by hand.");
+        lines += tr("Bones are recognised by their names, as %1 name them.")
+                     .arg(QString::fromStdString(render::knownNamings()));
     }
     if (!m_isReading && m_file != nullptr) {
         const render::ImportedCharacter& character = m_file->character;
-        lines += tr("Bones %1 (named as by %2) · vertices %3")
+        const render::BoneNaming* naming = m_file->mapping.naming;
+        lines += tr("Bones %1 (%2) · vertices %3")
                      .arg(QString::number(character.bones.size()),
-                          QString::fromUtf8(render::titleOf(m_bones->mapping().naming).data()),
+                          naming == nullptr ? tr("names not recognised")
+                                            : tr("named as by %1").arg(fromUtf8(naming->title)),
                           grouped(character.mesh.vertexCount()));
         lines += m_file->remarks;
     }
@@ -252,9 +232,8 @@ void OwnCharacterDialog::describe() {
     m_state->setText(lines.join(QLatin1Char('\n')));
     setTextColour(*m_state, hasProblem ? theme().warning : theme().dim);
     const bool hasFile = !m_isReading && m_file != nullptr;
-    for (QWidget* each :
-         {static_cast<QWidget*>(m_unit), static_cast<QWidget*>(m_heading), static_cast<QWidget*>(m_rest),
-          static_cast<QWidget*>(m_size), static_cast<QWidget*>(m_bones), static_cast<QWidget*>(m_detect)}) {
+    for (QWidget* each : {static_cast<QWidget*>(m_unit), static_cast<QWidget*>(m_heading),
+                          static_cast<QWidget*>(m_rest), static_cast<QWidget*>(m_size)}) {
         each->setEnabled(hasFile);
     }
     m_browse->setEnabled(!m_isReading);

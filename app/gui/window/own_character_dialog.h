@@ -16,10 +16,8 @@ class QPushButton;
 namespace posewire::gui {
 
 class BodyPreview;
-class BoneTable;
 
-/// Gives characters a body of the user's own: its file, which bone follows which segment, and how it stands
-/// at rest.
+/// Gives characters a body of the user's own: its file, and how it stands at rest.
 class OwnCharacterDialog final : public QDialog {
     Q_OBJECT
 
@@ -48,7 +46,6 @@ private:
     void askForFile();
     void take(const ReadCharacter& file);
     void showChoice(const BodyChoice& choice);
-    void detect();
     /// By what is chosen now.
     void makeBody();
     void describe();
@@ -68,8 +65,6 @@ private:
     QComboBox* m_heading;
     QComboBox* m_rest;
     QComboBox* m_size;
-    BoneTable* m_bones;
-    QPushButton* m_detect;
     QComboBox* m_who;
     QPushButton* m_apply;
     QPushButton* m_mannequin;
