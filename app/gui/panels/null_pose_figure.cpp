@@ -5,6 +5,8 @@
 #include "app/gui/theme/plain_text.h"
 #include "app/gui/theme/theme.h"
 
+#include <Eigen/Geometry>
+
 #include <QHelpEvent>
 #include <QKeyEvent>
 #include <QPainter>
@@ -22,88 +24,11 @@ constexpr double kPointRadius = 1.6;
 constexpr double kLeastExtent = 0.2; ///< metres; less would be blown up
 constexpr double kGreatestExtent = 1e7;
 
-struct Extent {
-    Eigen::Vector3d least = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
-    Eigen::Vector3d most = -least;
-
-    void add(const Eigen::Vector3d& place) {
-        if (place.allFinite() && place.cwiseAbs().maxCoeff() < kGreatestExtent) {
-            least = least.cwiseMin(place);
-            most = most.cwiseMax(place);
-        }
-    }
-    [[nodiscard]] bool isEmpty() const { return !(least.x() <= most.x()); }
-    [[nodiscard]] double size(int axis) const { return std::max(most[axis] - least[axis], kLeastExtent); }
-    [[nodiscard]] double middle(int axis) const { return (most[axis] + least[axis]) / 2; }
-};
-
-std::optional<Eigen::Vector3d> at(const std::vector<std::optional<Eigen::Vector3d>>& places, int index) {
-    const bool isThere = index >= 0 && index < static_cast<int>(places.size());
-    return isThere ? places[static_cast<std::size_t>(index)] : std::nullopt;
-}
-
-QRectF squareAround(const QPointF& middle, double radius) {
-    return QRectF(middle - QPointF(radius, radius), QSizeF(2 * radius, 2 * radius));
-}
-
 QPen pen(const QColor& colour, double width, Qt::PenStyle style = Qt::SolidLine) {
     return {colour, width, style, Qt::RoundCap, Qt::RoundJoin};
 }
 
 } // namespace
-
-/// Texts beside marks, none over another: the first to ask gets its place.
-class NullPoseFigure::Labels {
-public:
-    Labels(QPainter& painter, const QRectF& room) : m_painter(painter), m_room(room) {}
-
-    /// Kept free of labels.
-    void reserve(const QRectF& rect) { m_taken.push_back(rect); }
-    /// Kept free where a label has room elsewhere.
-    void spare(const QRectF& rect) { m_spared.push_back(rect); }
-
-    /// Beside the mark, away from the body's middle (pixels) where there is room.
-    void add(const QPointF& mark, const QString& text, const QColor& colour, double middle) {
-        const QFontMetricsF metrics(m_painter.font());
-        const QSizeF size(metrics.horizontalAdvance(text), metrics.height());
-        const double away = kSegmentRadius + 3;
-        double outward = away;
-        double inward = -away - size.width();
-        if (mark.x() < middle - 1) {
-            std::swap(outward, inward);
-        }
-        const double above = -size.height() - away;
-        const std::array places{QPointF(outward, -size.height() / 2),
-                                QPointF(-size.width() / 2, above),
-                                QPointF(-size.width() / 2, away),
-                                QPointF(inward, -size.height() / 2),
-                                QPointF(outward, above),
-                                QPointF(outward, away),
-                                QPointF(inward, above),
-                                QPointF(inward, away)};
-        for (const bool isSparing : {true, false}) {
-            for (const QPointF& place : places) {
-                const QRectF rect(mark + place, size);
-                if (m_room.contains(rect) && !hits(m_taken, rect) && !(isSparing && hits(m_spared, rect))) {
-                    m_taken.push_back(rect.adjusted(-3, 0, 3, 0));
-                    m_painter.setPen(colour);
-                    m_painter.drawText(rect, Qt::AlignCenter | Qt::TextDontClip, text);
-                    return;
-                }
-            }
-        }
-    }
-
-private:
-    static bool hits(const std::vector<QRectF>& others, const QRectF& rect) {
-        return std::ranges::any_of(others, [&](const QRectF& other) { return other.intersects(rect); });
-    }
-
-    QPainter& m_painter;
-    QRectF m_room;
-    std::vector<QRectF> m_taken;
-    std::vector<QRectF> m_spared;
-};
 
 NullPoseFigure::NullPoseFigure(const NullPoseReading& reading, QWidget* parent)
     : QWidget(parent), m_reading(reading) {
@@ -114,72 +39,106 @@ NullPoseFigure::NullPoseFigure(const NullPoseReading& reading, QWidget* parent)
 
 void NullPoseFigure::mark(int segment, int point) {
     m_segment = segment;
-    m_point = point;
+    m_selected = {point < 0 ? segment : -1, point};
     readPlaces();
-    setAccessibleDescription(nameOf({segment, point}));
+    setAccessibleDescription(nameOf(m_selected));
     update();
 }
 
-void NullPoseFigure::readPlaces() {
-    for (Places* places : {&m_segments, &m_before, &m_points}) {
-        places->clear();
+std::vector<NullPoseFigure::Bone>
+NullPoseFigure::bonesOf(const std::vector<std::optional<Eigen::Vector3d>>& places) const {
+    std::vector<Bone> bones;
+    const auto placeOf = [this](int segment) {
+        return segment < 0 ? -1 : m_reading.places()[static_cast<std::size_t>(segment)];
+    };
+    for (const model::Segment& segment : model::bodySegments()) {
+        const int begin = placeOf(segment.parent);
+        const int end = placeOf(segment.id - 1);
+        const int count = static_cast<int>(places.size());
+        const bool isThere = begin >= 0 && end >= 0 && begin < count && end < count;
+        const auto from = isThere ? places[static_cast<std::size_t>(begin)] : std::nullopt;
+        const auto to = isThere ? places[static_cast<std::size_t>(end)] : std::nullopt;
+        if (from && to) {
+            bones.push_back({begin, *from, *to});
+        }
     }
+    return bones;
+}
+
+void NullPoseFigure::readPlaces() {
+    m_dots.clear();
+    m_bones.clear();
+    m_before.clear();
     const model::NullPose* pose = m_reading.pose();
     if (pose == nullptr) {
         return;
     }
-    const auto known = [](bool isKnown, const Eigen::Vector3d& place) {
-        return isKnown && place.allFinite() ? std::optional(place) : std::nullopt;
-    };
     const model::Distances& moved = m_reading.fromBefore();
-    for (std::size_t i = 0; i < pose->segments.size(); ++i) {
-        const Eigen::Vector3d& place = pose->segments[i].position;
-        const bool hasBefore = i < moved.size() && moved[i];
-        m_segments.push_back(known(true, place));
-        m_before.push_back(known(hasBefore, hasBefore ? Eigen::Vector3d(place - *moved[i]) : place));
+    std::vector<std::optional<Eigen::Vector3d>> now(pose->segments.size());
+    std::vector<std::optional<Eigen::Vector3d>> before(pose->segments.size());
+    for (std::size_t i = 0; i < now.size(); ++i) {
+        if (const Eigen::Vector3d& place = pose->segments[i].position; place.allFinite()) {
+            now[i] = place;
+            before[i] = i < moved.size() && moved[i] ? std::optional<Eigen::Vector3d>(place - *moved[i])
+                                                     : std::nullopt;
+        }
     }
-    for (const model::NullPose::Point& point : pose->points) {
-        const int segment = point.segment - 1;
-        const bool isBody = segment >= 0 && segment < model::kBodySegmentCount;
-        const auto origin =
-            at(m_segments, isBody ? m_reading.places()[static_cast<std::size_t>(segment)] : segment);
-        m_points.push_back(
-            known(origin.has_value(), origin.value_or(Eigen::Vector3d::Zero()) + point.position));
+    for (std::size_t i = 0; i < pose->points.size(); ++i) {
+        const model::NullPose::Point& point = pose->points[i];
+        const auto segment = static_cast<std::size_t>(point.segment - 1);
+        const std::size_t place = segment < m_reading.places().size()
+                                      ? static_cast<std::size_t>(m_reading.places()[segment])
+                                      : segment;
+        if (place < now.size() && now[place] && point.position.allFinite()) {
+            m_dots.push_back({{-1, static_cast<int>(i)}, *now[place] + point.position});
+        }
     }
+    for (std::size_t i = 0; i < now.size(); ++i) {
+        if (now[i]) {
+            m_dots.push_back({{static_cast<int>(i), -1}, *now[i]});
+        }
+    }
+    m_bones = bonesOf(now);
+    m_before = bonesOf(before);
 }
 
-QPointF NullPoseFigure::Projection::of(const Eigen::Vector3d& place, View view) const {
-    const QPointF& origin = view == View::Front ? front : side;
+QPointF NullPoseFigure::Projection::of(const Eigen::Vector3d& place, int across) const {
+    const QPointF& origin = origins.at(static_cast<std::size_t>(across));
     // From the front the body's left is at the viewer's right; from its right it looks to the right.
-    const double across = view == View::Front ? place.y() : place.x();
-    return {origin.x() + scale * across, origin.y() - scale * (place.z() - floor)};
+    return {origin.x() + scale * place[across], origin.y() - scale * (place.z() - floor)};
 }
 
 NullPoseFigure::Projection NullPoseFigure::projection() const {
-    Extent extent;
-    for (const Places* places : {&m_segments, &m_before, &m_points}) {
-        for (const auto& place : *places) {
-            if (place) {
-                extent.add(*place);
-            }
+    Eigen::AlignedBox3d box;
+    const auto add = [&box](const Eigen::Vector3d& place) {
+        if (place.allFinite() && place.cwiseAbs().maxCoeff() < kGreatestExtent) {
+            box.extend(place);
         }
+    };
+    for (const Dot& dot : m_dots) {
+        add(dot.place);
     }
-    if (extent.isEmpty()) {
-        extent.add(Eigen::Vector3d::Zero());
+    for (const Bone& bone : m_before) {
+        add(bone.from);
+        add(bone.to);
     }
+    if (box.isEmpty()) {
+        box.extend(Eigen::Vector3d::Zero().eval());
+    }
+    const Eigen::Vector3d size = box.sizes().cwiseMax(kLeastExtent);
     const double line = fontMetrics().height();
     const double gap = 1.5 * line;
     const QRectF room = QRectF(rect()).adjusted(line, line, -line, -1.6 * line);
     Projection projection;
-    const double across = extent.size(1) + extent.size(0);
+    projection.floor = box.min().z();
     projection.scale =
-        std::max(1e-9, std::min((room.width() - gap) / across, room.height() / extent.size(2)));
-    projection.floor = extent.least.z();
-    const double width = across * projection.scale + gap;
+        std::max(1e-9, std::min((room.width() - gap) / (size.x() + size.y()), room.height() / size.z()));
+    const double width = (size.x() + size.y()) * projection.scale + gap;
     const double left = room.center().x() - width / 2;
-    const double bottom = room.center().y() + extent.size(2) * projection.scale / 2;
-    projection.front = {left + projection.scale * (extent.size(1) / 2 - extent.middle(1)), bottom};
-    projection.side = {left + width - projection.scale * (extent.size(0) / 2 + extent.middle(0)), bottom};
+    const double bottom = room.center().y() + size.z() * projection.scale / 2;
+    projection.origins = {
+        QPointF(left + width - projection.scale * (size.x() / 2 + box.center().x()), bottom),
+        QPointF(left + projection.scale * (size.y() / 2 - box.center().y()), bottom)};
     return projection;
 }
 
@@ -192,17 +151,9 @@ void NullPoseFigure::paintEvent(QPaintEvent* /*event*/) {
     painter.setRenderHint(QPainter::Antialiasing);
     const Projection shown = projection();
     paintFrame(painter, shown);
-    for (const View view : {View::Front, View::Side}) {
-        paintBones(painter, shown, view);
-        paintMarks(painter, shown, view);
+    for (const int across : {1, 0}) {
+        paintView(painter, shown, across);
     }
-    QFont small = tabularFont();
-    small.setPixelSize(QFontInfo(font()).pixelSize() * 7 / 8);
-    painter.setFont(small);
-    Labels labels(painter, QRectF(0, 0, width(), shown.front.y())); // captions are below the floor
-    reserveBones(shown, labels);
-    paintLabels(painter, shown, View::Front, labels);
-    paintLabels(painter, shown, View::Side, labels);
     if (hasFocus()) {
         painter.setPen(pen(theme().accent, 1));
         painter.setBrush(Qt::NoBrush);
@@ -210,184 +161,110 @@ void NullPoseFigure::paintEvent(QPaintEvent* /*event*/) {
     }
 }
 
-/// Calls `draw` with the ends of each bone that is known and the place of the segment that it begins at, to
-/// which it belongs.
-template <class Draw>
-void NullPoseFigure::forEachBone(const Places& segments, Draw draw) const {
-    const model::BodyPlaces& places = m_reading.places();
-    for (const model::Segment& segment : model::bodySegments()) {
-        const int begin = segment.parent < 0 ? -1 : places[static_cast<std::size_t>(segment.parent)];
-        const auto from = at(segments, begin);
-        const auto to = at(segments, places[static_cast<std::size_t>(segment.id - 1)]);
-        if (from && to) {
-            draw(*from, *to, begin);
-        }
-    }
-}
-
-/// Labels keep off bones: off their middles, since only bones along an axis fill their rectangle.
-void NullPoseFigure::reserveBones(const Projection& projection, Labels& labels) const {
-    constexpr int kSteps = 12;
-    forEachBone(m_segments, [&](const Eigen::Vector3d& from, const Eigen::Vector3d& to, int) {
-        for (const View view : {View::Front, View::Side}) {
-            for (int step = 0; step < kSteps; ++step) {
-                const double share = (step + 0.5) / kSteps;
-                labels.reserve(squareAround(projection.of(from + share * (to - from), view), 2.5));
-            }
-        }
-    });
-}
-
-/// The floor, and from where one looks.
+/// The floor, and from which side each view looks.
 void NullPoseFigure::paintFrame(QPainter& painter, const Projection& projection) const {
     const double line = fontMetrics().height();
-    const double floor = projection.front.y() + 0.5;
+    const auto& [side, front] = projection.origins;
+    const double floor = front.y() + 0.5;
     painter.setPen(pen(theme().line, 1));
     painter.drawLine(QPointF(line / 2, floor), QPointF(width() - line / 2, floor));
     painter.setPen(theme().dim);
-    const QRectF below(0, floor + 2, 0, line * 1.3);
     const auto caption = [&](double middle, const QString& text) {
         const double wide = fontMetrics().horizontalAdvance(text) + 4.0;
         const double left = std::clamp(middle - wide / 2, 2.0, std::max(2.0, width() - wide - 2.0));
-        painter.drawText(QRectF(left, below.top(), wide, below.height()), Qt::AlignCenter, text);
+        painter.drawText(QRectF(left, floor + 2, wide, line * 1.3), Qt::AlignCenter, text);
     };
-    const QString front = tr("right  ←  front  →  left");
-    const bool hasRoom =
-        projection.side.x() - projection.front.x() > fontMetrics().horizontalAdvance(front) / 2 + 2 * line;
-    caption(projection.front.x(), hasRoom ? front : tr("front"));
-    caption(projection.side.x(), tr("side"));
+    const QString whole = tr("right  ←  front  →  left");
+    const bool hasRoom = side.x() - front.x() > fontMetrics().horizontalAdvance(whole) / 2 + 2 * line;
+    caption(front.x(), hasRoom ? whole : tr("front"));
+    caption(side.x(), tr("side"));
 }
 
-void NullPoseFigure::paintBones(QPainter& painter, const Projection& projection, View view) const {
+bool NullPoseFigure::isOfSelected(const Item& item) const {
+    return m_segment >= 0 &&
+           (item.point < 0 ? item.segment == m_segment
+                           : m_reading.pose()->points[static_cast<std::size_t>(item.point)].segment ==
+                                 m_reading.segmentAt(m_segment) + 1);
+}
+
+void NullPoseFigure::paintView(QPainter& painter, const Projection& projection, int across) const {
     painter.setPen(pen(theme().warning, 1, Qt::DashLine));
-    forEachBone(m_before, [&](const Eigen::Vector3d& from, const Eigen::Vector3d& to, int) {
-        painter.drawLine(projection.of(from, view), projection.of(to, view));
-    });
-    forEachBone(m_segments, [&](const Eigen::Vector3d& from, const Eigen::Vector3d& to, int begin) {
-        painter.setPen(begin == m_segment ? pen(theme().accent, 3) : pen(theme().dim, 2));
-        painter.drawLine(projection.of(from, view), projection.of(to, view));
-    });
-}
-
-bool NullPoseFigure::isOfSelected(std::size_t point) const {
-    return m_segment >= 0 && m_reading.pose()->points[point].segment == m_reading.segmentAt(m_segment) + 1;
-}
-
-void NullPoseFigure::paintMarks(QPainter& painter, const Projection& projection, View view) const {
-    const QColor faint = withAlpha(theme().dim, 0.55);
-    painter.setPen(Qt::NoPen);
-    for (std::size_t i = 0; i < m_points.size(); ++i) {
-        if (m_points[i]) {
-            const bool isSelected = static_cast<int>(i) == m_point;
-            painter.setBrush(isOfSelected(i) || isSelected ? theme().accent : faint);
-            double radius = isOfSelected(i) ? kPointRadius + 0.6 : kPointRadius;
-            radius = isSelected ? kSegmentRadius + 1.5 : radius;
-            painter.drawEllipse(projection.of(*m_points[i], view), radius, radius);
-        }
+    for (const Bone& bone : m_before) {
+        painter.drawLine(projection.of(bone.from, across), projection.of(bone.to, across));
     }
-    for (std::size_t i = 0; i < m_segments.size(); ++i) {
-        if (m_segments[i]) {
-            const bool isOwn = static_cast<int>(i) == m_segment;
-            const bool isSelected = isOwn && m_point < 0;
-            painter.setPen(pen(isSelected ? theme().accent : theme().panel, 1));
-            painter.setBrush(isOwn ? theme().accent : theme().text);
-            const double radius = isSelected ? kSegmentRadius + 2 : kSegmentRadius;
-            painter.drawEllipse(projection.of(*m_segments[i], view), radius, radius);
-        }
+    for (const Bone& bone : m_bones) {
+        painter.setPen(bone.segment == m_segment ? pen(theme().accent, 3) : pen(theme().dim, 2));
+        painter.drawLine(projection.of(bone.from, across), projection.of(bone.to, across));
     }
-    painter.setPen(Qt::NoPen);
-}
-
-void NullPoseFigure::paintLabels(QPainter& painter, const Projection& projection, View view,
-                                 Labels& labels) const {
-    for (const auto& place : m_segments) {
-        if (place) {
-            labels.reserve(squareAround(projection.of(*place, view), kSegmentRadius));
-        }
+    for (const Dot& dot : m_dots) {
+        const bool isPoint = dot.item.point >= 0;
+        const bool isSelected = dot.item == m_selected;
+        const QColor plain = isPoint ? withAlpha(theme().dim, 0.55) : theme().text;
+        painter.setPen(isPoint ? QPen(Qt::NoPen) : pen(isSelected ? theme().accent : theme().panel, 1));
+        painter.setBrush(isSelected || isOfSelected(dot.item) ? theme().accent : plain);
+        const double radius = (isPoint ? kPointRadius : kSegmentRadius) + (isSelected ? 2 : 0);
+        painter.drawEllipse(projection.of(dot.place, across), radius, radius);
     }
-    for (const auto& place : m_points) {
-        if (place) {
-            labels.spare(squareAround(projection.of(*place, view), kPointRadius));
-        }
-    }
-    const double middle = (view == View::Front ? projection.front : projection.side).x();
-    const QFont plain = painter.font();
-    QFont bold = plain;
-    bold.setBold(true);
-    painter.setFont(bold);
-    if (const auto point = at(m_points, m_point)) {
-        labels.add(projection.of(*point, view), nameOf({-1, m_point}), theme().accent, middle);
-    } else if (const auto segment = at(m_segments, m_segment)) {
-        labels.add(projection.of(*segment, view), nameOf({m_segment, -1}), theme().accent, middle);
-    }
-    painter.setFont(plain);
-    if (view == View::Side) {
-        return;
-    }
-    for (std::size_t i = 0; i < m_points.size(); ++i) {
-        if (m_points[i] && static_cast<int>(i) != m_point && isOfSelected(i)) {
-            labels.add(projection.of(*m_points[i], view), shown(m_reading.pose()->points[i].name),
-                       theme().text, middle);
-        }
-    }
-    for (int i = 0; i < static_cast<int>(m_segments.size()); ++i) {
-        if (const auto place = i == m_segment ? std::nullopt : at(m_segments, i)) {
-            labels.add(projection.of(*place, view), QString::number(i + 1), theme().dim, middle);
-        }
+    if (const auto dot = std::ranges::find(m_dots, m_selected, &Dot::item); dot != m_dots.end()) {
+        const QString name = nameOf(m_selected);
+        const QPointF at = projection.of(dot->place, across) + QPointF(0, -1.4 * fontMetrics().height());
+        QRectF plate(at, QSizeF(fontMetrics().horizontalAdvance(name) + 8, fontMetrics().height()));
+        plate.moveLeft(
+            std::clamp(plate.left() - plate.width() / 2, 2.0, std::max(2.0, width() - plate.width() - 2)));
+        plate.moveTop(std::max(plate.top(), 2.0));
+        painter.fillRect(plate, withAlpha(theme().panel, 0.85));
+        painter.setPen(theme().accent);
+        painter.drawText(plate, Qt::AlignCenter | Qt::TextDontClip, name);
     }
 }
 
-NullPoseFigure::Hit NullPoseFigure::hitAt(const QPointF& pointer) const {
+NullPoseFigure::Item NullPoseFigure::itemAt(const QPointF& pointer) const {
     const Projection shown = projection();
-    Hit hit;
+    Item item;
     double nearest = fontMetrics().height() * 0.7;
-    const auto consider = [&](const std::optional<Eigen::Vector3d>& place, Hit candidate) {
-        for (const View view : {View::Front, View::Side}) {
-            const QPointF away = place ? shown.of(*place, view) - pointer : QPointF(1e9, 0);
+    for (const Dot& dot : m_dots) {
+        for (const int across : {0, 1}) {
+            const QPointF away = shown.of(dot.place, across) - pointer;
             // A joint's point lies on its segment's origin: there the segment is meant.
-            const double distance = std::hypot(away.x(), away.y()) + (candidate.point >= 0 ? 0.75 : 0.0);
+            const double distance = std::hypot(away.x(), away.y()) + (dot.item.point >= 0 ? 0.75 : 0.0);
             if (distance < nearest) {
                 nearest = distance;
-                hit = candidate;
+                item = dot.item;
             }
         }
-    };
-    for (int i = 0; i < static_cast<int>(m_segments.size()); ++i) {
-        consider(at(m_segments, i), {i, -1});
     }
-    for (int i = 0; i < static_cast<int>(m_points.size()); ++i) {
-        consider(at(m_points, i), {-1, i});
-    }
-    return hit;
+    return item;
 }
 
-QString NullPoseFigure::nameOf(const Hit& hit) const {
-    if (hit.point >= 0 && hit.point < static_cast<int>(m_points.size())) {
-        const auto& point = m_reading.pose()->points[static_cast<std::size_t>(hit.point)];
+QString NullPoseFigure::nameOf(const Item& item) const {
+    const model::NullPose* pose = m_reading.pose();
+    if (pose != nullptr && item.point >= 0 && item.point < static_cast<int>(pose->points.size())) {
+        const auto& point = pose->points[static_cast<std::size_t>(item.point)];
         return QStringLiteral("%1.%2 %3").arg(point.segment).arg(point.id).arg(shown(point.name));
     }
-    if (hit.segment >= 0 && hit.segment < static_cast<int>(m_segments.size())) {
-        const auto& segment = m_reading.pose()->segments[static_cast<std::size_t>(hit.segment)];
-        return QStringLiteral("%1 %2").arg(QString::number(hit.segment + 1), fromUtf8(segment.title()));
+    if (pose != nullptr && item.segment >= 0 && item.segment < static_cast<int>(pose->segments.size())) {
+        const auto& segment = pose->segments[static_cast<std::size_t>(item.segment)];
+        return QStringLiteral("%1 %2").arg(QString::number(item.segment + 1), fromUtf8(segment.title()));
     }
     return {};
 }
 
-QPointF NullPoseFigure::inFront(const Places& places, int index) const {
-    return projection().of(at(places, index).value_or(Eigen::Vector3d::Zero()), View::Front);
+QPointF NullPoseFigure::inFront(const Item& item) const {
+    const auto dot = std::ranges::find(m_dots, item, &Dot::item);
+    return dot == m_dots.end() ? QPointF() : projection().of(dot->place, 1);
 }
 
 void NullPoseFigure::mousePressEvent(QMouseEvent* event) {
-    const Hit hit = hitAt(event->position());
-    if (hit.segment >= 0) {
-        emit segmentPicked(hit.segment);
-    } else if (hit.point >= 0) {
-        emit pointPicked(hit.point);
+    const Item item = itemAt(event->position());
+    if (item.segment >= 0) {
+        emit segmentPicked(item.segment);
+    } else if (item.point >= 0) {
+        emit pointPicked(item.point);
     }
 }
 
 void NullPoseFigure::keyPressEvent(QKeyEvent* event) {
-    const int count = static_cast<int>(m_segments.size());
+    const int count = m_reading.pose() == nullptr ? 0 : static_cast<int>(m_reading.pose()->segments.size());
     const bool isNext = event->key() == Qt::Key_Right || event->key() == Qt::Key_Down;
     const bool isPrevious = event->key() == Qt::Key_Left || event->key() == Qt::Key_Up;
     if (count == 0 || (!isNext && !isPrevious)) {
@@ -400,7 +277,7 @@ void NullPoseFigure::keyPressEvent(QKeyEvent* event) {
 bool NullPoseFigure::event(QEvent* event) {
     if (event->type() == QEvent::ToolTip) {
         auto* help = static_cast<QHelpEvent*>(event);
-        QToolTip::showText(help->globalPos(), toolTipText(nameOf(hitAt(help->pos()))), this);
+        QToolTip::showText(help->globalPos(), toolTipText(nameOf(itemAt(help->pos()))), this);
         return true;
     }
     return QWidget::event(event);

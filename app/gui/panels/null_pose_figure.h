@@ -5,12 +5,13 @@
 
 #include <QWidget>
 
+#include <array>
 #include <vector>
 
 namespace posewire::gui {
 
-/// The null pose as it was sent, from the front and from its right: bones, segments, points. What is selected
-/// is named; what moved since the message before is drawn where it was.
+/// The null pose as it was sent, from the front and from its right: bones, segments by their numbers, points.
+/// It names the selection and draws the bones of the message before where they were.
 class NullPoseFigure final : public QWidget {
     Q_OBJECT
 
@@ -18,7 +19,7 @@ public:
     /// The reading must outlive the figure.
     explicit NullPoseFigure(const NullPoseReading& reading, QWidget* parent = nullptr);
 
-    /// The reading has changed, or what is selected: a place in the list of segments and one in that of
+    /// For when the reading or the selection has changed: a place in the list of segments and one in that of
     /// points, −1 for none.
     void mark(int segment, int point);
 
@@ -30,8 +31,8 @@ public:
     }
 
     /// Where a segment is on the widget, in the view from the front; for tests and scripts.
-    [[nodiscard]] QPointF placeOfSegment(int segment) const { return inFront(m_segments, segment); }
-    [[nodiscard]] QPointF placeOfPoint(int point) const { return inFront(m_points, point); }
+    [[nodiscard]] QPointF placeOfSegment(int segment) const { return inFront({segment, -1}); }
+    [[nodiscard]] QPointF placeOfPoint(int point) const { return inFront({-1, point}); }
 
 signals:
     void segmentPicked(int segment);
@@ -44,41 +45,45 @@ protected:
     bool event(QEvent* event) override;
 
 private:
-    enum class View { Front, Side };
+    /// Two views, each by the axis that lies across it: y from the front, x from the right.
     struct Projection {
-        double scale = 1; ///< pixels a metre
-        QPointF front;    ///< where y = 0 meets the floor
-        QPointF side;     ///< where x = 0 meets the floor
-        double floor = 0; ///< metres
-        [[nodiscard]] QPointF of(const Eigen::Vector3d& place, View view) const;
+        double scale = 1;               ///< pixels a metre
+        double floor = 0;               ///< metres
+        std::array<QPointF, 2> origins; ///< by axis: where 0 of it meets the floor
+        [[nodiscard]] QPointF of(const Eigen::Vector3d& place, int across) const;
     };
-    struct Hit {
+    /// One of both by its place in the message; −1 for the other.
+    struct Item {
         int segment = -1;
         int point = -1;
+        friend bool operator==(const Item&, const Item&) = default;
     };
-    class Labels;
-    using Places = std::vector<std::optional<Eigen::Vector3d>>; ///< metres; nothing where unknown
+    struct Dot {
+        Item item;
+        Eigen::Vector3d place; ///< metres
+    };
+    struct Bone {
+        int segment = -1; ///< place of the segment that it begins at
+        Eigen::Vector3d from;
+        Eigen::Vector3d to;
+    };
 
+    [[nodiscard]] std::vector<Bone> bonesOf(const std::vector<std::optional<Eigen::Vector3d>>& places) const;
     void readPlaces();
     [[nodiscard]] Projection projection() const;
-    [[nodiscard]] QPointF inFront(const Places& places, int index) const;
-    [[nodiscard]] Hit hitAt(const QPointF& pointer) const;
-    [[nodiscard]] QString nameOf(const Hit& hit) const;
-    [[nodiscard]] bool isOfSelected(std::size_t point) const;
-    template <class Draw>
-    void forEachBone(const Places& segments, Draw draw) const;
-    void paintBones(QPainter& painter, const Projection& projection, View view) const;
-    void paintMarks(QPainter& painter, const Projection& projection, View view) const;
-    void paintLabels(QPainter& painter, const Projection& projection, View view, Labels& labels) const;
-    void reserveBones(const Projection& projection, Labels& labels) const;
+    [[nodiscard]] QPointF inFront(const Item& item) const;
+    [[nodiscard]] Item itemAt(const QPointF& pointer) const;
+    [[nodiscard]] QString nameOf(const Item& item) const;
+    [[nodiscard]] bool isOfSelected(const Item& item) const;
     void paintFrame(QPainter& painter, const Projection& projection) const;
+    void paintView(QPainter& painter, const Projection& projection, int across) const;
 
     const NullPoseReading& m_reading;
-    Places m_segments; ///< in the order of the message, as are the others
-    Places m_before;   ///< of segments, in the message before
-    Places m_points;
+    std::vector<Dot> m_dots; ///< those that are known: points, then segments
+    std::vector<Bone> m_bones;
+    std::vector<Bone> m_before; ///< in the message before, if that was another body
+    Item m_selected;            ///< the point if there is one, else the segment
     int m_segment = -1;
-    int m_point = -1;
 };
 
 } // namespace posewire::gui
