@@ -2,13 +2,13 @@
 #include "app/gui/base/logging.h"
 #include "app/gui/base/options.h"
 #include "app/gui/base/saving.h"
-#include "app/gui/ending_signals.h"
 #include "app/gui/plots/time_plot.h"
 #include "app/gui/theme/event_watch.h"
 #include "app/gui/theme/icons.h"
 #include "app/gui/viewport/own_characters.h"
 #include "app/gui/viewport/presenter.h"
 #include "app/gui/window/main_window.h"
+#include "app/system/interruption.h"
 #include "app/system/process_figures.h"
 #include "app/system/standard_streams.h"
 #include "app/usage/version.h"
@@ -18,6 +18,7 @@
 #include <QStandardPaths>
 #include <QTimer>
 
+#include <chrono>
 #include <cstdio>
 #include <utility>
 
@@ -204,11 +205,16 @@ int main(int argc, char** argv) {
             QTimer::singleShot(0, &window, [&] { begin(window, *options, settings); });
         }
     });
-    const EndingSignals ending;
-    QObject::connect(&ending, &EndingSignals::requested, &window, [&window] {
-        window.close(); // settings and layout are saved
-        QCoreApplication::quit();
+    const system::Interruption interruption;
+    QTimer ending;
+    QObject::connect(&ending, &QTimer::timeout, &window, [&] {
+        if (system::Interruption::hasCome()) {
+            ending.stop();
+            window.close(); // settings and layout are saved
+            QCoreApplication::quit();
+        }
     });
+    ending.start(std::chrono::milliseconds(100));
     window.show();
     if (!problem.isEmpty()) {
         window.say(problem, HelpTopic::SettingsUnusable);

@@ -3,7 +3,7 @@
 
 namespace posewire::system {
 
-/// While one lives, the first Ctrl+C (SIGINT), SIGTERM or SIGHUP is only remembered, so that a command ends
+/// While one lives, the first Ctrl+C (SIGINT), SIGTERM or SIGHUP is only remembered, so that the program ends
 /// in good order; one that comes half a second later or more ends the program at once. Calls of the system
 /// that wait are interrupted. A SIGHUP that is ignored stays so (nohup). On Windows it is Ctrl+C, Ctrl+Break
 /// and the end of the console. One object at a time.

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/system/interruption.h"
 
-#include "app/system/ending_signals_posix.h"
-
 #include <atomic>
 #include <csignal>
 #include <cstdint>
@@ -24,6 +22,20 @@ std::int64_t nowMs() {
     return std::int64_t{now.tv_sec} * 1000 + now.tv_nsec / 1'000'000;
 }
 
+/// A SIGHUP that the program was started to ignore stays so (nohup).
+void handleEndings(void (*handler)(int)) {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+        struct sigaction action {};
+        const bool isIgnored = ::sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
+        if (signal == SIGHUP && isIgnored) {
+            continue;
+        }
+        action = {};
+        action.sa_handler = handler;
+        ::sigaction(signal, &action, nullptr);
+    }
+}
+
 /// What comes at once is the same again: timeout(1) signals a program and then its group.
 extern "C" void rememberInterruption(int signal) {
     constexpr std::int64_t same = 500;
@@ -41,11 +53,11 @@ extern "C" void rememberInterruption(int signal) {
 
 Interruption::Interruption() {
     hasInterruptionCome = false;
-    handleEndings(rememberInterruption, 0);
+    handleEndings(rememberInterruption);
 }
 
 Interruption::~Interruption() {
-    handleEndings(SIG_DFL, 0);
+    handleEndings(SIG_DFL);
 }
 
 bool Interruption::hasCome() {
