@@ -88,8 +88,8 @@ Command addEncodeCommand(CommandLine& program) {
         program.addCommand("encode", "Turn the output of decode --json back into datagrams");
     arguments.add("FILE", options->input, "JSON Lines; - for standard input").required();
     arguments
-        .add("-o,--output", options->output, "where the datagrams go, back to back; - for standard output")
-        .form("FILE")
+        .add("-o,--output FILE", options->output,
+             "where the datagrams go, back to back; - for standard output")
         .showDefault();
     arguments.force(options->replaces);
     return {"encode", [options](Console& console) { return encode(*options, console); }};

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/command.h"
-#include "app/cli/progress_line.h"
 #include "app/cli/recorded_session.h"
 #include "app/figure/mannequin_body.h"
 #include "app/system/interruption.h"
-#include "app/usage/version.h"
+#include "app/system/standard_streams.h"
+#include "app/usage/usage.h"
 #include "core/export/motion/motion_export.h"
 #include "core/model/accounting/stream_figures.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <iostream>
+#include <utility>
 
 namespace posewire::cli {
 namespace {
@@ -26,6 +29,40 @@ struct ExportOptions {
     std::optional<double> untilSeconds;
     std::vector<std::string> characters; ///< none: all
     bool replaces = false;
+};
+
+/// How far long work is, in one line of standard error that is written over; nothing if that is no terminal.
+class ProgressLine {
+public:
+    explicit ProgressLine(std::string command) : m_command(std::move(command)) {}
+    ~ProgressLine() { clear(); }
+    ProgressLine(const ProgressLine&) = delete;
+    ProgressLine& operator=(const ProgressLine&) = delete;
+
+    /// "reading", 0 to 1; ten times a second at most.
+    void show(const std::string& work, double share) {
+        const auto now = std::chrono::steady_clock::now();
+        if (!m_isTerminal || now < m_next) {
+            return;
+        }
+        m_next = now + std::chrono::milliseconds(100);
+        m_isShown = true;
+        std::cerr << "\r\x1b[K" << m_command << ": " << work << ' ' << std::lround(100 * share) << " %"
+                  << std::flush;
+    }
+
+    /// Before anything else is written there.
+    void clear() {
+        if (std::exchange(m_isShown, false)) {
+            std::cerr << "\r\x1b[K" << std::flush;
+        }
+    }
+
+private:
+    std::string m_command;
+    bool m_isTerminal = system::isTerminal(system::kStandardError);
+    bool m_isShown = false;
+    std::chrono::steady_clock::time_point m_next{};
 };
 
 std::string formatNames() {
@@ -245,21 +282,14 @@ Command addExportCommand(CommandLine& program) {
         program.addCommand("export", "Write the motion of a recording for other programs: " + formatNames());
     arguments.add("FILE", options->input, "pcap, pcapng, or datagrams back to back; - for standard input")
         .required();
-    arguments.add("--to", options->output, "the file to write; - for standard output")
-        .form("PATH")
-        .required();
-    arguments.add("--format", options->format, formatHelp()).form("FORMAT");
-    arguments.add("--from", options->fromSeconds, "begin this many seconds after the first datagram")
-        .form("SECONDS")
+    arguments.add("--to PATH", options->output, "the file to write; - for standard output").required();
+    arguments.add("--format FORMAT", options->format, formatHelp());
+    arguments.add("--from SECONDS", options->fromSeconds, "begin this many seconds after the first datagram")
         .seconds();
-    arguments.add("--until", options->untilSeconds, "end this many seconds after the first datagram")
-        .form("SECONDS")
+    arguments.add("--until SECONDS", options->untilSeconds, "end this many seconds after the first datagram")
         .seconds();
-    arguments
-        .add("--characters", options->characters,
-             "names or IDs, with commas between them (default: all); may be given several times")
-        .form("LIST")
-        .repeatable();
+    arguments.add("--characters LIST", options->characters,
+                  "names or IDs, with commas between them (default: all); may be given several times");
     arguments.force(options->replaces);
     return {"export", [options](Console& console) {
                 if (options->fromSeconds && options->untilSeconds &&

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/cli/program.h"
+#include "app/cli/command.h"
 #include "app/system/standard_streams.h"
 
 #include <algorithm>
 #include <iostream>
-#include <iterator>
 #include <string>
-#include <vector>
 
 namespace posewire::cli {
 namespace {
@@ -22,13 +20,6 @@ ExitStatus run(const Command& command) {
     return status;
 }
 
-CommandLine::Parsed parse(CommandLine& line, int count, char** arguments) {
-    const std::vector<std::string> texts = system::argumentsOf(count, arguments);
-    std::vector<const char*> pointers;
-    std::ranges::transform(texts, std::back_inserter(pointers), &std::string::c_str);
-    return line.parse(static_cast<int>(pointers.size()), pointers.data());
-}
-
 } // namespace
 } // namespace posewire::cli
 
@@ -39,15 +30,9 @@ int main(int argumentCount, char** arguments) {
     system::prepareStandardStreams();
     std::ios::sync_with_stdio(false);
     Program program;
-    const CommandLine::Parsed parsed = parse(program.line, argumentCount, arguments);
-    if (parsed.kind == CommandLine::Parsed::Kind::Answer) {
-        std::cout << parsed.text;
-        return static_cast<int>(ExitStatus::Fine);
+    const auto parsed = program.line.parse(system::argumentsOf(argumentCount, arguments));
+    if (!parsed) {
+        return usage::end(parsed.error());
     }
-    const auto chosen = std::ranges::find(program.commands, parsed.text, &Command::name);
-    if (parsed.kind == CommandLine::Parsed::Kind::Command && chosen != program.commands.end()) {
-        return static_cast<int>(run(*chosen));
-    }
-    std::cerr << parsed.text << '\n';
-    return static_cast<int>(ExitStatus::Unusable);
+    return static_cast<int>(run(*std::ranges::find(program.commands, *parsed, &Command::name)));
 }

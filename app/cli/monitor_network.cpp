@@ -82,12 +82,15 @@ void tellChosenPorts(const net::Receiver& receiver, const Places& places, Consol
     }
 }
 
+std::string placeOf(const net::InputStatus& input) {
+    return input.endpoint.host.empty() ? "port " + std::to_string(input.endpoint.port)
+                                       : net::textOf(input.endpoint);
+}
+
 void tellInputs(const net::Receiver& receiver, Console& console) {
     for (const net::InputStatus& input : receiver.inputs()) {
         const bool isConnection = input.kind == net::InputKind::TcpConnection;
-        const std::string place = input.endpoint.host.empty() ? "port " + std::to_string(input.endpoint.port)
-                                                              : net::textOf(input.endpoint);
-        console.complain((isConnection ? "connecting to " : "listening on ") + place +
+        console.complain((isConnection ? "connecting to " : "listening on ") + placeOf(input) +
                          (input.kind == net::InputKind::Udp ? " (UDP)" : " (TCP)"));
     }
 }
@@ -196,10 +199,6 @@ private:
         std::string note;
     };
 
-    static std::string placeOf(const net::InputStatus& input) {
-        return input.endpoint.host.empty() ? "port " + std::to_string(input.endpoint.port)
-                                           : net::textOf(input.endpoint);
-    }
     void tellNote(const net::InputStatus& input, Told& told) {
         if (told.note != input.note) {
             told.note = input.note;

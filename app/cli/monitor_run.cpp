@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/monitor.h"
 
-#include "app/usage/version.h"
+#include "app/usage/usage.h"
 #include "core/export/html.h"
 #include "core/export/reports.h"
 #include "core/export/session_reading.h"

@@ -200,15 +200,13 @@ std::string motionList() {
 
 void addTargets(Arguments arguments, SendOptions& options) {
     arguments.beginGroup("Target and duration");
-    arguments.add("--to", options.to, "target; may be given several times")
-        .form("HOST:PORT")
-        .repeatable()
-        .showDefault();
-    const Option udp = arguments.flag("--udp", "one datagram per packet (default)");
+    arguments.add("--to HOST:PORT", options.to, "target; may be given several times").showDefault();
+    const DeclaredOption udp = arguments.flag("--udp", "one datagram per packet (default)");
     arguments.flag("--tcp", options.overTcp, "connect, as MVN does, and send datagrams back to back")
         .excludes(udp);
-    arguments.add("--duration", options.durationSeconds, "stop after this many seconds; 0: when interrupted")
-        .form("SECONDS")
+    arguments
+        .add("--duration SECONDS", options.durationSeconds,
+             "stop after this many seconds; 0: when interrupted")
         .seconds()
         .showDefault();
 }
@@ -222,13 +220,12 @@ void addPerformer(Arguments arguments, SendOptions& options) {
     arguments.add("--rate", settings.rateHz, "samples per second").within(1.0, 1000.0).showDefault();
     arguments.add("--types", options.types, "message types, such as 02,12,13, or all of the revision")
         .showDefault();
-    arguments.add("--revision", options.revision, "of the specification that they follow")
-        .form("E|J|K|N")
+    arguments.add("--revision E|J|K|N", options.revision, "of the specification that they follow")
         .showDefault();
     arguments.add("--seed", settings.seed, "the same seed gives the same bytes and faults")
         .wholeUpTo(UINT64_MAX)
         .showDefault();
-    arguments.add("--motion", settings.motion, "how they move").form(motionList()).showDefault();
+    arguments.add("--motion " + motionList(), settings.motion, "how they move").showDefault();
     arguments.add("--props", settings.props, "props of each character").wholeUpTo(4).showDefault();
     arguments.flag("--fingers", settings.fingers, "send the fingers of both hands too (revision N)");
     arguments
@@ -241,71 +238,59 @@ void addPerformer(Arguments arguments, SendOptions& options) {
         .showDefault();
 }
 
-Option addChance(Arguments arguments, const std::string& name, double& value, const char* text) {
-    return arguments.add(name, value, text).within(0.0, 1.0).form("P");
+DeclaredOption addChance(Arguments arguments, const std::string& name, double& value, const char* text) {
+    return arguments.add(name + " P", value, text).within(0.0, 1.0);
 }
 
 void addFaults(Arguments arguments, SendOptions& options) {
     arguments.beginGroup("Faults, in any combination (P: chance per datagram)");
     performer::FaultSettings& faults = options.faults;
-    const Option drop = addChance(arguments, "--drop", faults.drop, "lose datagrams");
-    arguments.add("--burst", faults.burst, "lose this many in a row, with the same overall share")
+    const DeclaredOption drop = addChance(arguments, "--drop", faults.drop, "lose datagrams");
+    arguments.add("--burst N", faults.burst, "lose this many in a row, with the same overall share")
         .within(1, 1'000'000)
-        .needs(drop)
-        .form("N");
+        .needs(drop);
     arguments
-        .add("--gilbert-elliott", options.gilbertElliott,
+        .add("--gilbert-elliott p,r[,k,h]", options.gilbertElliott,
              "lose by state: chances to go bad and back, then to pass in good (1) and bad (0)")
-        .excludes(drop)
-        .form("p,r[,k,h]");
+        .excludes(drop);
     addChance(arguments, "--duplicate", faults.duplicate, "send datagrams twice, at once or later");
     addChance(arguments, "--reorder", faults.reorder, "hold datagrams back, some by more than 100 samples");
-    arguments.add("--delay", faults.delayMs, "delay all datagrams by this much")
-        .within(0.0, 10'000.0)
-        .form("MS");
-    arguments.add("--jitter", faults.jitterMs, "delay each datagram by up to this much")
-        .within(0.0, 10'000.0)
-        .form("MS");
+    arguments.add("--delay MS", faults.delayMs, "delay all datagrams by this much").within(0.0, 10'000.0);
+    arguments.add("--jitter MS", faults.jitterMs, "delay each datagram by up to this much")
+        .within(0.0, 10'000.0);
     addChance(arguments, "--corrupt", faults.corrupt, "flip bits in datagrams");
     addChance(arguments, "--truncate", faults.truncate, "cut datagrams short");
     arguments.flag("--split", faults.splits, "send samples of several items in two to four datagrams");
-    arguments.add("--restart-at", options.restart, "restart the sample counter after S seconds")
-        .form("S[:SAMPLE]");
-    arguments.add("--pause-at", options.pause, "pause at S for S seconds; the counter keeps counting")
-        .form("S:S");
-    arguments.add("--reduce-at", options.reduction, "from S on send every Kth sample").form("S:K");
+    arguments.add("--restart-at S[:SAMPLE]", options.restart, "restart the sample counter after S seconds");
+    arguments.add("--pause-at S:S", options.pause, "pause at S for S seconds; the counter keeps counting");
+    arguments.add("--reduce-at S:K", options.reduction, "from S on send every Kth sample");
 }
 
-Option addFile(Arguments arguments, SendOptions& options) {
+DeclaredOption addFile(Arguments arguments, SendOptions& options) {
     arguments.beginGroup("A recording");
-    const Option file =
-        arguments
-            .add("--file", options.file, "send this recording instead of a performance; - for standard input")
-            .form("FILE");
+    const DeclaredOption file = arguments.add(
+        "--file FILE", options.file, "send this recording instead of a performance; - for standard input");
     arguments.add("--speed", options.speed, "how fast a recording plays")
         .within(0.001, 1000.0)
         .needs(file)
         .showDefault();
     arguments.flag("--loop", options.loops, "begin a recording again at its end").needs(file);
-    arguments.add("--from", options.fromSeconds, "begin this many seconds after its first datagram")
-        .form("SECONDS")
+    arguments.add("--from SECONDS", options.fromSeconds, "begin this many seconds after its first datagram")
         .seconds()
         .needs(file);
-    arguments.add("--until", options.untilSeconds, "end this many seconds after its first datagram")
-        .form("SECONDS")
+    arguments.add("--until SECONDS", options.untilSeconds, "end this many seconds after its first datagram")
         .seconds()
         .needs(file);
     return file;
 }
 
-void addTruth(Arguments arguments, SendOptions& options, Option file) {
+void addTruth(Arguments arguments, SendOptions& options, DeclaredOption file) {
     arguments.beginGroup("The truth");
     arguments
-        .add("--truth", options.truth,
+        .add("--truth FILE", options.truth,
              "write what was really sent to this file, as JSON with monitor's names")
         .excludes(file)
-        .needs(arguments.option("--duration"))
-        .form("FILE");
+        .needs(arguments.option("--duration"));
     arguments.force(options.replaces);
 }
 
@@ -319,7 +304,7 @@ Command addSendCommand(CommandLine& program) {
     addPerformer(arguments, *options);
     addFaults(arguments, *options);
     addTruth(arguments, *options, addFile(arguments, *options));
-    arguments.verbose(options->isVerbose, "from where to where it sends");
+    arguments.verbose(options->isVerbose, "the addresses that it sends from and to");
     return {"send", [options](Console& console) { return send(*options, console); }};
 }
 

@@ -11,7 +11,7 @@
 #include "app/system/interruption.h"
 #include "app/system/process_figures.h"
 #include "app/system/standard_streams.h"
-#include "app/usage/version.h"
+#include "app/usage/usage.h"
 
 #include <QApplication>
 #include <QFileInfo>
@@ -27,15 +27,14 @@ namespace {
 using namespace posewire;
 using namespace posewire::gui;
 
-/// Help, version and errors need no display: they are dealt with before a window system is asked for.
-tl::expected<Options, EarlyExit> readOptions(int& argc, char** argv) {
+/// Help, version and mistakes need no display: they are dealt with before a window system is asked for.
+tl::expected<Options, usage::EarlyExit> readOptions(int& argc, char** argv) {
     const QCoreApplication application(argc, argv);
-    auto options = parseOptions(QCoreApplication::arguments());
-    if (!options && options.error().isVersion) {
-        options.error().text +=
-            QStringLiteral("%1\n%2\nOpenGL %3\n").arg(importerName(), plottingName(), windowlessOpenGlName());
-    }
-    return options;
+    return parseOptions(QCoreApplication::arguments(), [] {
+        return QStringLiteral("\n%1\n%2\nOpenGL %3")
+            .arg(importerName(), plottingName(), windowlessOpenGlName())
+            .toStdString();
+    });
 }
 
 Settings startSettings(SettingsFile& file, const Options& options, QString* problem) {
@@ -159,7 +158,7 @@ void begin(MainWindow& window, const Options& options, const Settings& settings)
     window.driver().start();
     if (options.screenshotFile.isEmpty()) {
         window.offerRecovered();
-        if (options.hasTour && window.driver().lostHistories().empty()) {
+        if (!options.skipsTour && window.driver().lostHistories().empty()) {
             window.offerTour();
         }
     } else {
@@ -180,8 +179,7 @@ int main(int argc, char** argv) {
     QCoreApplication::setApplicationVersion(QString::fromUtf8(posewire::usage::version()));
     const auto options = readOptions(argc, argv);
     if (!options) {
-        std::fputs(qUtf8Printable(options.error().text), options.error().status == 0 ? stdout : stderr);
-        return options.error().status;
+        return usage::end(options.error());
     }
     system::leaveFailedWritesToTheWriter();
     if (options->isVerbose) {

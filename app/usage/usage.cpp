@@ -12,6 +12,10 @@ bool isCapital(char c) {
 
 } // namespace
 
+std::string_view version() {
+    return POSEWIRE_VERSION;
+}
+
 bool isArgument(const Option& option) {
     return option.names.empty();
 }

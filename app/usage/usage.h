@@ -5,18 +5,19 @@
 #include <string_view>
 #include <vector>
 
-/// What a program takes on its command line, as plain data: from this come its manual page and its
-/// completions.
+#include <tl/expected.hpp>
+
+/// What a program takes on its command line, as plain data, and what is made of that.
 namespace posewire::usage {
 
-/// An option or, where it has no name, an argument.
+/// An option or, if it has no name, an argument.
 struct Option {
     std::vector<std::string> names; ///< "-o", "--output"
     std::string form;  ///< what to type after the option, or as the argument: "SECONDS"; empty for a switch
     std::string range; ///< of a number: "0 to 1"
     std::string text;
     std::string group; ///< the heading it belongs under, if any
-    std::string usual; ///< its default, where it has one worth naming
+    std::string usual; ///< its default, if it is worth naming
     bool isRequired = false;
     bool isRepeatable = false;
     std::vector<std::string> needs;    ///< names of other options
@@ -38,22 +39,41 @@ struct Program {
 
 [[nodiscard]] bool isArgument(const Option& option);
 
-/// Whether something has to follow it. "[NUMBER]" need not.
+/// Tells if a value has to follow: not for "[NUMBER]".
 [[nodiscard]] bool needsValue(const Option& option);
 
 /// The alternatives of a form: those of "light|dark|FILE" are three.
 [[nodiscard]] std::vector<std::string> alternativesOf(const Option& option);
 
-/// Whether an alternative stands for what is to be typed, as FILE does; others are typed as they are.
+/// Tells placeholders, such as FILE, from alternatives that are typed as they are.
 [[nodiscard]] bool isPlaceholder(std::string_view alternative);
 
-/// What may be typed, letter by letter; none where anything may.
+/// The texts that may be typed; none if anything may.
 [[nodiscard]] std::vector<std::string> choicesOf(const Option& option);
 
-/// Whether it may be the name of a file.
+/// Tells if its value may be the name of a file.
 [[nodiscard]] bool takesFile(const Option& option);
 
 /// `separator` between the words.
 [[nodiscard]] std::string joined(const std::vector<std::string>& words, std::string_view separator);
+
+/// What a manual page says about itself.
+struct PageFacts {
+    std::string version;
+    std::string date; ///< of the release, "2026-11-23"
+};
+
+/// The manual page in roff. `frame` is the page with prose of its own and, for the options, the lines
+/// @SYNOPSIS@, @OPTIONS@ and, for a program with commands, @COMMANDS@; @VERSION@ and @DATE@ in its first
+/// line. The error names what the frame lacks.
+[[nodiscard]] tl::expected<std::string, std::string>
+manualPage(const Program& program, std::string_view frame, const PageFacts& facts);
+
+/// The script by which bash completes commands, options and their values: a whole file, for the folder where
+/// bash looks for completions.
+[[nodiscard]] std::string bashCompletion(const Program& program);
+
+/// The version of both programs, "0.1.0": that of the project in the topmost CMakeLists.txt.
+[[nodiscard]] std::string_view version();
 
 } // namespace posewire::usage

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/cli/program.h"
+#include "app/cli/command.h"
 #include "app/gui/base/options.h"
-#include "app/usage/completion.h"
-#include "app/usage/manual_page.h"
+#include "app/usage/usage.h"
 
 #include <array>
 #include <filesystem>

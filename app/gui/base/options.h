@@ -3,6 +3,7 @@
 
 #include "app/gui/base/input_choices.h"
 #include "app/gui/theme/theme.h"
+#include "app/usage/command_line.h"
 
 #include <QSize>
 #include <QString>
@@ -10,12 +11,10 @@
 
 #include <tl/expected.hpp>
 
+#include <functional>
 #include <optional>
+#include <string>
 #include <vector>
-
-namespace posewire::usage {
-struct Program;
-} // namespace posewire::usage
 
 namespace posewire::gui {
 
@@ -37,21 +36,15 @@ struct Options {
     QSize size;
     std::optional<ThemeChoice> theme;
     QString screenshotPart; ///< name of the dock or bar that the picture is of; empty for the window
-    bool hasTour = true;    ///< where it was not seen yet
+    bool skipsTour = false;
     bool printsStartupTime = false;
     bool isVerbose = false;
 };
 
-/// The program ends at once: help and version on standard output with status 0, a wrong option on standard
-/// error with 2.
-struct EarlyExit {
-    int status = 0;
-    QString text;
-    bool isVersion = false;
-};
-
-/// `arguments` with the program's name first. Needs a QCoreApplication, no display.
-[[nodiscard]] tl::expected<Options, EarlyExit> parseOptions(const QStringList& arguments);
+/// `arguments` with the program's name first; `libraries` makes the further lines of --version. Needs no
+/// display.
+[[nodiscard]] tl::expected<Options, usage::EarlyExit>
+parseOptions(const QStringList& arguments, const std::function<std::string()>& libraries);
 
 /// The command line as it is declared, for the manual page and completions.
 [[nodiscard]] usage::Program programUsage();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/usage/manual_page.h"
+#include "app/usage/usage.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -9,7 +9,7 @@ namespace {
 
 auto parse(QStringList arguments) {
     arguments.prepend(QStringLiteral("posewire"));
-    return parseOptions(arguments);
+    return parseOptions(arguments, [] { return std::string("\nOther 1"); });
 }
 
 TEST(Options, WithoutArgumentsAskForNothing) {
@@ -97,7 +97,7 @@ TEST_P(WrongOption, EndsWithStatusTwoAndSaysWhich) {
     const auto options = parse(GetParam());
     ASSERT_FALSE(options);
     EXPECT_EQ(options.error().status, 2);
-    EXPECT_TRUE(options.error().text.startsWith("posewire: ")) << options.error().text.toStdString();
+    EXPECT_TRUE(options.error().text.starts_with("posewire: ")) << options.error().text;
 }
 
 INSTANTIATE_TEST_SUITE_P(All, WrongOption,
@@ -106,18 +106,23 @@ INSTANTIATE_TEST_SUITE_P(All, WrongOption,
                                          QStringList{"--udp"}, QStringList{"--demo=0"},
                                          QStringList{"--demo=x"}, QStringList{"--size", "12"},
                                          QStringList{"--size", "0x5"}, QStringList{"--after", "soon"},
-                                         QStringList{"--theme", "pink"}, QStringList{"--from", "10.0.0.0/33"},
+                                         QStringList{"--theme", "pink"}, QStringList{"--layout", ""},
+                                         QStringList{"--from", "10.0.0.0/33"},
                                          QStringList{"a.bin", "b.bin"}));
+
+TEST(Options, TheLastOneCountsOfWhatIsGivenTwice) {
+    EXPECT_EQ(parse({"--theme", "dark", "--theme", "light"})->theme, ThemeChoice::Light);
+    EXPECT_EQ(parse({"--size", "10x10", "--size", "20x20"})->size, QSize(20, 20));
+}
 
 TEST(Options, HelpAndVersionEndWithStatusZero) {
     EXPECT_EQ(parse({"--help"}).error().status, 0);
-    EXPECT_TRUE(parse({"--help"}).error().text.contains("--screenshot"));
-    const EarlyExit version = parse({"--version"}).error();
+    EXPECT_THAT(parse({"--help"}).error().text, testing::HasSubstr("--screenshot"));
+    const usage::EarlyExit version = parse({"--version"}).error();
     EXPECT_EQ(version.status, 0);
-    EXPECT_TRUE(version.isVersion);
-    EXPECT_TRUE(version.text.startsWith("posewire ")) << "scripts read the first line";
-    EXPECT_TRUE(version.text.contains(QStringLiteral("\nQt %1\n").arg(qVersion())));
-    EXPECT_FALSE(parse({"--help"}).error().isVersion);
+    EXPECT_THAT(version.text, testing::StartsWith("posewire ")) << "scripts read the first line";
+    EXPECT_THAT(version.text, testing::HasSubstr(std::string("\nQt ") + qVersion() + "\nOther 1\n"));
+    EXPECT_THAT(parse({"--help"}).error().text, testing::Not(testing::HasSubstr("Other")));
 }
 
 } // namespace

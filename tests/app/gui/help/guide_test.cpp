@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The guide against the program: whatever it names exists, and whatever leads into it arrives.
-#include "app/cli/program.h"
+#include "app/cli/command.h"
 #include "app/gui/base/help_topics.h"
 #include "app/gui/base/options.h"
 #include "app/gui/base/panel.h"
