@@ -19,7 +19,7 @@ namespace {
 
 using exporting::ExportedMotion;
 using exporting::MotionFormat;
-using exporting::MotionSource;
+using feed::PoseSource;
 
 struct ExportOptions {
     std::string input;
@@ -135,7 +135,7 @@ std::vector<std::string> wordsOf(const std::string& text, const auto& isKnown) {
 /// Those whose name or ID is asked for, or one line about what is wrong.
 tl::expected<std::vector<model::CharacterKey>, std::string> chosen(const ExportOptions& options,
                                                                    const model::SessionView& session) {
-    const std::vector<const model::Character*> all = session.charactersNow();
+    const std::vector<const model::Character*> all = session.atNow().currentCharacters();
     std::vector<model::CharacterKey> keys;
     std::string known;
     for (const model::Character* one : all) {
@@ -169,7 +169,7 @@ tl::expected<std::vector<model::CharacterKey>, std::string> chosen(const ExportO
     return wanted;
 }
 
-std::string nothingText(const ExportOptions& options, const MotionSource& source,
+std::string nothingText(const ExportOptions& options, const feed::PoseSource& source,
                         const log::FileContents& contents) {
     if (source.characters.empty()) {
         const std::string other = log::otherContents(contents);
@@ -177,16 +177,20 @@ std::string nothingText(const ExportOptions& options, const MotionSource& source
                (other.empty() ? "; is it a recording of MXTP?" : ": it " + other);
     }
     const bool isPart = options.fromSeconds || options.untilSeconds;
-    return options.input + ": no poses (types 01, 02, 05) of " +
+    return options.input + ": no poses (types 01, 02, 05, 21, 22, 03) of " +
            (source.characters.size() == 1 ? source.characters[0].name.shown() : "these characters") +
            (isPart ? " between these times; try without --from and --until"
                    : ", so there is nothing to export; was Position + Orientation streamed?");
 }
 
-void tell(const std::vector<ExportedMotion>& exported, const MotionSource& source, const MotionFormat& format,
-          const Console& console) {
+void tell(const std::vector<ExportedMotion>& exported, const feed::PoseSource& source,
+          const MotionFormat& format, const Console& console) {
     for (const ExportedMotion& one : exported) {
         console.complain(exporting::describe(one, source, format));
+        const feed::PoseCharacter& character = source.characters[one.character];
+        for (const std::string& line : character.remark.lines) {
+            console.complain(character.name.shown() + ": " + line);
+        }
     }
     for (std::size_t i = 0; i < source.characters.size(); ++i) {
         if (std::ranges::find(exported, i, &ExportedMotion::character) == exported.end()) {
@@ -202,7 +206,7 @@ ExitStatus writeMotion(const ExportOptions& options, const MotionFormat& format,
     if (!keys) {
         return console.unusable(keys.error());
     }
-    const MotionSource source = exporting::motionSourceOf(session, exportedRange(options, session), *keys);
+    const feed::PoseSource source = feed::poseSourceOf(session, exportedRange(options, session), *keys);
     if (options.output == "-" && !format.holdsSeveral && source.characters.size() > 1) {
         return console.unusable(std::string("standard output holds one file, and ") + format.suffix +
                                 " has one for each character; choose one with --characters");

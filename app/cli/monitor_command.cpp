@@ -70,9 +70,8 @@ Command addMonitorCommand(CommandLine& program) {
     arguments.add("--report FILE", options->report,
                   "write a report there as HTML: what was received, what not, and whose fault it was");
     arguments.force(options->replaces);
-    arguments.verbose(
-        options->isVerbose,
-        "where it listens and each new sender; the JSON then has what is kept in memory, too");
+    arguments.verbose(options->isVerbose,
+                      "where it listens and each new sender; the JSON then has what is kept in memory, too");
     addLimits(arguments, options->limits);
     return {"monitor", [options](Console& console) {
                 options->isQuiet = options->record == "-";

@@ -120,7 +120,7 @@ std::string VerdictLines::line(const model::SessionView& session, log::Stamp now
     await(verdict, now);
     m_newest = now;
     JsonValue::List characters;
-    const std::vector<const model::Character*> listed = session.charactersNow();
+    const std::vector<const model::Character*> listed = session.atNow().currentCharacters();
     const model::TakeVerdicts verdicts = model::verdictsOf(session, model::recentSpan(session), listed);
     for (const model::Character* character : listed) {
         characters.push_back(characterJson(session, character->key, verdicts.characters.at(character->key)));

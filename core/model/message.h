@@ -4,9 +4,14 @@
 #include "core/log/packet.h"
 #include "core/wire/codec.h"
 
+#include <cstddef>
 #include <cstdint>
 
 namespace posewire::model {
+
+/// Messages of types that count samples that are larger, all parts together, are not read: those of MVN have
+/// less than 3,000 bytes.
+inline constexpr std::size_t kMostMessageBytes = 8192;
 
 /// A complete message, decoded. Items of a sample that came in several datagrams are joined.
 struct Message {

@@ -151,7 +151,7 @@ void write(const model::Session& session) {
 /// In every format; those that hold one character get them one after the other.
 void exportMotion(const model::Session& session) {
     std::vector<std::vector<model::CharacterKey>> groups(1);
-    for (const model::Character* character : session.charactersNow()) {
+    for (const model::Character* character : session.atNow().currentCharacters()) {
         groups.front().push_back(character->key);
         groups.push_back({character->key});
     }
@@ -160,7 +160,7 @@ void exportMotion(const model::Session& session) {
             if (group.size() > 1 && !format.holdsSeveral) {
                 continue;
             }
-            const auto source = exporting::motionSourceOf(session, model::kAllTime, group);
+            const auto source = feed::poseSourceOf(session, model::kAllTime, group);
             const auto exported = exporting::exportMotion({source, format, "/dev/null"});
             require(exported.has_value() || !exported.error().text.empty());
             for (const exporting::ExportedMotion& one :

@@ -171,7 +171,7 @@ ComparisonOrder Comparing::orderFor(const model::SessionView& shown) const {
     const auto& [first, second] = *m_state.pair;
     const auto sourceOf = [](const model::SessionView& session, const model::TimeRange& range,
                              const model::CharacterKey& key) {
-        return exporting::motionSourceOf(session, range, std::span(&key, 1));
+        return feed::poseSourceOf(session, range, std::span(&key, 1));
     };
     return {sourceOf(shown, model::kAllTime, first),
             sourceOf(shown, shown.range().value_or(model::kAllTime), first),
@@ -270,10 +270,10 @@ QString Comparing::problemOf(model::SessionView& shown) const {
     if (m_file->isReading()) {
         return {};
     }
-    if (m_file->session().charactersNow().empty()) {
+    if (m_file->session().atNow().currentCharacters().empty()) {
         return tr("There is no character in %1. Choose another recording.").arg(m_state.name);
     }
-    if (shown.charactersNow().empty()) {
+    if (shown.atNow().currentCharacters().empty()) {
         return tr("There is no character yet to compare with %1.").arg(m_state.name);
     }
     const bool hasTables = m_firstTable != nullptr && m_secondTable != nullptr;

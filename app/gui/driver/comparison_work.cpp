@@ -9,8 +9,7 @@ namespace {
 using Table = std::shared_ptr<const exporting::Timetable>;
 
 /// The one that is known, else a new one; null where it was cancelled.
-Table tableOf(const Table& known, const exporting::MotionSource& source,
-              const exporting::ExportProgress& progress) {
+Table tableOf(const Table& known, const feed::PoseSource& source, const exporting::ExportProgress& progress) {
     if (known != nullptr) {
         return known;
     }

@@ -14,9 +14,9 @@ namespace posewire::gui {
 
 /// What a thread compares, by value but for the logs, which outlive it.
 struct ComparisonOrder {
-    exporting::MotionSource first;      ///< all of it
-    exporting::MotionSource firstRange; ///< what is compared of it
-    exporting::MotionSource second;
+    feed::PoseSource first;      ///< all of it
+    feed::PoseSource firstRange; ///< what is compared of it
+    feed::PoseSource second;
     /// As far as they are known from before; null where they are to be made.
     std::shared_ptr<const exporting::Timetable> firstTable;
     std::shared_ptr<const exporting::Timetable> secondTable;

@@ -156,7 +156,7 @@ QString boardSpanText(const model::SessionView& view) {
 
 std::vector<model::CharacterKey> boardOf(const model::SessionView& view, BoardOrder order) {
     std::vector<model::CharacterKey> keys;
-    for (const model::Character* character : view.charactersNow()) {
+    for (const model::Character* character : view.atNow().currentCharacters()) {
         keys.push_back(character->key);
     }
     if (order == BoardOrder::TroubleFirst) {

@@ -13,7 +13,7 @@ namespace {
 std::vector<const model::Character*> namesakesOf(const model::SessionView& view,
                                                  const model::CharacterKey& key) {
     const model::ForeignText name = view.displayName(key);
-    std::vector<const model::Character*> others = view.charactersNow();
+    std::vector<const model::Character*> others = view.atNow().currentCharacters();
     std::erase_if(others, [&](const model::Character* one) {
         return view.isSame(one->key, key) || view.displayName(one->key).shown() != name.shown();
     });

@@ -261,7 +261,7 @@ void CharactersPanel::refresh() {
 }
 
 QString CharactersPanel::summary() const {
-    const auto characters = m_view.charactersNow();
+    const auto characters = m_view.atNow().currentCharacters();
     if (characters.empty()) {
         return {};
     }
@@ -364,7 +364,7 @@ void CharactersPanel::followSelection() {
 
 std::optional<model::CharacterKey> CharactersPanel::selected() const {
     const auto& key = m_view.selection().character;
-    return key && m_view.find(*key) != nullptr ? std::optional(m_view.currentNow(*key)) : std::nullopt;
+    return key && m_view.find(*key) != nullptr ? std::optional(m_view.atNow().current(*key)) : std::nullopt;
 }
 
 std::optional<model::CharacterKey> CharactersPanel::selectedOrSay() const {
@@ -381,7 +381,7 @@ void CharactersPanel::select(const QModelIndex& index) {
 }
 
 bool CharactersPanel::isSolo(const model::CharacterKey& key) const {
-    return std::ranges::all_of(m_view.charactersNow(), [&](const model::Character* one) {
+    return std::ranges::all_of(m_view.atNow().currentCharacters(), [&](const model::Character* one) {
         return m_view.isHidden(one->key) != m_view.isSame(one->key, key);
     });
 }
@@ -393,7 +393,7 @@ void CharactersPanel::frameSelected() {
 }
 
 void CharactersPanel::soloSelected() {
-    const std::vector<const model::Character*> all = m_view.charactersNow();
+    const std::vector<const model::Character*> all = m_view.atNow().currentCharacters();
     const bool isAnyHidden =
         std::ranges::any_of(all, [this](const model::Character* one) { return m_view.isHidden(one->key); });
     const bool showsAll = !m_view.selection().character && isAnyHidden;

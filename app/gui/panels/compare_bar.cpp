@@ -151,7 +151,7 @@ void CompareBar::layOut() {
 
 void CompareBar::fillPartners(const ComparisonState& state) {
     std::vector<model::CharacterKey> keys;
-    for (const model::Character* one : state.second->charactersNow()) {
+    for (const model::Character* one : state.second->atNow().currentCharacters()) {
         keys.push_back(one->key);
     }
     QStringList names;

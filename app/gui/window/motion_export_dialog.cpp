@@ -36,12 +36,12 @@ constexpr int kMostRows = 8; // of characters, before the list scrolls
 
 /// What a thread writes, by value, and how far it is.
 struct MotionExportDialog::Work {
-    exporting::MotionSource source;
+    feed::PoseSource source;
     exporting::MotionRequest request;
     std::atomic<double> share{0};
     std::atomic<bool> isCancelled{false};
 
-    Work(exporting::MotionSource from, const exporting::MotionFormat& format, std::string path)
+    Work(feed::PoseSource from, const exporting::MotionFormat& format, std::string path)
         : source(std::move(from)), request{source, format, std::move(path)} {}
 };
 
@@ -93,7 +93,7 @@ MotionExportDialog::~MotionExportDialog() {
 }
 
 void MotionExportDialog::listCharacters() {
-    for (const model::Character* one : m_view.charactersNow()) {
+    for (const model::Character* one : m_view.atNow().currentCharacters()) {
         auto* item = new QListWidgetItem(characterName(m_view, one->key), m_characters);
         item->setFlags(Qt::ItemIsEnabled | Qt::ItemIsSelectable | Qt::ItemIsUserCheckable);
         item->setCheckState(m_view.isHidden(one->key) ? Qt::Unchecked : Qt::Checked);
@@ -126,6 +126,15 @@ void MotionExportDialog::describe() {
                        .arg(QLatin1String(format().holds), QLatin1String(format().gaps));
     if (!format().holdsSeveral && chosen().size() > 1) {
         text += u' ' + tr("Each character has a file of its own, with its name behind yours.");
+    }
+    for (const model::CharacterKey& key : chosen()) {
+        const QString name = characterName(m_view, key);
+        if (m_view.pose(key) == nullptr) {
+            text += u'\n' + tr("%1 sends no pose and is left out.").arg(name);
+        }
+        for (const std::string& line : m_view.poseRemark(key).lines) {
+            text += u'\n' + tr("%1: %2.").arg(name, QString::fromStdString(line));
+        }
     }
     m_about->setText(text);
     m_button->setEnabled(!chosen().empty());
@@ -163,9 +172,8 @@ void MotionExportDialog::save(const QString& path) {
 
 std::shared_ptr<MotionExportDialog::Work> MotionExportDialog::workFor(const QString& path) const {
     const auto range = m_range->isRangeOnly() ? m_view.range() : std::nullopt;
-    auto work =
-        std::make_shared<Work>(exporting::motionSourceOf(m_view, range.value_or(model::kAllTime), chosen()),
-                               format(), QFile::encodeName(path).toStdString());
+    auto work = std::make_shared<Work>(feed::poseSourceOf(m_view, range.value_or(model::kAllTime), chosen()),
+                                       format(), QFile::encodeName(path).toStdString());
     work->request.rules = replacing();
     work->request.application = ("Posewire " + QCoreApplication::applicationVersion()).toStdString();
     work->request.makeBody = figure::mannequinBody;
@@ -201,10 +209,11 @@ void MotionExportDialog::watch() {
     for (const exporting::ExportedMotion& one : *result) {
         lines += QString::fromStdString(exporting::describe(one, m_work->source, m_work->request.format));
     }
-    showState(lines.isEmpty()
-                  ? tr("Nothing was written: no poses (types 01, 02, 05) of these characters came "
-                       "in that time.")
-                  : lines.join(u'\n'));
+    showState(
+        lines.isEmpty()
+            ? tr("Nothing was written: no poses (types 01, 02, 05, 21, 22, 03) of these characters came "
+                 "in that time.")
+            : lines.join(u'\n'));
 }
 
 void MotionExportDialog::showState(const QString& text) {

@@ -140,7 +140,7 @@ void MainWindow::showReplay() {
 }
 
 void MainWindow::exportMotion() {
-    if (m_driver.session().charactersNow().empty()) {
+    if (m_driver.session().atNow().currentCharacters().empty()) {
         say(tr("There is no motion to export: no character has arrived yet."), HelpTopic::NothingToExport);
         return;
     }
@@ -148,7 +148,7 @@ void MainWindow::exportMotion() {
 }
 
 void MainWindow::exportPictures() {
-    if (m_driver.session().charactersNow().empty()) {
+    if (m_driver.session().atNow().currentCharacters().empty()) {
         say(tr("There is nothing to draw: no character has arrived yet."), HelpTopic::NothingToExport);
         return;
     }

@@ -36,7 +36,7 @@ QString liveText(const model::SessionView& live, const model::TakeVerdict& verdi
     if (verdict.state == model::TakeVerdict::State::None) {
         return VerdictBar::tr("no data yet");
     }
-    const auto characters = live.charactersNow();
+    const auto characters = live.atNow().currentCharacters();
     const auto good = std::ranges::count_if(characters, [&](const model::Character* character) {
         return live.verdict(character->key).state == model::TakeVerdict::State::Good;
     });

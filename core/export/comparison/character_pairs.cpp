@@ -7,8 +7,8 @@
 namespace posewire::exporting {
 
 std::vector<CharacterPair> pairCharacters(const model::SessionView& first, const model::SessionView& second) {
-    const std::vector<const model::Character*> ours = first.charactersNow();
-    std::vector<const model::Character*> theirs = second.charactersNow();
+    const std::vector<const model::Character*> ours = first.atNow().currentCharacters();
+    std::vector<const model::Character*> theirs = second.atNow().currentCharacters();
     std::map<model::CharacterKey, model::CharacterKey> partners;
     const auto pairWhere = [&](auto&& isSame) {
         for (const model::Character* one : ours) {

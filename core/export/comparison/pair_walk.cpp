@@ -11,7 +11,7 @@ namespace {
 /// where the first recording goes back, further than what is kept, from the beginning again.
 class SecondSamples {
 public:
-    explicit SecondSamples(const MotionSource& source) : m_source(source) { restart(); }
+    explicit SecondSamples(const feed::PoseSource& source) : m_source(source) { restart(); }
 
     /// Null where it cannot be read any more. Valid until the next call.
     const model::CharacterPose* at(std::size_t place) {
@@ -23,7 +23,7 @@ public:
         }
         while (place >= m_first + m_kept.size()) {
             forget(place);
-            if (!m_walk->advance()) {
+            if (!m_poses->advance(m_keep)) {
                 return nullptr;
             }
         }
@@ -38,13 +38,7 @@ private:
     void restart() {
         m_first = 0;
         m_kept.clear();
-        m_walk = std::make_unique<MotionWalk>(
-            m_source, MotionContent::Segments,
-            [this](std::size_t character, const MotionSample& sample, bool /*beginsRun*/) {
-                if (character == 0) {
-                    m_kept.push_back(sample.pose);
-                }
-            });
+        m_poses = std::make_unique<feed::PoseFeed>(m_source, feed::PoseContent::Segments);
     }
 
     void forget(std::size_t place) {
@@ -54,8 +48,13 @@ private:
         }
     }
 
-    const MotionSource& m_source;
-    std::unique_ptr<MotionWalk> m_walk;
+    const feed::PoseSource& m_source;
+    std::unique_ptr<feed::PoseFeed> m_poses;
+    const feed::TakePose m_keep = [this](const feed::PoseSample& sample) {
+        if (sample.character == 0) {
+            m_kept.push_back(sample.pose);
+        }
+    };
     std::deque<model::CharacterPose> m_kept;
     std::size_t m_first = 0; ///< place of the oldest that is kept
     int m_restarts = 0;
@@ -73,9 +72,9 @@ tl::expected<std::uint64_t, log::FileError> walkPairs(const ComparisonTask& task
     SecondSamples second(task.second);
     model::PoseDifference difference;
     return walkMotion(
-        task.first, MotionContent::Segments,
-        [&](std::size_t character, const MotionSample& sample, bool /*beginsRun*/) {
-            if (character != 0) {
+        task.first, feed::PoseContent::Segments,
+        [&](const feed::PoseSample& sample) {
+            if (sample.character != 0) {
                 return;
             }
             ComparedPair pair{&sample.pose};

@@ -13,8 +13,8 @@ namespace posewire::exporting {
 
 /// One character of each; all outlive the work.
 struct ComparisonTask {
-    const MotionSource& first; ///< of the range that is compared
-    const MotionSource& second;
+    const feed::PoseSource& first; ///< of the range that is compared
+    const feed::PoseSource& second;
     const Partners& partners; ///< of the timetables of both, in full
     model::DifferenceFrame frame = model::DifferenceFrame::World;
 };

@@ -7,16 +7,15 @@
 
 namespace posewire::exporting {
 
-tl::expected<Timetable, log::FileError> Timetable::of(const MotionSource& source,
+tl::expected<Timetable, log::FileError> Timetable::of(const feed::PoseSource& source,
                                                       const ExportProgress& progress) {
     Timetable table;
     const auto survey =
-        surveyMotion(source, MotionContent::Segments, progress,
-                     [&table](std::size_t character, const MotionSample& sample, bool beginsRun) {
-                         if (character == 0) {
-                             table.add(sample.pose, beginsRun);
-                         }
-                     });
+        surveyMotion(source, feed::PoseContent::Segments, progress, [&table](const feed::PoseSample& sample) {
+            if (sample.character == 0) {
+                table.add(sample.pose, sample.beginsRun);
+            }
+        });
     if (!survey) {
         return tl::unexpected(survey.error());
     }

@@ -17,14 +17,14 @@ struct SampleMoment {
     std::uint64_t packet = 0;   ///< that completed it
 };
 
-/// The samples of a character that hold a pose (types 01, 02, 05), in the order of their counters.
+/// The samples of a character that hold a pose, in the order of their counters.
 class Timetable {
 public:
     /// Further ones are left out: 24 bytes each. Two hours at 240 Hz.
     static constexpr std::size_t kMost = 2'000'000;
 
     /// Of the first character of the source. Fails as cancelled only.
-    [[nodiscard]] static tl::expected<Timetable, log::FileError> of(const MotionSource& source,
+    [[nodiscard]] static tl::expected<Timetable, log::FileError> of(const feed::PoseSource& source,
                                                                     const ExportProgress& progress);
 
     [[nodiscard]] const std::vector<SampleMoment>& samples() const { return m_samples; }

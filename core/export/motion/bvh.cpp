@@ -93,7 +93,7 @@ private:
         m_line += '\n';
     }
 
-    const MotionCharacter& m_character;
+    const feed::PoseCharacter& m_character;
     const CharacterSurvey& m_survey;
     Skeleton m_skeleton;
     JointMotion m_motion;

@@ -74,7 +74,7 @@ public:
         if (!frame.isGap() && m_survey.markerIds.empty()) {
             takeSegments(*frame.pose);
         }
-        for (const Marker& marker : frame.markers) {
+        for (const feed::Marker& marker : frame.markers) {
             if (const auto place = m_placeOfMarker.find(marker.id); place != m_placeOfMarker.end()) {
                 m_points[place->second] = marker.position;
             }
@@ -158,7 +158,7 @@ private:
         return all;
     }
 
-    const MotionCharacter& m_character;
+    const feed::PoseCharacter& m_character;
     const CharacterSurvey& m_survey;
     const std::string& m_application;
     std::vector<std::string> m_labels;

@@ -104,7 +104,7 @@ struct Animated {
           motion(skeleton),
           keys(skeleton, task.source.log->scratch()) {}
 
-    const MotionCharacter& character;
+    const feed::PoseCharacter& character;
     Skeleton skeleton;
     JointMotion motion;
     KeyColumns keys;
@@ -114,7 +114,7 @@ struct Animated {
 
 /// The null pose that the joints make, also where none was sent.
 model::BodyOrigins originsOf(const Animated& one) {
-    model::BodyOrigins body = one.character.body;
+    model::BodyOrigins body = one.character.body();
     for (const SkeletonJoint& joint : one.skeleton.joints) {
         const auto position = static_cast<std::size_t>(joint.position);
         if (joint.parent >= 0 && position < body.places.size()) {

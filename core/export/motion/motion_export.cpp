@@ -19,8 +19,8 @@ using log::FileError;
 
 /// The characters of a source that are read in one way.
 struct Share {
-    MotionContent content = MotionContent::Segments;
-    MotionSource source;
+    feed::PoseContent content = feed::PoseContent::Segments;
+    feed::PoseSource source;
     std::vector<std::size_t> places; ///< of its characters in the whole source
     MotionSurvey survey;
 };
@@ -33,7 +33,8 @@ struct OpenFile {
     std::uint64_t samples = 0; ///< that are still to come
 };
 
-Share shareOf(const MotionSource& source, MotionContent content, const std::vector<std::size_t>& places) {
+Share shareOf(const feed::PoseSource& source, feed::PoseContent content,
+              const std::vector<std::size_t>& places) {
     Share share{content, {source.log, source.firstPacket, source.endPacket, {}}, places, {}};
     for (const std::size_t place : places) {
         share.source.characters.push_back(source.characters[place]);
@@ -55,14 +56,14 @@ tl::expected<std::vector<Share>, FileError> surveyed(const MotionRequest& reques
     }
     std::vector<Share> shares;
     const int parts = request.format.takesMarkers ? 2 : 1;
-    for (const MotionContent content : {MotionContent::Markers, MotionContent::Segments}) {
-        if (content == MotionContent::Markers && !request.format.takesMarkers) {
+    for (const feed::PoseContent content : {feed::PoseContent::Markers, feed::PoseContent::Segments}) {
+        if (content == feed::PoseContent::Markers && !request.format.takesMarkers) {
             continue;
         }
         Share share = shareOf(request.source, content, left);
         auto survey =
             surveyMotion(share.source, content,
-                         partOf(progress, content == MotionContent::Markers ? 0 : parts - 1, parts));
+                         partOf(progress, content == feed::PoseContent::Markers ? 0 : parts - 1, parts));
         if (!survey) {
             return tl::unexpected(survey.error());
         }
@@ -185,10 +186,11 @@ tl::expected<void, FileError> checkAll(const MotionRequest& request, const std::
 
 } // namespace
 
-std::string describe(const ExportedMotion& exported, const MotionSource& source, const MotionFormat& format) {
+std::string describe(const ExportedMotion& exported, const feed::PoseSource& source,
+                     const MotionFormat& format) {
     std::string line = source.characters[exported.character].name.shown() + ": " +
                        countText(exported.frames - exported.gaps, "sample", "samples") +
-                       (exported.content == MotionContent::Markers ? " of markers" : "") + " to " +
+                       (exported.content == feed::PoseContent::Markers ? " of markers" : "") + " to " +
                        exported.path;
     if (exported.gaps != 0) {
         line += "; " + countText(exported.gaps, "is missing", "are missing") + ": " + format.gaps;
@@ -201,7 +203,7 @@ std::string describe(const ExportedMotion& exported, const MotionSource& source,
 }
 
 std::vector<std::string> motionPaths(const MotionRequest& request) {
-    const std::vector<MotionCharacter>& characters = request.source.characters;
+    const std::vector<feed::PoseCharacter>& characters = request.source.characters;
     std::vector<std::string> paths(characters.size(), request.path);
     if (request.format.holdsSeveral || characters.size() < 2) {
         return paths;

@@ -34,7 +34,7 @@ struct MotionFormat {
 [[nodiscard]] const MotionFormat* motionFormatOf(std::string_view fileName);
 
 struct MotionRequest {
-    const MotionSource& source;
+    const feed::PoseSource& source;
     const MotionFormat& format;
     std::string path;
     log::OutputRules rules{};
@@ -50,14 +50,14 @@ struct MotionRequest {
 struct ExportedMotion {
     std::size_t character = 0; ///< its place in the source
     std::string path;
-    MotionContent content = MotionContent::Segments;
+    feed::PoseContent content = feed::PoseContent::Segments;
     std::uint64_t frames = 0; ///< with gaps
     std::uint64_t gaps = 0;
     std::uint64_t restarts = 0;
 };
 
 /// What was written of it, in a line: "Mira: 1200 samples to take.csv; 3 are missing: a row without values".
-[[nodiscard]] std::string describe(const ExportedMotion& exported, const MotionSource& source,
+[[nodiscard]] std::string describe(const ExportedMotion& exported, const feed::PoseSource& source,
                                    const MotionFormat& format);
 
 /// Writes the motion of a source; each file is there whole or not at all. What was written, those without a

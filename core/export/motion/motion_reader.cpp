@@ -19,10 +19,10 @@ public:
         m_frame.character = character;
     }
 
-    void add(const MotionSample& sample, bool beginsRun) {
+    void add(const feed::PoseSample& sample) {
         const std::uint32_t step = m_survey->step;
         const double received = log::secondsOf(sample.pose.stamp - m_first);
-        if (!beginsRun && step != 0) {
+        if (!sample.beginsRun && step != 0) {
             const auto steps =
                 static_cast<std::uint32_t>(distance(sample.pose.sample, m_frame.sample)) / step;
             for (std::uint32_t i = 1; i < steps; ++i) {
@@ -30,16 +30,16 @@ public:
             }
         }
         double seconds = received;
-        if (!beginsRun && step != 0 && m_survey->rateHz > 0) {
+        if (!sample.beginsRun && step != 0 && m_survey->rateHz > 0) {
             seconds = m_runBegin + distance(sample.pose.sample, m_runSample) * period() / step;
         }
         seconds = m_isFirst ? seconds : std::max(seconds, m_frame.seconds + kLeast);
-        if (beginsRun) {
+        if (sample.beginsRun) {
             m_runBegin = seconds;
             m_runSample = sample.pose.sample;
         }
         m_isFirst = false;
-        m_frame.beginsRun = beginsRun;
+        m_frame.beginsRun = sample.beginsRun;
         m_frame.markers = sample.markers;
         tell(sample.pose.sample, seconds, &sample.pose);
         m_frame.beginsRun = false;
@@ -69,7 +69,19 @@ private:
 
 } // namespace
 
-tl::expected<void, log::FileError> readMotion(const MotionSource& source, MotionContent content,
+tl::expected<std::uint64_t, log::FileError> walkMotion(const feed::PoseSource& source,
+                                                       feed::PoseContent content, const feed::TakePose& take,
+                                                       const ExportProgress& progress) {
+    feed::PoseFeed poses(source, content);
+    do {
+        if (progress && !progress(poses.share())) {
+            return tl::unexpected(log::FileError{"cancelled", log::FileError::Kind::Cancelled});
+        }
+    } while (poses.advance(take));
+    return poses.missed();
+}
+
+tl::expected<void, log::FileError> readMotion(const feed::PoseSource& source, feed::PoseContent content,
                                               const MotionSurvey& survey,
                                               const std::function<void(const MotionFrame&)>& visit,
                                               const ExportProgress& progress) {
@@ -78,10 +90,7 @@ tl::expected<void, log::FileError> readMotion(const MotionSource& source, Motion
         framings.emplace_back(i, survey.characters[i], survey.first, visit);
     }
     const auto walked = walkMotion(
-        source, content,
-        [&](std::size_t character, const MotionSample& sample, bool beginsRun) {
-            framings[character].add(sample, beginsRun);
-        },
+        source, content, [&](const feed::PoseSample& sample) { framings[sample.character].add(sample); },
         progress);
     return walked ? tl::expected<void, log::FileError>() : tl::unexpected(walked.error());
 }

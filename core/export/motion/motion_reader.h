@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/export/motion/motion_walk.h"
+#include "core/feed/pose_feed.h"
 
 #include <cstdint>
 #include <functional>
@@ -11,13 +11,16 @@
 /// The motion of a range of a log, sample by sample. Memory does not grow with the range.
 namespace posewire::exporting {
 
+/// How far long work is, from 0 to 1. It goes on if the answer is true.
+using ExportProgress = std::function<bool(double share)>;
+
 /// One sample of one character, or the place of one that did not come whole.
 struct MotionFrame {
     std::size_t character = 0; ///< its place in the source
     std::uint32_t sample = 0;
     double seconds = 0; ///< since the first sample of all characters: by counters, through restarts by stamps
     const model::CharacterPose* pose = nullptr; ///< null in a gap; without segments where markers are read
-    std::span<const Marker> markers{};
+    std::span<const feed::Marker> markers{};
     bool beginsRun = false; ///< the first one, or the first after a restart
 
     [[nodiscard]] bool isGap() const { return pose == nullptr; }
@@ -48,17 +51,24 @@ struct MotionSurvey {
 };
 
 /// Looks through a range once: what writers must know before the first sample. Each sample goes to `take` as
-/// well, where that is set. Fails as cancelled only.
-[[nodiscard]] tl::expected<MotionSurvey, log::FileError> surveyMotion(const MotionSource& source,
-                                                                      MotionContent content,
+/// well, if that is set. Fails as cancelled only.
+[[nodiscard]] tl::expected<MotionSurvey, log::FileError> surveyMotion(const feed::PoseSource& source,
+                                                                      feed::PoseContent content,
                                                                       const ExportProgress& progress,
-                                                                      const TakeSample& take = {});
+                                                                      const feed::TakePose& take = {});
+
+/// Hands out all samples of a range: how many packets of it the log had dropped before. Fails as cancelled
+/// only.
+[[nodiscard]] tl::expected<std::uint64_t, log::FileError> walkMotion(const feed::PoseSource& source,
+                                                                     feed::PoseContent content,
+                                                                     const feed::TakePose& take,
+                                                                     const ExportProgress& progress);
 
 /// Hands out all samples that were surveyed with the gaps between them, those of each character in the order
 /// of their counters; of several characters about as they came. A frame is valid during the call. Fails as
 /// cancelled only.
 [[nodiscard]] tl::expected<void, log::FileError>
-readMotion(const MotionSource& source, MotionContent content, const MotionSurvey& survey,
+readMotion(const feed::PoseSource& source, feed::PoseContent content, const MotionSurvey& survey,
            const std::function<void(const MotionFrame&)>& visit, const ExportProgress& progress);
 
 } // namespace posewire::exporting

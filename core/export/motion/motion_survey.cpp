@@ -10,7 +10,7 @@
 namespace posewire::exporting {
 namespace {
 
-/// Of counters of one run that follow one another: see SampleOrder.
+/// Of counters of one run that follow one another: see feed::SampleOrder.
 constexpr std::size_t kMostDifference = model::Probation::kMostBack + model::Probation::kMostForward;
 
 /// Sums of one character while it is surveyed.
@@ -18,19 +18,19 @@ class Surveying {
 public:
     explicit Surveying(CharacterSurvey& survey) : m_survey(survey) {}
 
-    void add(const MotionSample& sample, bool beginsRun) {
+    void add(const feed::PoseSample& sample) {
         const model::CharacterPose& pose = sample.pose;
         if (m_samples++ == 0) {
             m_survey.first = pose.stamp;
             m_survey.firstPose = pose;
-        } else if (beginsRun) {
+        } else if (sample.beginsRun) {
             ++m_survey.restarts;
             endRun();
         } else {
             const auto difference = static_cast<std::size_t>(model::distance(pose.sample, m_newest.sample));
             ++m_differences[std::min(difference, kMostDifference)];
         }
-        if (beginsRun) {
+        if (sample.beginsRun) {
             m_begin = momentOf(pose);
         }
         m_newest = momentOf(pose);
@@ -73,7 +73,7 @@ private:
         all.fingers = std::max(all.fingers, std::min(layout.fingers, model::kFingerSegmentCount));
     }
 
-    void note(const std::vector<Marker>& markers) {
+    void note(const std::vector<feed::Marker>& markers) {
         std::vector<std::uint32_t>& known = m_survey.markerIds;
         for (std::size_t i = 0; i < markers.size(); ++i) {
             const bool isInPlace = i < known.size() && known[i] == markers[i].id;
@@ -129,18 +129,19 @@ private:
 
 } // namespace
 
-tl::expected<MotionSurvey, log::FileError> surveyMotion(const MotionSource& source, MotionContent content,
+tl::expected<MotionSurvey, log::FileError> surveyMotion(const feed::PoseSource& source,
+                                                        feed::PoseContent content,
                                                         const ExportProgress& progress,
-                                                        const TakeSample& take) {
+                                                        const feed::TakePose& take) {
     MotionSurvey survey;
     survey.characters.resize(source.characters.size());
     std::vector<Surveying> sums(survey.characters.begin(), survey.characters.end());
     const auto walked = walkMotion(
         source, content,
-        [&](std::size_t character, const MotionSample& sample, bool beginsRun) {
-            sums[character].add(sample, beginsRun);
+        [&](const feed::PoseSample& sample) {
+            sums[sample.character].add(sample);
             if (take) {
-                take(character, sample, beginsRun);
+                take(sample);
             }
         },
         progress);

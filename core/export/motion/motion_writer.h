@@ -33,13 +33,13 @@ private:
 
 /// What a writer knows before the first sample. All of it outlives the writer.
 struct MotionTask {
-    const MotionSource& source;
+    const feed::PoseSource& source;
     const MotionSurvey& survey;
     std::vector<std::size_t> characters; ///< of this file, places in the source: each has frames
     std::string application;             ///< name and version of who writes it
     MakeBodyMesh makeBody;               ///< empty: figures have no body, only joints
 
-    [[nodiscard]] const MotionCharacter& characterAt(std::size_t place) const {
+    [[nodiscard]] const feed::PoseCharacter& characterAt(std::size_t place) const {
         return source.characters[place];
     }
     [[nodiscard]] const CharacterSurvey& surveyAt(std::size_t place) const {

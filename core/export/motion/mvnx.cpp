@@ -199,14 +199,14 @@ private:
             appendAll({1, 0, 0, 0}, text);
         }
         text += "</orientation>\n<position>";
-        for (const Eigen::Vector3d& place : m_character.body.places) {
+        for (const Eigen::Vector3d& place : m_character.body().places) {
             appendNumbers(place, text);
         }
         text += "</position>\n</frame>\n";
     }
 
     const MotionTask& m_task;
-    const MotionCharacter& m_character;
+    const feed::PoseCharacter& m_character;
     const CharacterSurvey& m_survey;
     std::uint64_t m_index = 0;
 };

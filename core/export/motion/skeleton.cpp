@@ -25,12 +25,13 @@ const SegmentPose* poseAt(const model::CharacterPose& pose, const model::Segment
 }
 
 /// Of a segment in the null pose that was sent.
-std::optional<Vector3d> sentOrigin(const MotionCharacter& character, std::string_view name, int position) {
+std::optional<Vector3d> sentOrigin(const feed::PoseCharacter& character, std::string_view name,
+                                   int position) {
     if (!character.nullPose) {
         return std::nullopt;
     }
     if (position < model::kBodySegmentCount) {
-        return character.body.places[static_cast<std::size_t>(position)];
+        return character.body().places[static_cast<std::size_t>(position)];
     }
     const auto& segments = character.nullPose->segments;
     const auto found = std::ranges::find_if(segments, [&](const auto& one) { return one.name == name; });
@@ -38,7 +39,8 @@ std::optional<Vector3d> sentOrigin(const MotionCharacter& character, std::string
                                                                   : std::nullopt;
 }
 
-Vector3d offsetOf(const MotionCharacter& character, const CharacterSurvey& survey, int position, int parent) {
+Vector3d offsetOf(const feed::PoseCharacter& character, const CharacterSurvey& survey, int position,
+                  int parent) {
     const auto nameAt = [&](int one) { return model::segmentName(survey.layout, one); };
     const auto own = sentOrigin(character, nameAt(position), position);
     const auto from = parent >= 0 ? sentOrigin(character, nameAt(parent), parent) : Vector3d::Zero();
@@ -50,7 +52,7 @@ Vector3d offsetOf(const MotionCharacter& character, const CharacterSurvey& surve
     if (pose != nullptr && (parent < 0 || parentPose != nullptr)) {
         return parent < 0 ? pose->position : model::relativeTo(*parentPose, *pose).position;
     }
-    const auto& places = character.body.places;
+    const auto& places = character.body().places;
     const auto index = static_cast<std::size_t>(position);
     if (index >= places.size()) {
         return Vector3d::Zero();
@@ -80,7 +82,7 @@ int positionIn(const model::SegmentLayout& layout, const model::SegmentPlace& pl
     return -1;
 }
 
-Skeleton skeletonOf(const MotionCharacter& character, const CharacterSurvey& survey, bool hasProps) {
+Skeleton skeletonOf(const feed::PoseCharacter& character, const CharacterSurvey& survey, bool hasProps) {
     Skeleton skeleton{survey.layout, {}};
     const int count = survey.layout.count();
     const std::function<void(int, int)> add = [&](int position, int parentJoint) {
@@ -108,7 +110,7 @@ Skeleton skeletonOf(const MotionCharacter& character, const CharacterSurvey& sur
     return skeleton;
 }
 
-Vector3d endOf(const SkeletonJoint& joint, const MotionCharacter& character) {
+Vector3d endOf(const SkeletonJoint& joint, const feed::PoseCharacter& character) {
     const std::string side = joint.name.starts_with("Right") ? "Right" : "Left";
     const std::string point = joint.name == "Head"           ? "pTopOfHead"
                               : joint.name.ends_with("Hand") ? "p" + side + "TopOfHand"
@@ -121,7 +123,7 @@ Vector3d endOf(const SkeletonJoint& joint, const MotionCharacter& character) {
     if (character.nullPose) {
         const auto places = model::bodyPlaces(*character.nullPose);
         if (const auto sent = model::pointOf(*character.nullPose, places, point); sent && sent->allFinite()) {
-            return *sent - character.body.places[static_cast<std::size_t>(joint.position)];
+            return *sent - character.body().places[static_cast<std::size_t>(joint.position)];
         }
     }
     return Vector3d(known->reference[0], known->reference[1], known->reference[2]);

@@ -28,12 +28,12 @@ struct Skeleton {
 
 /// Body and fingers; props where `hasProps`. Offsets are those of the null pose, or where there is none those
 /// of the first sample, or where that lacks a segment the reference body's.
-[[nodiscard]] Skeleton skeletonOf(const MotionCharacter& character, const CharacterSurvey& survey,
+[[nodiscard]] Skeleton skeletonOf(const feed::PoseCharacter& character, const CharacterSurvey& survey,
                                   bool hasProps);
 
 /// Where the body ends beyond its last joint, from that joint's origin in the null pose: the top of the head,
 /// the tips of hands, feet and fingers.
-[[nodiscard]] Eigen::Vector3d endOf(const SkeletonJoint& joint, const MotionCharacter& character);
+[[nodiscard]] Eigen::Vector3d endOf(const SkeletonJoint& joint, const feed::PoseCharacter& character);
 
 /// Turns poses into those of each joint relative to its parent. What a sample lacks stays as it was.
 class JointMotion {

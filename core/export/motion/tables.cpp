@@ -47,7 +47,7 @@ class CsvWriter final : public MotionWriter {
 public:
     explicit CsvWriter(const MotionTask& task)
         : m_task(task), m_layout(widest(task)), m_runs(task.source.characters.size()) {
-        for (const MotionCharacter& character : task.source.characters) {
+        for (const feed::PoseCharacter& character : task.source.characters) {
             std::string cell = csvLine(std::vector{character.name.csv()});
             cell.resize(cell.size() - 2); // the end of the line
             m_begins.push_back(cell + ',' + std::to_string(character.key.character) + ',');
@@ -115,7 +115,7 @@ private:
 class JsonLinesWriter final : public MotionWriter {
 public:
     explicit JsonLinesWriter(const MotionTask& task) : m_task(task), m_runs(task.source.characters.size()) {
-        for (const MotionCharacter& character : task.source.characters) {
+        for (const feed::PoseCharacter& character : task.source.characters) {
             // The bytes that were sent; not where they are so many that each sample would be drowned in them.
             const bool isShort = character.name.exact().size() <= model::ForeignText::kMostBytes;
             const std::string name(isShort ? character.name.exact() : character.name.shown());

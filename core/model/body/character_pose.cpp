@@ -271,6 +271,13 @@ bool solve(std::span<const PosePart> parts, const BodyOrigins& body, CharacterPo
 
 } // namespace
 
+void CharacterPose::move(const Eigen::Vector3d& way) {
+    for (SegmentPose& segment : segments) {
+        segment.position += way;
+    }
+    moved += way;
+}
+
 SegmentLayout segmentLayout(const wire::Header& header, std::size_t items) {
     if (header.countedSegments() == items && header.bodySegments != 0 && items <= wire::kMaxSegments) {
         return {header.bodySegments, header.props, header.fingerSegments};

@@ -34,6 +34,8 @@ struct CharacterPose {
     log::Stamp stamp{};
     std::uint64_t packet = 0;
 
+    /// Moves all of it, in metres.
+    void move(const Eigen::Vector3d& way);
     /// False where there is no item at a position, or one that is not finite.
     [[nodiscard]] bool isPresent(std::size_t position) const {
         return position < sources.size() && sources[position].position != Provenance::None;

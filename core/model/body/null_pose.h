@@ -132,6 +132,14 @@ public:
     /// The same with its circumstances.
     [[nodiscard]] NullPoseRecord record(std::uint64_t packet) const;
 
+    /// Calls f(first packet, pose) for each body that is kept, the oldest first.
+    template <class F>
+    void forEach(F&& f) const {
+        for (const Version& version : m_versions) {
+            f(version.firstPacket, *version.pose);
+        }
+    }
+
     /// Versions that were given up.
     [[nodiscard]] std::uint64_t dropped() const { return m_dropped; }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/model/body/character_pose.h"
+#include "core/model/body/pose_messages.h"
 #include "core/model/session/session_view.h"
 
 #include <array>
@@ -21,8 +21,8 @@ struct SessionView::Decoded {
     };
     /// What a pose was made of.
     struct PoseOrigin {
-        std::array<std::uint64_t, 3> packets{UINT64_MAX, UINT64_MAX, UINT64_MAX};
-        std::array<LengthUnit, 3> units{};
+        std::array<std::uint64_t, kPoseTypes.size()> packets{}; ///< one past each; 0 for none
+        std::array<LengthUnit, kPoseTypes.size()> units{};
         std::uint64_t body = UINT64_MAX;
         bool isLifted = false;
         friend bool operator==(const PoseOrigin&, const PoseOrigin&) = default;
@@ -31,7 +31,7 @@ struct SessionView::Decoded {
         PoseOrigin poseOrigin;
         bool isValid = false;
         CharacterPose pose;
-        std::array<OfStream, 3> parts; ///< of samples before the newest
+        std::array<OfStream, kPoseTypes.size()> parts; ///< of samples before the newest
         /// What the body was made of: the packet of a null pose, else how many poses it was measured on,
         /// with the highest bit.
         std::uint64_t bodyOrigin = UINT64_MAX;

@@ -147,7 +147,7 @@ bool hasNamesake(const SessionView& session, const Incident& incident) {
         return false;
     }
     const std::vector<std::uint8_t> own = incident.characters();
-    return std::ranges::any_of(session.charactersNow(), [&](const Character* one) {
+    return std::ranges::any_of(session.atNow().currentCharacters(), [&](const Character* one) {
         return one->key.sender != incident.sender &&
                std::ranges::find(own, one->key.character) != own.end() &&
                !session.isSame(one->key, {incident.sender, one->key.character});

@@ -61,14 +61,14 @@ public:
     }
     /// Through restarts of its sender.
     void setHidden(const CharacterKey& key, bool isHidden) {
-        for (const Character* one : lineage(currentNow(key))) {
+        for (const Character* one : lineage(atNow().current(key))) {
             setIn(m_choices.hidden, one->key, false);
         }
         setIn(m_choices.hidden, key, isHidden);
     }
     /// Puts a character on the floor that is sent below it, through restarts of its sender.
     void setLifted(const CharacterKey& key, bool isLifted) {
-        for (const Character* one : lineage(currentNow(key))) {
+        for (const Character* one : lineage(atNow().current(key))) {
             setIn(m_choices.lifted, one->key, false);
         }
         setIn(m_choices.lifted, key, isLifted);

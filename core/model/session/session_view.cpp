@@ -25,7 +25,7 @@ constexpr std::size_t kPerKeptByte = 4;
 
 bool isTooLarge(const log::Packet& packet) {
     const auto header = wire::decodeHeader(packet.bytes);
-    return header && countsSamples(header->type()) && packet.bytes.size() > SessionView::kMostMessageBytes;
+    return header && countsSamples(header->type()) && packet.bytes.size() > kMostMessageBytes;
 }
 
 /// One past the last packet before a stamp. Where packets are missing, the next one that is there counts.
@@ -47,7 +47,19 @@ std::uint64_t endBefore(Ingest& ingest, log::Stamp stamp) {
 } // namespace
 
 SessionView::SessionView(Ingest& ingest, const Choices& choices)
-    : m_ingest(ingest), m_choices(choices), m_decoded(std::make_unique<Decoded>()) {}
+    : m_ingest(ingest),
+      m_choices(choices),
+      m_decoded(std::make_unique<Decoded>()),
+      m_judged(newJudged()),
+      m_ownNow(new SessionView(*this, Now{})),
+      m_atNow(m_ownNow.get()) {}
+
+SessionView::SessionView(const SessionView& other, Now)
+    : m_ingest(other.m_ingest),
+      m_choices(other.m_choices),
+      m_decoded(std::make_unique<Decoded>()),
+      m_judged(other.m_judged),
+      m_atNow(this) {}
 
 SessionView::~SessionView() = default;
 
@@ -118,7 +130,7 @@ StreamCounts SessionView::countsOf(const CharacterKey& key, const TimeRange& ran
 MemoryFigures SessionView::memory() const {
     MemoryFigures figures = m_ingest.memory();
     const auto messages = std::ranges::find(figures.parts, "messages", &MemoryFigures::Part::key);
-    messages->bytes += kPerKeptByte * m_decoded->bytes;
+    messages->bytes += kPerKeptByte * (m_decoded->bytes + (m_atNow != this ? m_atNow->m_decoded->bytes : 0));
     return figures;
 }
 

@@ -37,15 +37,15 @@ struct Unproven {
     std::uint64_t datagrams = 0;
 };
 
-/// The session as panels, exports and the viewport read it: what was received, at the operator's cursor, and
-/// what the operator chose. It changes nothing but its own memory of what it decoded. One thread.
+/// The session as panels, exports and the viewport read it at a moment: what was received by then, and what
+/// the operator chose. The moment is the operator's cursor, or now. It changes nothing but its own memory of
+/// what it decoded. One thread.
 ///
 /// Poses, bodies and gaps are declared here and defined in headers of their own.
 class SessionView {
 public:
-    /// Messages of types that count samples which are larger, all parts together, are not read: those of MVN
-    /// have less than 3,000 bytes.
-    static constexpr std::size_t kMostMessageBytes = 8192;
+    ~SessionView();
+
     /// What was decoded for those who asked, at most, about: where it is more than a quarter of it, it goes
     /// once the session has followed the log.
     static constexpr std::size_t kMostDecodedBytes = std::size_t{64} << 20;
@@ -53,7 +53,10 @@ public:
     SessionView(const SessionView&) = delete;
     SessionView& operator=(const SessionView&) = delete;
 
-    // What was received, whatever the cursor.
+    /// The session as it is now: this view while the cursor follows, else another of the same session.
+    [[nodiscard]] const SessionView& atNow() const { return isPaused() ? *m_atNow : *this; }
+
+    // What was received, whatever the moment.
     [[nodiscard]] const Roster<log::SenderId, Sender>& senders() const { return m_ingest.senders(); }
     [[nodiscard]] const Roster<CharacterKey, Character>& characters() const { return m_ingest.characters(); }
     [[nodiscard]] const Roster<log::StreamKey, Stream>& streams() const { return m_ingest.streams(); }
@@ -145,11 +148,11 @@ public:
     /// When the span that counts for the take began; 0: with the session.
     [[nodiscard]] log::Stamp reset() const { return m_choices.reset; }
 
-    // Characters at the cursor.
-    /// What is wrong with a character or its sender at the cursor, worst first.
+    // Characters at the moment.
+    /// What is wrong with a character or its sender at the moment, worst first.
     [[nodiscard]] std::vector<const Incident*> troublesOf(const CharacterKey& key) const;
 
-    /// How all do now on the wire, whatever the cursor: the one judgement that everything in the window
+    /// How all do now on the wire, whatever the moment: the one judgement that everything in the window
     /// shows; of a recording in all of it. Valid until the session follows the log again.
     [[nodiscard]] const TakeVerdicts& verdicts() const;
     /// The time that these verdicts are of.
@@ -164,14 +167,10 @@ public:
     /// what this one has not sent yet is taken from there. Null where there is none, or where both turned out
     /// to send at the same time.
     [[nodiscard]] const Character* predecessor(const CharacterKey& key) const;
-    /// True where another sender has taken over at the cursor; its character is shown instead of this one.
+    /// True if another sender has taken over by the moment; its character is shown instead of this one.
     [[nodiscard]] bool isSuperseded(const CharacterKey& key) const;
     /// The one that is shown for a character: itself, or the newest that has taken over.
-    [[nodiscard]] CharacterKey current(const CharacterKey& key) const {
-        return currentBefore(key, visibleEnd());
-    }
-    /// The same now, whatever the cursor.
-    [[nodiscard]] CharacterKey currentNow(const CharacterKey& key) const { return currentBefore(key, end()); }
+    [[nodiscard]] CharacterKey current(const CharacterKey& key) const;
     /// A character with all that it took over from, oldest first, itself last; empty where there is none.
     [[nodiscard]] std::vector<const Character*> lineage(const CharacterKey& key) const;
     /// Whether two are one character, before and after restarts of its sender.
@@ -188,15 +187,11 @@ public:
     [[nodiscard]] bool isForgettable(log::SenderId sender) const { return m_ingest.isForgettable(sender); }
     /// Characters that may be the invention of corrupt headers.
     [[nodiscard]] Unproven unproven() const;
-    /// All characters that are to be shown at the cursor, in order of first appearance: one that was
+    /// All characters that are to be shown at the moment, in order of first appearance: one that was
     /// restarted stays where it was.
-    [[nodiscard]] std::vector<const Character*> currentCharacters() const {
-        return charactersBefore(visibleEnd());
-    }
-    /// The same now, whatever the cursor.
-    [[nodiscard]] std::vector<const Character*> charactersNow() const { return charactersBefore(end()); }
-    /// One that is listed before a packet; null for others.
-    [[nodiscard]] const Character* findListed(const CharacterKey& key, std::uint64_t before) const;
+    [[nodiscard]] std::vector<const Character*> currentCharacters() const;
+    /// One of these; null for others.
+    [[nodiscard]] const Character* findListed(const CharacterKey& key) const;
 
     /// "Factory", or "Character 1" with its ID where no name was sent, or there is no such character.
     [[nodiscard]] ForeignText displayName(const CharacterKey& key) const;
@@ -228,14 +223,10 @@ public:
                      std::span<RangePart> into) const;
     /// Of the newest datagram of a stream; 0 where there is none.
     [[nodiscard]] log::Stamp newestStamp(const log::StreamKey& key) const;
-    /// The newest pose, of type 02, 01 or 05: the first of these that is not more than 0.25 s older than the
-    /// newest of them, so that a figure does not jump between types that are sent together. Where none of
-    /// these is on the air, what types 21, 22 and 03 tell of one sample. What is missing of a body is solved.
+    /// The newest pose (choosePose, assemble); null without one.
     [[nodiscard]] const CharacterPose* pose(const CharacterKey& key) const;
-    /// What is to be said of that pose; nothing where there is none.
+    /// What is to be said of that pose; nothing without one.
     [[nodiscard]] PoseRemark poseRemark(const CharacterKey& key) const;
-    /// The same of what was received last, whatever the cursor; empty where no pose can be drawn of it.
-    [[nodiscard]] std::optional<PoseRemark> poseRemarkNow(const CharacterKey& key) const;
     /// The scale message; null where none was received.
     [[nodiscard]] const NullPose* nullPose(const CharacterKey& key) const;
     /// All scale messages of the character itself; null where none was received.
@@ -255,7 +246,6 @@ public:
 protected:
     /// Both outlive this; neither is looked at here.
     SessionView(Ingest& ingest, const Choices& choices);
-    ~SessionView();
     void keepVerdicts(); ///< see Session
 
 private:
@@ -263,13 +253,13 @@ private:
     struct Decoded;
     [[nodiscard]] Decoded& decoded() const;
 
-    /// Null where nobody has taken over before a packet, or at the cursor.
-    [[nodiscard]] const Character* successor(const Character& character, std::uint64_t end) const;
-    [[nodiscard]] CharacterKey currentBefore(const CharacterKey& key, std::uint64_t end) const;
-    [[nodiscard]] std::vector<const Character*> charactersBefore(std::uint64_t end) const;
+    /// Null if none has taken over by the moment.
+    [[nodiscard]] const Character* successor(const Character& character) const;
     [[nodiscard]] std::uint64_t appearance(const Character& character) const;
     [[nodiscard]] bool isIn(const std::set<CharacterKey>& keys, const CharacterKey& key) const;
-    [[nodiscard]] bool isPaused() const { return m_choices.cursor.mode == Cursor::Mode::Paused; }
+    [[nodiscard]] bool isPaused() const {
+        return m_atNow != this && m_choices.cursor.mode == Cursor::Mode::Paused;
+    }
     /// One past the newest packet that the cursor lets through.
     [[nodiscard]] std::uint64_t visibleEnd() const;
     /// The cursor's time where it is paused.
@@ -281,20 +271,20 @@ private:
                             Visitor&& visitor) const;
     bool readMessage(const log::StreamEntries& entries, std::size_t count, Message& message) const;
     bool readWhole(const log::StreamEntry& entry, Message& message) const;
-    using PoseMessages = std::array<const Message*, 3>;
-    [[nodiscard]] const Message* wholePose(const CharacterKey& key) const;
-    [[nodiscard]] const Message* messageOfSample(const CharacterKey& key, std::size_t part,
+    [[nodiscard]] const Message* messageOfSample(const CharacterKey& key, std::size_t place,
                                                  std::uint32_t sample) const;
-    [[nodiscard]] PoseMessages posePartsOf(const CharacterKey& key) const;
-    [[nodiscard]] LengthUnit unitOf(const Message& message) const;
-    /// False where they hold no pose.
-    bool readPose(const PoseMessages& messages, const BodyOrigins& body, CharacterPose& pose) const;
+
+    struct Judged;
+    [[nodiscard]] static std::shared_ptr<Judged> newJudged();
+    struct Now {};
+    SessionView(const SessionView& other, Now);
 
     Ingest& m_ingest;
     const Choices& m_choices;
     std::unique_ptr<Decoded> m_decoded;
-    struct Judged;
-    mutable std::shared_ptr<Judged> m_judged; ///< what was judged last, and of what
+    std::shared_ptr<Judged> m_judged;            ///< the newest verdicts and what they rest on
+    std::unique_ptr<const SessionView> m_ownNow; ///< of a view at the cursor
+    const SessionView* m_atNow;
 };
 
 } // namespace posewire::model

@@ -34,32 +34,31 @@ const Character* SessionView::predecessor(const CharacterKey& key) const {
     return before != nullptr && before->lastPacket < character->firstPacket ? before : nullptr;
 }
 
-const Character* SessionView::successor(const Character& character, std::uint64_t end) const {
+const Character* SessionView::successor(const Character& character) const {
     const Character* next = character.after ? find(*character.after) : nullptr;
     const bool hasTakenOver =
-        next != nullptr && next->firstPacket < end && next->firstPacket > character.lastPacket;
+        next != nullptr && next->firstPacket < visibleEnd() && next->firstPacket > character.lastPacket;
     return hasTakenOver ? next : nullptr;
 }
 
 bool SessionView::isSuperseded(const CharacterKey& key) const {
     const Character* character = find(key);
-    return character != nullptr && successor(*character, visibleEnd()) != nullptr;
+    return character != nullptr && successor(*character) != nullptr;
 }
 
-CharacterKey SessionView::currentBefore(const CharacterKey& key, std::uint64_t end) const {
+CharacterKey SessionView::current(const CharacterKey& key) const {
     CharacterKey current = key;
-    for (const Character* character = find(key); character != nullptr;
-         character = successor(*character, end)) {
+    for (const Character* character = find(key); character != nullptr; character = successor(*character)) {
         current = character->key;
     }
     return current;
 }
 
-std::vector<const Character*> SessionView::charactersBefore(std::uint64_t end) const {
+std::vector<const Character*> SessionView::currentCharacters() const {
     using Appearing = std::pair<std::uint64_t, const Character*>;
     std::vector<Appearing> appearing;
     for (const Character& character : characters()) {
-        if (findListed(character.key, end) != nullptr) {
+        if (findListed(character.key) != nullptr) {
             appearing.emplace_back(appearance(character), &character);
         }
     }
@@ -69,12 +68,12 @@ std::vector<const Character*> SessionView::charactersBefore(std::uint64_t end) c
     return shown;
 }
 
-const Character* SessionView::findListed(const CharacterKey& key, std::uint64_t before) const {
+const Character* SessionView::findListed(const CharacterKey& key) const {
     const Character* character = find(key);
     const Character* earlier = predecessor(key);
-    const bool hasBegun = earlier == nullptr || successor(*earlier, before) == character;
-    const bool isListed = character != nullptr && character->isConfirmed && hasBegun &&
-                          successor(*character, before) == nullptr;
+    const bool hasBegun = earlier == nullptr || successor(*earlier) == character;
+    const bool isListed =
+        character != nullptr && character->isConfirmed && hasBegun && successor(*character) == nullptr;
     return isListed ? character : nullptr;
 }
 
@@ -97,13 +96,13 @@ std::uint64_t SessionView::appearance(const Character& character) const {
 }
 
 bool SessionView::isSame(const CharacterKey& a, const CharacterKey& b) const {
-    return a == b || currentNow(a) == currentNow(b);
+    return a == b || atNow().current(a) == atNow().current(b);
 }
 
 /// Itself, or what it was before or after a restart.
 bool SessionView::isIn(const std::set<CharacterKey>& keys, const CharacterKey& key) const {
     return !keys.empty() && (keys.contains(key) ||
-                             std::ranges::any_of(lineage(currentNow(key)),
+                             std::ranges::any_of(lineage(atNow().current(key)),
                                                  [&](const auto* one) { return keys.contains(one->key); }));
 }
 

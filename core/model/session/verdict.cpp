@@ -116,7 +116,9 @@ std::optional<PoseDoubt> doubtOf(const SessionView& session, const Character& ch
     const bool isPosed =
         std::ranges::any_of(onAir, [](const Stream* one) { return hasPoses(one->key.type); });
     const std::optional<PoseRemark> remark =
-        isPosed ? session.poseRemarkNow(character.key) : std::nullopt; // else it is that of long ago
+        isPosed && session.pose(character.key) != nullptr // else it is that of long ago
+            ? std::optional(session.poseRemark(character.key))
+            : std::nullopt;
     if (remark && !remark->isAssumed) {
         return std::nullopt;
     }
@@ -173,8 +175,8 @@ TakeVerdict withoutIncident(const SessionView& session, const std::optional<Char
                             log::Stamp since) {
     std::vector<const Character*> characters;
     if (!only) {
-        characters = session.charactersNow();
-    } else if (const Character* one = session.findListed(*only, session.end())) {
+        characters = session.currentCharacters();
+    } else if (const Character* one = session.findListed(*only)) {
         characters.push_back(one);
     }
     if (characters.empty()) {
@@ -386,12 +388,12 @@ VerdictSpan recentSpan(const SessionView& session) {
 
 TakeVerdict verdictOf(const SessionView& session, const VerdictSpan& span,
                       std::optional<CharacterKey> character) {
-    return Judge(session, span).of(character);
+    return Judge(session.atNow(), span).of(character);
 }
 
 TakeVerdicts verdictsOf(const SessionView& session, const VerdictSpan& span,
                         const std::vector<const Character*>& characters) {
-    const Judge judge(session, span);
+    const Judge judge(session.atNow(), span);
     TakeVerdicts verdicts{judge.of({}), {}};
     for (const Character* character : characters) {
         verdicts.characters[character->key] = judge.of(character->key);
@@ -399,6 +401,7 @@ TakeVerdicts verdictsOf(const SessionView& session, const VerdictSpan& span,
     return verdicts;
 }
 
+/// One for the views of a session at all moments.
 struct SessionView::Judged {
     /// What verdicts rest on.
     struct Basis {
@@ -410,35 +413,35 @@ struct SessionView::Judged {
         bool isRecording = false;
         friend bool operator==(const Basis&, const Basis&) = default;
     };
-    Basis basis;
+    std::optional<Basis> basis;
     TakeVerdicts verdicts;
     bool isKept = false; ///< whatever changes
 };
+
+std::shared_ptr<SessionView::Judged> SessionView::newJudged() {
+    return std::make_shared<Judged>();
+}
 
 VerdictSpan SessionView::verdictSpan() const {
     return isRecording() ? VerdictSpan{} : recentSpan(*this);
 }
 
 void SessionView::keepVerdicts() {
-    if (m_judged != nullptr) {
-        m_judged->isKept = false;
-    }
+    m_judged->isKept = false;
     static_cast<void>(verdicts());
     m_judged->isKept = true;
 }
 
 const TakeVerdicts& SessionView::verdicts() const {
-    if (m_judged != nullptr && m_judged->isKept) {
-        return m_judged->verdicts;
-    }
     const Judged::Basis basis{end(),
                               knownUntil(), // of a recording it is at rest
                               incidents().version(),
                               reset(),
                               retired().senders,
                               isRecording()};
-    if (m_judged == nullptr || m_judged->basis != basis) {
-        m_judged = std::make_shared<Judged>(Judged{basis, verdictsOf(*this, verdictSpan(), charactersNow())});
+    if (!m_judged->isKept && m_judged->basis != basis) {
+        m_judged->verdicts = verdictsOf(*this, verdictSpan(), atNow().currentCharacters());
+        m_judged->basis = basis;
     }
     return m_judged->verdicts;
 }
@@ -446,7 +449,7 @@ const TakeVerdicts& SessionView::verdicts() const {
 const TakeVerdict& SessionView::verdict(const CharacterKey& key) const {
     static const TakeVerdict none;
     const auto& characters = verdicts().characters;
-    const auto found = characters.find(currentNow(key));
+    const auto found = characters.find(atNow().current(key));
     return found == characters.end() ? none : found->second;
 }
 

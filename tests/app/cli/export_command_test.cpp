@@ -155,7 +155,7 @@ TEST_F(ExportCommand, SaysWhyThereIsNothing) {
     const auto isNoPose = [](const wire::Datagram& datagram) { return datagram.header.type() != 2; };
     const ProgramRun poses = exported(performance(20, isNoPose), output("take.csv"));
     EXPECT_EQ(poses.status, 2);
-    EXPECT_THAT(poses.err, HasSubstr("no poses (types 01, 02, 05)"));
+    EXPECT_THAT(poses.err, HasSubstr("no poses (types 01, 02, 05, 21, 22, 03)"));
     const ProgramRun time = exported(performance(20), output("take.csv"), {"--from", "100"});
     EXPECT_EQ(time.status, 2);
     EXPECT_THAT(time.err, HasSubstr("between these times; try without --from and --until"));

@@ -60,10 +60,10 @@ protected:
         }
         ASSERT_TRUE(QTest::qWaitFor([this] {
             m_driver.tick();
-            return m_driver.live().charactersNow().size() == kCharacters;
+            return m_driver.live().atNow().currentCharacters().size() == kCharacters;
         }));
-        m_driver.select(
-            {m_driver.live().charactersNow()[0]->key.sender, m_driver.live().charactersNow()[0]->key, -1});
+        m_driver.select({m_driver.live().atNow().currentCharacters()[0]->key.sender,
+                         m_driver.live().atNow().currentCharacters()[0]->key, -1});
     }
 
     /// What the docks that show need, for a message.

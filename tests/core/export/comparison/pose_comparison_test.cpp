@@ -187,7 +187,7 @@ TEST(PoseComparisonTest, BodiesWithoutACommonSegmentAreCounted) {
 TEST(PoseComparisonTest, StopsWhenItIsNotWantedAnyMore) {
     Recording recording;
     recording.perform(Recording::settings(), 0, 100);
-    const MotionSource source = recording.source();
+    const feed::PoseSource source = recording.source();
     const Partners partners(recording.timetable(), recording.timetable(), {});
     const auto result = compareMotion({source, source, partners}, [](double) { return false; });
     ASSERT_FALSE(result.has_value());
@@ -213,13 +213,13 @@ TEST(PoseComparisonTest, CountsWhatTheLogDroppedBeforeItWasLookedAt) {
         small.writer().publish();
     };
     copy();
-    MotionSource source = recording.source();
+    feed::PoseSource source = recording.source();
     source.log = &small; // as a session of that log would name it
     source.characters[0].parts[0].key.sender =
         small.senders().intern({"127.0.0.1:40001", log::Transport::Udp, 9763});
     const auto table = recording.timetable();
     const Partners partners(table, table, {AlignBy::TimeCode, 0});
-    const MotionSource second = recording.source();
+    const feed::PoseSource second = recording.source();
     const ComparisonTask task{source, second, partners};
     const MotionComparison before = *compareMotion(task, {});
     EXPECT_EQ(before.passedOver, begin());
@@ -242,8 +242,8 @@ TEST(PoseComparisonTest, CsvHasARowForEachSampleAndEmptyCellsWithoutAPartner) {
     first.perform(Recording::settings(), 0, 3);
     second.perform(Recording::settings(), 1, 3, moving(model::segment::kPelvis));
     const Partners partners(first.timetable(), second.timetable(), {AlignBy::TimeCode, 0});
-    const MotionSource one = first.source();
-    const MotionSource other = second.source();
+    const feed::PoseSource one = first.source();
+    const feed::PoseSource other = second.source();
     const ComparisonTask task{one, other, partners};
     const MotionComparison result = *compareMotion(task, {});
     const std::filesystem::path folder = posewire::test::newTemporaryFolder("comparison");

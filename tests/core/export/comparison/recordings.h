@@ -44,12 +44,12 @@ struct Recording {
         }
     }
 
-    [[nodiscard]] MotionSource source(const model::TimeRange& range = model::kAllTime) const {
+    [[nodiscard]] feed::PoseSource source(const model::TimeRange& range = model::kAllTime) const {
         std::vector<model::CharacterKey> keys;
-        if (!session.charactersNow().empty()) {
-            keys.push_back(session.charactersNow().front()->key);
+        if (!session.atNow().currentCharacters().empty()) {
+            keys.push_back(session.atNow().currentCharacters().front()->key);
         }
-        return motionSourceOf(session, range, keys);
+        return feed::poseSourceOf(session, range, keys);
     }
     [[nodiscard]] std::shared_ptr<const Timetable> timetable() const {
         auto table = Timetable::of(source(), {});
@@ -75,8 +75,8 @@ struct Recording {
                                               model::DifferenceFrame frame = model::DifferenceFrame::World,
                                               const model::TimeRange& range = model::kAllTime) {
     const Partners partners(first.timetable(), second.timetable(), alignment);
-    const MotionSource one = first.source(range);
-    const MotionSource other = second.source();
+    const feed::PoseSource one = first.source(range);
+    const feed::PoseSource other = second.source();
     const auto result = compareMotion({one, other, partners, frame}, {});
     EXPECT_TRUE(result.has_value());
     return *result;

@@ -80,7 +80,7 @@ TEST_F(BvhTest, HoldsOneCharacterWithItsFingers) {
     two.fingers = true;
     two.props = 1;
     perform(two, 20);
-    const MotionSource both = source();
+    const feed::PoseSource both = source();
     const auto exported = write("bvh", both);
     ASSERT_TRUE(exported);
     ASSERT_EQ(exported->size(), 2U);
@@ -139,7 +139,7 @@ protected:
         }
         return mesh;
     }
-    void writeWithBodies(const MotionSource& from) const {
+    void writeWithBodies(const feed::PoseSource& from) const {
         const auto exported =
             exportMotion({from, *findMotionFormat("glb"), path("take.glb"), {}, "Test", triangles});
         ASSERT_TRUE(exported) << exported.error().text;
@@ -219,7 +219,7 @@ TEST_F(GlbTest, HoldsSeveralCharacters) {
     ASSERT_NE(motion.animation(), nullptr) << motion.problem();
     EXPECT_EQ(motion.animation()->mNumChannels, 2U * 23);
     EXPECT_EQ(motion.scene()->mNumMeshes, 2U);
-    for (const MotionCharacter& character : source().characters) {
+    for (const feed::PoseCharacter& character : source().characters) {
         EXPECT_NE(motion.node(character.name.shown()), nullptr);
     }
 }

@@ -63,7 +63,7 @@ TEST_F(MotionExportTest, TellsWhatIsInEachFile) {
 
 TEST_F(MotionExportTest, GivesCharactersAFileEachWhereOneHoldsOne) {
     perform(settings(2), 5);
-    const MotionSource two = source();
+    const feed::PoseSource two = source();
     const auto exported = exportMotion({two, kAlone, path("take.txt"), {}, ""});
     ASSERT_TRUE(exported);
     for (std::size_t i = 0; i < 2; ++i) {
@@ -76,8 +76,8 @@ TEST_F(MotionExportTest, GivesCharactersAFileEachWhereOneHoldsOne) {
 
 TEST_F(MotionExportTest, TellsFilesOfOneNameApart) {
     perform(settings(3), 2, [](const wire::Datagram& datagram) { return datagram.header.type() != 12; });
-    MotionSource three = source();
-    for (MotionCharacter& one : three.characters) {
+    feed::PoseSource three = source();
+    for (feed::PoseCharacter& one : three.characters) {
         one.name = "../Twin";
     }
     three.characters[1].name = "../TWIN";
@@ -105,7 +105,7 @@ TEST_F(MotionExportTest, WritesEveryFormatTheSameEachTime) {
     all.fingers = true;
     all.props = 1;
     perform(all, 300, without({50, 51, 200}));
-    const MotionSource two = source();
+    const feed::PoseSource two = source();
     for (const MotionFormat& format : motionFormats()) {
         const auto first = write(format.suffix, two);
         ASSERT_TRUE(first) << first.error().text;
@@ -114,7 +114,7 @@ TEST_F(MotionExportTest, WritesEveryFormatTheSameEachTime) {
             texts.push_back(textOf(one.path));
             EXPECT_GT(texts.back().size(), 10'000U) << format.suffix;
             EXPECT_EQ(one.frames - one.gaps, 297U) << format.suffix;
-            EXPECT_EQ(one.content == MotionContent::Markers, format.takesMarkers);
+            EXPECT_EQ(one.content == feed::PoseContent::Markers, format.takesMarkers);
         }
         EXPECT_EQ(texts.size(), 2U);
         EXPECT_EQ(filesLeft().size(), format.holdsSeveral ? 1U : 2U);
@@ -152,8 +152,8 @@ TEST_F(MotionExportTest, WritesNothingWhereTheLogDropsWhatItReads) {
     receive(3'000);
     while (session.follow(kStart + 48s)) {
     }
-    const MotionSource all =
-        motionSourceOf(session, model::kAllTime, std::vector{session.charactersNow()[0]->key});
+    const feed::PoseSource all = feed::poseSourceOf(session, model::kAllTime,
+                                                    std::vector{session.atNow().currentCharacters()[0]->key});
     bool hasDropped = false;
     const auto exported = write("bvh", all, [&](double share) {
         if (share >= 0.5 && !std::exchange(hasDropped, true)) {
@@ -183,7 +183,7 @@ TEST_F(MotionExportTest, GrowsFromNothingToAll) {
 
 TEST_F(MotionExportTest, ReplacesNothingUnasked) {
     perform(settings(2), 3);
-    const MotionSource two = source();
+    const feed::PoseSource two = source();
     const std::string second = motionPaths({two, kAlone, path("take.txt")})[1];
     std::ofstream(second) << "precious";
     const auto exported = exportMotion({two, kAlone, path("take.txt"), {}, ""});
@@ -198,7 +198,7 @@ TEST_F(MotionExportTest, ReplacesNothingUnasked) {
 #ifndef _WIN32
 TEST_F(MotionExportTest, MakesNoFilesBesideAStandardStreamThatGoesToOne) {
     perform(settings(2), 3);
-    const MotionSource two = source();
+    const feed::PoseSource two = source();
     std::ofstream(path("out")) << "precious";
     const int descriptor = ::open(path("out").c_str(), O_WRONLY);
     const auto exported = exportMotion({two, kAlone, "/dev/fd/" + std::to_string(descriptor), {}, ""});

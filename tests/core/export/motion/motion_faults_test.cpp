@@ -22,8 +22,8 @@ protected:
         m_session.endFile();
     }
     void expectWhatWasCounted() const {
-        const MotionSource all = source();
-        const auto survey = surveyMotion(all, MotionContent::Segments, {});
+        const feed::PoseSource all = source();
+        const auto survey = surveyMotion(all, feed::PoseContent::Segments, {});
         ASSERT_TRUE(survey);
         for (std::size_t i = 0; i < all.characters.size(); ++i) {
             const model::CharacterKey key = all.characters[i].key;

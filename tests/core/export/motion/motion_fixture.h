@@ -63,12 +63,12 @@ protected:
         }
     }
 
-    [[nodiscard]] MotionSource source(const model::TimeRange& range = model::kAllTime) const {
+    [[nodiscard]] feed::PoseSource source(const model::TimeRange& range = model::kAllTime) const {
         std::vector<model::CharacterKey> keys;
-        for (const model::Character* one : m_session.charactersNow()) {
+        for (const model::Character* one : m_session.atNow().currentCharacters()) {
             keys.push_back(one->key);
         }
-        return motionSourceOf(m_session, range, keys);
+        return feed::poseSourceOf(m_session, range, keys);
     }
 
     /// All frames of one character.
@@ -76,8 +76,9 @@ protected:
         MotionFrame frame;
         model::CharacterPose pose; ///< as it was
     };
-    [[nodiscard]] static std::vector<Frame> framesOf(const MotionSource& source, std::size_t character = 0,
-                                                     MotionContent content = MotionContent::Segments) {
+    [[nodiscard]] static std::vector<Frame>
+    framesOf(const feed::PoseSource& source, std::size_t character = 0,
+             feed::PoseContent content = feed::PoseContent::Segments) {
         const auto survey = surveyMotion(source, content, {});
         std::vector<Frame> frames;
         const auto read = readMotion(
@@ -95,12 +96,13 @@ protected:
 
     /// What came of writing all there is as a format; the files are in the folder.
     [[nodiscard]] tl::expected<std::vector<ExportedMotion>, log::FileError>
-    write(const std::string& suffix, const MotionSource& from, const ExportProgress& progress = {}) const {
+    write(const std::string& suffix, const feed::PoseSource& from,
+          const ExportProgress& progress = {}) const {
         const MotionFormat* format = findMotionFormat(suffix);
         return exportMotion({from, *format, path("take." + suffix), {}, "Posewire test"}, progress);
     }
     /// The one file that came of it.
-    [[nodiscard]] std::string written(const std::string& suffix, const MotionSource& from) const {
+    [[nodiscard]] std::string written(const std::string& suffix, const feed::PoseSource& from) const {
         const auto exported = write(suffix, from);
         EXPECT_TRUE(exported) << exported.error().text;
         return exported && !exported->empty() ? textOf(exported->front().path) : std::string();

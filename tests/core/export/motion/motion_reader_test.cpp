@@ -91,7 +91,7 @@ TEST_F(MotionReaderTest, KnowsTheStepOfAStreamThatIsThinnedOut) {
         return datagram.header.type() != 2 ||
                (datagram.header.sampleCounter % 4 == 1 && datagram.header.sampleCounter != 41);
     });
-    const auto survey = surveyMotion(source(), MotionContent::Segments, {});
+    const auto survey = surveyMotion(source(), feed::PoseContent::Segments, {});
     EXPECT_EQ(survey->characters[0].step, 4U);
     EXPECT_EQ(survey->characters[0].rateHz, 60.0);
     EXPECT_EQ(survey->characters[0].frames, 100U);
@@ -112,7 +112,7 @@ TEST_F(MotionReaderTest, BeginsANewRunWhereCountersAreSetBack) {
 TEST_F(MotionReaderTest, FollowsACharacterThroughARestartOfItsSender) {
     perform(settings(), 60);
     perform(settings(), 60, sendsAll, kStart + 4s, "127.0.0.1:40777");
-    const MotionSource one = source();
+    const feed::PoseSource one = source();
     ASSERT_EQ(one.characters.size(), 1U);
     EXPECT_EQ(one.characters[0].parts.size(), 2U);
     const auto frames = framesOf(one);
@@ -235,13 +235,13 @@ TEST_F(MotionReaderTest, ReadsMarkersWithTheirIds) {
     auto points = settings();
     points.types = {2, 3, 12, 13};
     perform(points, 30);
-    const auto survey = surveyMotion(source(), MotionContent::Markers, {});
+    const auto survey = surveyMotion(source(), feed::PoseContent::Markers, {});
     EXPECT_EQ(survey->characters[0].frames, 30U);
     EXPECT_EQ(survey->characters[0].markerIds.size(), static_cast<std::size_t>(model::kMarkerCount));
     std::size_t seen = 0;
-    const auto read = readMotion(source(), MotionContent::Markers, *survey,
+    const auto read = readMotion(source(), feed::PoseContent::Markers, *survey,
                                  [&](const MotionFrame& frame) {
-                                     for (const Marker& marker : frame.markers) {
+                                     for (const feed::Marker& marker : frame.markers) {
                                          ++seen;
                                          EXPECT_GT(marker.position.z(), -0.1);
                                          EXPECT_LT(marker.position.z(), 2.3);
@@ -255,7 +255,7 @@ TEST_F(MotionReaderTest, ReadsMarkersWithTheirIds) {
 TEST_F(MotionReaderTest, StopsWhereItIsCancelled) {
     perform(settings(), 6'000);
     const auto survey =
-        surveyMotion(source(), MotionContent::Segments, [](double share) { return share < 0.3; });
+        surveyMotion(source(), feed::PoseContent::Segments, [](double share) { return share < 0.3; });
     ASSERT_FALSE(survey);
     EXPECT_EQ(survey.error().kind, log::FileError::Kind::Cancelled);
 }
@@ -266,7 +266,7 @@ TEST_F(MotionReaderTest, TellsAnIrregularStreamWithoutGaps) {
         return datagram.header.type() != 2 ||
                std::ranges::find(steps, datagram.header.sampleCounter % 10) != std::end(steps);
     });
-    const auto survey = surveyMotion(source(), MotionContent::Segments, {});
+    const auto survey = surveyMotion(source(), feed::PoseContent::Segments, {});
     EXPECT_EQ(survey->characters[0].step, 0U);
     EXPECT_EQ(survey->characters[0].gaps, 0U);
     EXPECT_NEAR(survey->characters[0].rateHz, 96, 1);

@@ -75,7 +75,7 @@ public:
     }
 
     const CharacterPose* pose() { return m_session.pose(key()); }
-    CharacterKey key() { return m_session.charactersNow().front()->key; }
+    CharacterKey key() { return m_session.atNow().currentCharacters().front()->key; }
     Session& session() { return m_session; }
     const ReferenceBody& characterBody() const { return m_performer->characters().front().body(); }
 

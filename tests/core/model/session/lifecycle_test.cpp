@@ -127,7 +127,7 @@ TEST_F(LifecycleTest, WhatIsAskedOfOneThatWasRetiredIsNothing) {
     EXPECT_FALSE(m_session.isSuperseded(key));
     EXPECT_EQ(m_session.nullPoseEvidence(key).record.messages, 0U);
     EXPECT_EQ(m_session.colour(key), defaultColour(0));
-    EXPECT_FALSE(m_session.poseRemarkNow(key).has_value());
+    EXPECT_EQ(m_session.atNow().pose(key), nullptr);
 }
 
 TEST_F(LifecycleTest, WhatWasForgottenKeepsItsNameInWhatIsToldOfIt) {

@@ -84,7 +84,7 @@ protected:
     CharacterKey keyOf(const std::string& address) { return {sender(address), 0}; }
     std::vector<CharacterKey> shown() {
         std::vector<CharacterKey> keys;
-        for (const Character* one : m_session.charactersNow()) {
+        for (const Character* one : m_session.atNow().currentCharacters()) {
             keys.push_back(one->key);
         }
         return keys;

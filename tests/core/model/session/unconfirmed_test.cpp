@@ -29,7 +29,7 @@ TEST_F(VerdictTest, DoesNotBelieveACharacterOfCorruptHeadersHoweverMany) {
         (random >> 24) % 20 == 0 ? poseOfOther(sample) : pose(sample);
     }
     follow();
-    EXPECT_EQ(m_session.charactersNow().size(), 1U);
+    EXPECT_EQ(m_session.atNow().currentCharacters().size(), 1U);
     EXPECT_EQ(m_session.unproven().characters, 1U);
     EXPECT_GT(m_session.unproven().datagrams, 200U);
 }
@@ -43,7 +43,7 @@ TEST_F(VerdictTest, BelievesACharacterWithinATenthOfASecondThatLosesSome) {
         }
     }
     follow();
-    EXPECT_EQ(m_session.charactersNow().size(), 2U);
+    EXPECT_EQ(m_session.atNow().currentCharacters().size(), 2U);
 }
 
 TEST_F(VerdictTest, TakesAllOfACharacterOnceItIsBelieved) {

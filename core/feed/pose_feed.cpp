@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: MIT
+#include "core/feed/pose_feed.h"
+
+#include "core/feed/sample_order.h"
+#include "core/log/log_follower.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <unordered_map>
+
+namespace posewire::feed {
+namespace {
+
+using model::kPoseTypes;
+using model::kSentTogether;
+
+/// Packets that are read in one step.
+constexpr std::uint64_t kPacketsAtOnce = 2048;
+/// Samples before the newest one in which messages of one sample may be found.
+constexpr std::size_t kRecent = 8;
+constexpr std::size_t kMarkerPlace = kPoseTypes.size() - 1;
+static_assert(kPoseTypes[kMarkerPlace] == wire::PointPositions::kType);
+
+void readMarkers(const wire::Datagram& datagram, model::LengthUnit unit, PoseSample& sample) {
+    sample.pose.type = datagram.header.type();
+    sample.pose.sample = datagram.header.sampleCounter;
+    sample.pose.timeCode = datagram.header.timeCode;
+    for (const wire::Point& point : std::get<wire::PointPositions>(datagram.body).points) {
+        const Eigen::Vector3d position = model::pointFromYUp(point.position, unit);
+        if (position.allFinite()) {
+            sample.markers.push_back({point.id, position});
+        }
+    }
+}
+
+/// Makes poses of one character from its datagrams.
+class CharacterFeed {
+public:
+    CharacterFeed(const PoseSource& source, std::size_t place, PoseContent content, log::Duration wait)
+        : m_character(source.characters[place]),
+          m_place(place),
+          m_content(content),
+          m_order(wait,
+                  [this](HeldSample&& sample, bool beginsRun) { release(std::move(sample), beginsRun); }) {}
+
+    void take(const log::Packet& packet, const wire::Header& header, std::size_t part, const TakePose& to) {
+        const auto found = std::ranges::find(kPoseTypes, header.type());
+        const auto place = static_cast<std::size_t>(found - kPoseTypes.begin());
+        const bool isRead =
+            m_content == PoseContent::Markers ? place == kMarkerPlace : found != kPoseTypes.end();
+        if (!isRead) {
+            return;
+        }
+        m_to = &to;
+        if (part != m_part) {
+            m_order.flush();
+            m_part = part;
+            m_newestWhole = {};
+        }
+        if (m_content == PoseContent::Segments && isBetterSent(place, packet.stamp)) {
+            return;
+        }
+        if (wire::decodeInto(packet.bytes, m_datagram)) {
+            m_order.add(place, m_datagram, packet);
+        }
+    }
+    void release(log::Stamp now, const TakePose& to) {
+        m_to = &to;
+        m_order.release(now);
+    }
+    void finish(const TakePose& to) {
+        m_to = &to;
+        m_order.flush();
+    }
+
+private:
+    /// Whether poses of a more telling type are on the air: choosePose takes these, so others need no
+    /// decoding.
+    bool isBetterSent(std::size_t place, log::Stamp stamp) {
+        if (place < m_newestWhole.size()) {
+            m_newestWhole[place] = stamp;
+        }
+        const auto better = std::span(m_newestWhole).first(std::min(place, m_newestWhole.size()));
+        return std::ranges::any_of(
+            better, [&](const auto& newest) { return newest && stamp - *newest <= kSentTogether; });
+    }
+
+    void release(HeldSample&& sample, bool beginsRun) {
+        m_sample.beginsRun = m_sample.beginsRun || beginsRun;
+        if (beginsRun || sample.hasWholePose()) {
+            m_recent.clear();
+        }
+        m_recent.push_back(std::move(sample));
+        if (m_content == PoseContent::Markers ? readMarkers() : readPose()) {
+            m_sample.character = m_place;
+            (*m_to)(m_sample);
+            m_sample.beginsRun = false;
+        }
+        while (m_recent.size() > kRecent &&
+               m_recent.front().stamp() + kSentTogether < m_recent.back().stamp()) {
+            m_recent.pop_front();
+        }
+    }
+
+    [[nodiscard]] const PoseCharacter::Part& part() const { return m_character.parts[m_part]; }
+
+    bool readMarkers() {
+        const model::Message* message = m_recent.back().message(kMarkerPlace);
+        if (message != nullptr) {
+            m_sample.markers.clear();
+            m_sample.pose.stamp = message->stamp;
+            m_sample.pose.packet = message->packet;
+            feed::readMarkers(message->datagram, part().units[kMarkerPlace], m_sample);
+        }
+        return message != nullptr;
+    }
+
+    /// False if the newest messages make no pose, or one of an earlier sample.
+    bool readPose() {
+        model::PoseMessages newest{};
+        for (auto held = m_recent.rbegin(); held != m_recent.rend(); ++held) {
+            for (std::size_t i = 0; i < newest.size(); ++i) {
+                newest[i] = newest[i] != nullptr ? newest[i] : held->message(i);
+            }
+        }
+        const model::PoseMessages chosen =
+            model::choosePose(newest, [this](log::SenderId, std::size_t place, std::uint32_t number) {
+                const auto held = std::ranges::find(m_recent, number, &HeldSample::number);
+                return held != m_recent.end() ? held->message(place) : nullptr;
+            });
+        const model::Message* last = model::newestOf(chosen);
+        return last != nullptr && last->datagram.header.sampleCounter == m_recent.back().number() &&
+               model::assemble(chosen, part().units, m_character.bodyAt(last->packet), m_sample.pose);
+    }
+
+    const PoseCharacter& m_character;
+    std::size_t m_place;
+    PoseContent m_content;
+    SampleOrder m_order;
+    std::deque<HeldSample> m_recent; ///< that were released, the newest last
+    const TakePose* m_to = nullptr;
+    PoseSample m_sample;
+    wire::Datagram m_datagram;
+    std::size_t m_part = 0;
+    /// When the newest of each of the whole types came.
+    std::array<std::optional<log::Stamp>, model::kWholePoseTypes.size()> m_newestWhole{};
+};
+
+} // namespace
+
+struct PoseFeed::Parts {
+    struct Place {
+        std::size_t character;
+        std::size_t part;
+    };
+
+    Parts(const PoseSource& from, PoseContent content, log::Duration wait)
+        : source(from), follower(*from.log, from.firstPacket) {
+        for (std::size_t i = 0; i < source.characters.size(); ++i) {
+            const PoseCharacter& character = source.characters[i];
+            for (std::size_t part = 0; part < character.parts.size(); ++part) {
+                places.emplace(character.parts[part].key, Place{i, part});
+            }
+            feeds.push_back(std::make_unique<CharacterFeed>(source, i, content, wait));
+        }
+    }
+
+    void read(const log::Packet& packet, const TakePose& take) {
+        if (packet.flags.skipped || packet.bytes.size() > model::kMostMessageBytes) {
+            return;
+        }
+        const auto header = wire::decodeHeader(packet.bytes);
+        const auto place = header ? places.find({packet.sender, header->character}) : places.end();
+        if (place != places.end()) {
+            feeds[place->second.character]->take(packet, *header, place->second.part, take);
+        }
+    }
+
+    const PoseSource& source;
+    log::LogFollower follower;
+    std::unordered_map<model::CharacterKey, Place> places;
+    std::vector<std::unique_ptr<CharacterFeed>> feeds;
+    bool isFinished = false;
+};
+
+PoseFeed::PoseFeed(const PoseSource& source, PoseContent content, log::Duration wait)
+    : m_parts(std::make_unique<Parts>(source, content, wait)) {}
+
+PoseFeed::~PoseFeed() = default;
+
+bool PoseFeed::advance(const TakePose& take, log::Stamp now) {
+    if (m_parts->isFinished) {
+        return false;
+    }
+    const std::uint64_t end = m_parts->source.endPacket;
+    m_parts->follower.refresh();
+    std::uint64_t count = 0;
+    for (; count < kPacketsAtOnce; ++count) {
+        const auto packet = m_parts->follower.next(end);
+        if (!packet) {
+            break;
+        }
+        m_parts->read(*packet, take);
+    }
+    m_parts->isFinished = m_parts->follower.position() >= end;
+    for (const auto& one : m_parts->feeds) {
+        if (m_parts->isFinished) {
+            one->finish(take);
+        } else {
+            one->release(now, take);
+        }
+    }
+    return count != 0 || m_parts->isFinished;
+}
+
+double PoseFeed::share() const {
+    const PoseSource& source = m_parts->source;
+    return source.endPacket <= source.firstPacket
+               ? 1
+               : std::min(1.0, static_cast<double>(m_parts->follower.position() - source.firstPacket) /
+                                   static_cast<double>(source.endPacket - source.firstPacket));
+}
+
+std::uint64_t PoseFeed::missed() const {
+    const log::LogFollower& follower = m_parts->follower;
+    const std::uint64_t after =
+        follower.position() - std::min(follower.position(), m_parts->source.endPacket);
+    return follower.overtaken() - after; // of what lies behind the range
+}
+
+} // namespace posewire::feed
