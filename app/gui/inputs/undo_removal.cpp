@@ -28,7 +28,9 @@ private:
 
 } // namespace
 
-UndoRemoval::UndoRemoval(QWidget* page) : QPushButton(tr("&Undo"), page), m_removals(new QUndoStack(this)) {
+UndoRemoval::UndoRemoval(QWidget* page)
+    : QPushButton(tr("&Undo"), page),
+      m_removals(new QUndoStack(page)) { // outlives the button, which it would call as it ends
     m_removals->setUndoLimit(kMostRemovals);
     setObjectName(QStringLiteral("undoRemoval"));
     connect(this, &QPushButton::clicked, m_removals, &QUndoStack::undo);
