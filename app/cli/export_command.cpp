@@ -199,6 +199,10 @@ void tell(const std::vector<ExportedMotion>& exported, const feed::PoseSource& s
     }
 }
 
+std::string outputPath(const ExportOptions& options) {
+    return options.output == "-" ? std::string(log::kStandardOutput) : options.output;
+}
+
 ExitStatus writeMotion(const ExportOptions& options, const MotionFormat& format, RecordedSession& recorded,
                        ProgressLine& line, const Console& console) {
     const model::SessionView& session = recorded.session();
@@ -211,18 +215,16 @@ ExitStatus writeMotion(const ExportOptions& options, const MotionFormat& format,
         return console.unusable(std::string("standard output holds one file, and ") + format.suffix +
                                 " has one for each character; choose one with --characters");
     }
-    const std::string path = options.output == "-" ? "/dev/stdout" : options.output;
-    const auto exported = exporting::exportMotion(
-        {source,
-         format,
-         path,
-         {options.replaces, {options.input}, [] { return !system::Interruption::hasCome(); }},
-         "Posewire " + std::string(usage::version()),
-         figure::mannequinBody},
-        [&](double share) {
-            line.show("writing", share);
-            return !system::Interruption::hasCome();
-        });
+    const auto exported = exporting::exportMotion({source,
+                                                   format,
+                                                   outputPath(options),
+                                                   {options.replaces, {options.input}},
+                                                   "Posewire " + std::string(usage::version()),
+                                                   figure::mannequinBody},
+                                                  [&](double share) {
+                                                      line.show("writing", share);
+                                                      return !system::Interruption::hasCome();
+                                                  });
     line.clear();
     if (!exported) {
         using Kind = log::FileError::Kind;
@@ -250,8 +252,7 @@ ExitStatus exportRecording(const ExportOptions& options, const Console& console)
     if (!file) {
         return console.unusable(file.error().text);
     }
-    if (const auto checked = log::checkOutput(options.output == "-" ? "/dev/stdout" : options.output,
-                                              {options.replaces, {options.input}});
+    if (const auto checked = log::checkOutput(outputPath(options), {options.replaces, {options.input}});
         !checked) {
         return console.unusable(checked.error().text);
     }

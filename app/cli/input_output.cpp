@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/input_output.h"
 
-#include "app/system/interruption.h"
-
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -38,7 +36,8 @@ std::string standardOutputFailure(int error) {
 
 tl::expected<std::unique_ptr<log::ByteSource>, log::FileError> openInput(const std::string& path,
                                                                          log::IsCancelled isCancelled) {
-    if (const auto checked = log::checkOutput("/dev/stdout", {.inUse = {path}}); !checked) {
+    const std::string standardOutput(log::kStandardOutput);
+    if (const auto checked = log::checkOutput(standardOutput, {.inUse = {path}}); !checked) {
         return tl::unexpected(checked.error());
     }
     return path == "-" ? log::openStandardInput(std::move(isCancelled))
@@ -107,11 +106,7 @@ tl::expected<Output, std::string> Output::open(const std::string& path, const lo
     if (path == "-") {
         return standard();
     }
-    log::OutputRules patient = rules;
-    if (!patient.waitsForReader) {
-        patient.waitsForReader = [] { return !system::Interruption::hasCome(); };
-    }
-    auto sink = log::createWholeFile(path, patient);
+    auto sink = log::createWholeFile(path, rules);
     if (!sink) {
         return tl::unexpected(sink.error().text);
     }

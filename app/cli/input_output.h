@@ -16,8 +16,8 @@
 
 namespace posewire::cli {
 
-/// The file of that name; standard input for "-". Fails where it is what standard output goes to: that would
-/// have no end. `isCancelled` as in log::openFile().
+/// Opens the file of that name; standard input for "-". Fails if standard output goes to the same file: that
+/// would have no end. `isCancelled` as in log::openFile().
 tl::expected<std::unique_ptr<log::ByteSource>, log::FileError> openInput(const std::string& path,
                                                                          log::IsCancelled isCancelled = {});
 
@@ -71,8 +71,7 @@ private:
 /// A file that is written from front to back and is there whole or not at all, or standard output.
 class Output {
 public:
-    /// "-" is standard output. A pipe that nobody reads is waited for until Ctrl+C. The error is one line for
-    /// the user.
+    /// "-" is standard output. The error is one line for the user.
     static tl::expected<Output, std::string> open(const std::string& path, const log::OutputRules& rules);
     static Output standard();
 
@@ -85,8 +84,8 @@ public:
     /// Flushes, so that the reader sees it at once.
     void flush();
 
-    /// Last of all: without it a file does not come to be. The error is one line for the user; a reader that
-    /// has left is not an error.
+    /// Call last; no file is created otherwise. The error is one line for the user; a reader that has left is
+    /// not an error.
     tl::expected<void, std::string> finish();
 
     /// A whole file at once.

@@ -17,7 +17,6 @@
 
 #include <array>
 #include <chrono>
-#include <functional>
 #include <optional>
 #include <set>
 #include <string>
@@ -81,9 +80,9 @@ ExitStatus monitorFile(const MonitorOptions& options, Console& console);
 /// Whether what is to be written may be: to be asked before long work. The error is one line for the user.
 [[nodiscard]] tl::expected<void, std::string> checkOutputs(const MonitorOptions& options);
 
-/// Where a recording goes. It exists from then on. `waitsForReader` as in log::OutputRules.
+/// The file of a recording. It exists from then on.
 [[nodiscard]] tl::expected<std::unique_ptr<log::ByteSink>, log::FileError>
-createRecording(const MonitorOptions& options, std::function<bool()> waitsForReader);
+createRecording(const MonitorOptions& options);
 
 /// What monitoring the network and monitoring a file have in common: a log, a session that follows it, what
 /// is shown meanwhile and what is said at the end. During its lifetime the first Ctrl+C is only remembered,

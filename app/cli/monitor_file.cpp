@@ -155,7 +155,7 @@ ExitStatus monitorFile(const MonitorOptions& options, Console& console) {
     std::unique_ptr<log::ByteSink> sink;
     std::optional<log::Recorder> recorder;
     if (!options.record.empty()) {
-        auto created = createRecording(options, [&run] { return !run.isOver(); });
+        auto created = createRecording(options);
         if (!created) {
             return console.unusable(created.error().text);
         }

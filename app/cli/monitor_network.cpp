@@ -100,15 +100,13 @@ class RecordingWatch {
 public:
     RecordingWatch(MonitorRun& run, Console& console) : m_run(run), m_console(console) {}
 
-    /// Where it fails for want of a reader, everything else goes on.
-    [[nodiscard]] bool start(const MonitorOptions& options, std::function<bool()> waitsForReader) {
-        auto started = createRecording(options, std::move(waitsForReader))
-                           .and_then([&](std::unique_ptr<log::ByteSink>&& sink) {
-                               return log::Recording::start(m_run.log(), std::move(sink), recordingInfo());
-                           });
+    [[nodiscard]] bool start(const MonitorOptions& options) {
+        auto started = createRecording(options).and_then([&](std::unique_ptr<log::ByteSink>&& sink) {
+            return log::Recording::start(m_run.log(), std::move(sink), recordingInfo());
+        });
         if (!started) {
             note(started.error());
-            return started.error().kind == log::FileError::Kind::Unread;
+            return false;
         }
         m_recording = std::move(*started);
         return true;
@@ -220,11 +218,6 @@ exporting::MonitorFacts factsOf(const net::Receiver& receiver, double elapsedS) 
     return facts;
 }
 
-bool isTimeOver(const MonitorOptions& options, std::chrono::steady_clock::time_point start) {
-    const std::chrono::duration<double> most{options.durationSeconds};
-    return options.durationSeconds > 0 && std::chrono::steady_clock::now() - start >= most;
-}
-
 /// Until the time is over or nobody wants more. Returns how long it was.
 double watch(const MonitorOptions& options, const net::Receiver& receiver, MonitorRun& run,
              RecordingWatch& recording, InputWatch& inputs, std::chrono::steady_clock::time_point start) {
@@ -315,16 +308,7 @@ ExitStatus monitorNetwork(const MonitorOptions& options, Console& console) {
     }
     const auto start = std::chrono::steady_clock::now();
     RecordingWatch recording(run, console);
-    const auto waits = [&, isTold = false]() mutable {
-        if (!std::exchange(isTold, true)) {
-            console.complain(options.record +
-                             ": nobody reads this pipe yet; recording begins when somebody does");
-        }
-        run.follow(run.log().timeline().now(clock), receiver->isHeldUp());
-        return !run.isOver() && !isTimeOver(options, start);
-    };
-    if (!options.record.empty() &&
-        !recording.start(options, waits)) { // now that there is something to record
+    if (!options.record.empty() && !recording.start(options)) { // now that there is something to record
         return ExitStatus::Unusable;
     }
     InputWatch inputs(*receiver, console);

@@ -24,7 +24,6 @@ namespace posewire::cli {
 namespace {
 
 /// How long a report waits for somebody to read the pipe that it goes to.
-constexpr std::chrono::seconds kReaderPatience{5};
 
 std::string applicationName() {
     return "Posewire " + std::string(usage::version());
@@ -306,10 +305,6 @@ ExitStatus MonitorRun::writeReport(const exporting::MonitorFacts& facts) {
     if (!m_options.record.empty() && m_options.record != "-") {
         rules.inUse.push_back(m_options.record);
     }
-    const auto giveUp = std::chrono::steady_clock::now() + kReaderPatience;
-    rules.waitsForReader = [giveUp] {
-        return std::chrono::steady_clock::now() < giveUp && !system::Interruption::hasCome();
-    };
     const auto written =
         Output::writeFile(m_options.report, rules, exporting::streamReport(m_session, options));
     return written ? ExitStatus::Fine : m_console.unusable(written.error());
@@ -335,11 +330,9 @@ tl::expected<void, std::string> checkOutputs(const MonitorOptions& options) {
     return {};
 }
 
-tl::expected<std::unique_ptr<log::ByteSink>, log::FileError>
-createRecording(const MonitorOptions& options, std::function<bool()> waitsForReader) {
-    log::OutputRules rules = rulesOf(options);
-    rules.waitsForReader = std::move(waitsForReader);
-    return log::createFile(options.record == "-" ? "/dev/stdout" : options.record, rules);
+tl::expected<std::unique_ptr<log::ByteSink>, log::FileError> createRecording(const MonitorOptions& options) {
+    const std::string path = options.record == "-" ? std::string(log::kStandardOutput) : options.record;
+    return log::createFile(path, rulesOf(options));
 }
 
 log::RecordingInfo recordingInfo() {

@@ -27,7 +27,7 @@ public:
     [[nodiscard]] static AllowList withoutNames(const std::vector<std::string>& entries);
 
     [[nodiscard]] bool isEveryone() const { return m_isEveryone; }
-    /// IPv4 is recognised also where an IPv6 socket received it.
+    /// IPv4 is recognised also if an IPv6 socket received it.
     [[nodiscard]] bool allows(const QHostAddress& address) const;
 
 private:
@@ -39,7 +39,7 @@ private:
     bool m_isEveryone = true;
 };
 
-/// What is wrong with an entry as it is typed, in one line; empty where it may be an address, a net or a
+/// What is wrong with an entry as it is typed, in one line; empty if it may be an address, a net or a
 /// name.
 [[nodiscard]] std::string problemWithEntry(const std::string& entry);
 

@@ -142,7 +142,7 @@ std::uint64_t refusedIn(const ConnectionFacts& facts) {
     return refused;
 }
 
-/// What is wrong with an input that is open, in a text that has the remedy as well where it is its own
+/// What is wrong with an input that is open, in a text that has the remedy as well if it is its own
 /// address.
 Finding findingOf(const InputStatus& input) {
     const QHostAddress own(QString::fromStdString(input.endpoint.host));

@@ -74,7 +74,7 @@ struct Finding {
     friend bool operator==(const Finding&, const Finding&) = default;
 };
 
-/// Advice for an operator who sees nothing, most certain first; empty where all is well. Silence counts after
+/// Advice for an operator who sees nothing, most certain first; empty if all is well. Silence counts after
 /// two seconds.
 [[nodiscard]] std::vector<Finding> connectionHelp(const ConnectionFacts& facts);
 

@@ -46,7 +46,7 @@ struct Endpoint {
     friend bool operator==(const Endpoint&, const Endpoint&) = default;
 };
 
-/// "127.0.0.1:9763", "[::1]:9763"; ":9763" where there is no host.
+/// "127.0.0.1:9763", "[::1]:9763"; ":9763" if there is no host.
 [[nodiscard]] std::string textOf(const Endpoint& endpoint);
 
 /// "10.0.0.5:50123", as the operator writes it: IPv4 in its own form even where an IPv6 socket received it.
@@ -66,7 +66,7 @@ struct Endpoint {
 /// or there is none of that name now.
 [[nodiscard]] QNetworkInterface zoneOf(const QHostAddress& address);
 
-/// That an address names an interface that is not here, with what to do, in one line; empty where it names
+/// That an address names an interface that is not here, with what to do, in one line; empty if it names
 /// none or one that is.
 [[nodiscard]] std::string problemWithZone(const QHostAddress& address);
 

@@ -27,13 +27,13 @@ public:
     void listensOn(const QHostAddress& address) { m_own = address; }
     [[nodiscard]] bool isEmpty() const { return m_groups.empty() && m_own.isNull(); }
 
-    /// Joins where it is not joined yet, leaves where an interface is down or gone, and joins anew where an
+    /// Joins if it is not joined yet, leaves where an interface is down or gone, and joins again where an
     /// address has changed.
     void follow(const QList<QNetworkInterface>& interfaces);
 
     /// "listening; 239.1.1.1 joined on 2 interfaces (eth0, lo)".
     [[nodiscard]] std::string text() const;
-    /// Where a group could not be joined, and why, and that the own address has gone; empty where there is no
+    /// Where a group could not be joined, and why, and that the own address has gone; empty if there is no
     /// problem.
     [[nodiscard]] std::string problem() const;
 

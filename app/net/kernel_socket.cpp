@@ -4,10 +4,13 @@
 #include "app/net/endpoint.h"
 
 #include <arpa/inet.h>
+#include <linux/netlink.h>
+#include <linux/rtnetlink.h>
 #include <linux/sock_diag.h>
 #include <net/if.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <ctime>
@@ -59,6 +62,20 @@ QHostAddress addressOf(const sockaddr_in6& sender) {
         address.setScopeId(QString::number(sender.sin6_scope_id));
     }
     return address;
+}
+
+/// -1 if it is refused.
+int subscribe() {
+    const int descriptor = ::socket(AF_NETLINK, SOCK_RAW | SOCK_CLOEXEC | SOCK_NONBLOCK, NETLINK_ROUTE);
+    sockaddr_nl address{};
+    address.nl_family = AF_NETLINK;
+    address.nl_groups = RTMGRP_LINK | RTMGRP_IPV4_IFADDR | RTMGRP_IPV6_IFADDR;
+    if (descriptor >= 0 &&
+        ::bind(descriptor, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
+        ::close(descriptor);
+        return -1;
+    }
+    return descriptor;
 }
 
 } // namespace
@@ -168,6 +185,23 @@ SenderCache::Id SenderCache::look(const sockaddr_in6& address) {
     }
     m_last = &entry;
     return entry.id;
+}
+
+InterfaceWatch::InterfaceWatch() : m_socket(subscribe()) {}
+
+bool InterfaceWatch::hasChanged() {
+    // What has changed is asked for afterwards; that something has is all there is to know here.
+    std::array<std::byte, 8192> message;
+    bool hasChanged = false;
+    while (true) {
+        const auto size = ::recv(m_socket.number(), message.data(), message.size(), MSG_DONTWAIT);
+        if (size < 0 && errno == ENOBUFS) {
+            hasChanged = true; // more than the kernel could keep for us
+        } else if (size <= 0) {
+            return hasChanged;
+        }
+        hasChanged = true;
+    }
 }
 
 } // namespace posewire::net

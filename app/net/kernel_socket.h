@@ -4,6 +4,7 @@
 #include "app/net/allow_list.h"
 #include "core/log/log_writer.h"
 #include "core/log/sender_table.h"
+#include "core/log/system_files.h"
 #include "core/log/time.h"
 
 #include <netinet/in.h>
@@ -22,23 +23,6 @@
 
 /// A UDP socket of Linux as the receiving thread uses it.
 namespace posewire::net {
-
-/// A descriptor that its owner closes.
-class Descriptor {
-public:
-    explicit Descriptor(int descriptor = -1) : m_descriptor(descriptor) {}
-    Descriptor(Descriptor&& other) noexcept : m_descriptor(std::exchange(other.m_descriptor, -1)) {}
-    Descriptor& operator=(Descriptor&&) = delete;
-    ~Descriptor() {
-        if (m_descriptor >= 0) {
-            ::close(m_descriptor);
-        }
-    }
-    [[nodiscard]] int get() const { return m_descriptor; }
-
-private:
-    int m_descriptor;
-};
 
 /// Has the kernel give stamps and its drop counter with each datagram; where it refuses, stamps come from the
 /// clock.
@@ -60,7 +44,7 @@ struct SocketMemory {
 struct Received {
     std::size_t size = 0;
     log::WallTime time{}; ///< the kernel's; log::WallTime() if it gave none
-    /// Datagrams the socket had dropped when this one was queued, modulo 2³²; 0 where none.
+    /// Datagrams the socket had dropped when this one was queued, modulo 2³²; 0 if none.
     std::uint32_t drops = 0;
     bool isTruncated = false;
 };
@@ -108,7 +92,7 @@ public:
         return isLast ? m_last->id : look(address);
     }
 
-    /// Asks for everyone anew: the list of those who are listened to has changed.
+    /// Asks for everyone again: the list of those who are listened to has changed.
     void forget() {
         m_last = nullptr;
         m_entries.assign(kEntries, {});
@@ -129,6 +113,21 @@ private:
     const AllowList* m_allowed;
     std::vector<Entry> m_entries; ///< one slot for each hash; a newcomer replaces the old entry
     const Entry* m_last = nullptr;
+};
+
+/// Hears from Linux that interfaces or their addresses have changed, without asking for them.
+class InterfaceWatch {
+public:
+    InterfaceWatch();
+
+    /// Readable when something has changed; -1 if the system tells nothing.
+    [[nodiscard]] int descriptor() const { return m_socket.number(); }
+
+    /// True if something has changed since the last call. One system call, which does not block.
+    [[nodiscard]] bool hasChanged();
+
+private:
+    log::Descriptor m_socket;
 };
 
 } // namespace posewire::net

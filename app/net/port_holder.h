@@ -12,7 +12,7 @@ struct Process {
     std::int64_t id = 0;
 };
 
-/// The process that listens on a port of this computer. Empty where the system does not reveal it, as for
+/// The process that listens on a port of this computer. Empty if the system does not reveal it, as for
 /// other users' processes.
 [[nodiscard]] std::optional<Process> holderOfPort(std::uint16_t port, bool isTcp);
 

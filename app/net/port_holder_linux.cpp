@@ -54,7 +54,7 @@ bool holdsAnyOf(const fs::path& process, const std::vector<std::string>& sockets
     return false;
 }
 
-/// Who holds these sockets; nothing where the system does not say.
+/// Who holds these sockets; empty if the system does not say.
 std::optional<fs::path> holderOf(const std::vector<std::string>& sockets) {
     std::error_code missing;
     for (fs::directory_iterator entry("/proc", missing), end; !missing && entry != end;
@@ -67,7 +67,7 @@ std::optional<fs::path> holderOf(const std::vector<std::string>& sockets) {
     return std::nullopt;
 }
 
-/// Whoever waits for a port asks again and again, and all processes take long to look through: only where a
+/// Whoever waits for a port asks again and again, and all processes take long to look through: only if a
 /// port has other sockets than last time, or their holder has let go of them.
 class KnownHolders {
 public:

@@ -16,7 +16,7 @@
 namespace posewire::net {
 namespace {
 
-/// The system's table of that kind; empty where it gives none.
+/// The system's table of that kind; empty if it gives none.
 template <class Ask>
 std::vector<std::byte> tableOf(Ask ask) {
     std::vector<std::byte> bytes(std::size_t{16} << 10);
@@ -34,7 +34,7 @@ std::vector<std::byte> tableOf(Ask ask) {
     return {};
 }
 
-/// The process of the first row with that port; 0 where there is none.
+/// The process of the first row with that port; 0 if there is none.
 template <class Table>
 DWORD processIn(const std::vector<std::byte>& bytes, std::uint16_t port) {
     if (bytes.empty()) {
@@ -62,7 +62,7 @@ DWORD processAt(std::uint16_t port, bool isTcp, ULONG family) {
                  : processIn<MIB_UDP6TABLE_OWNER_PID>(bytes, port);
 }
 
-/// "mvn" of C:\\Program Files\\...\\mvn.exe; empty where the process may not be asked.
+/// "mvn" of C:\\Program Files\\...\\mvn.exe; empty if the process may not be asked.
 std::string nameOf(DWORD process) {
     const HANDLE handle = ::OpenProcess(PROCESS_QUERY_LIMITED_INFORMATION, FALSE, process);
     if (handle == nullptr) {

@@ -74,7 +74,7 @@ public:
 protected:
     [[nodiscard]] bool isStopping() const { return m_isStopping.load(std::memory_order_acquire); }
 
-    /// What comes first to a port that is opened anew has PacketFlags::afterClosed.
+    /// What comes first to a port that is opened again has PacketFlags::afterClosed.
     void noteClosed(std::uint16_t port) { m_closedPorts.insert(port); }
     [[nodiscard]] bool wasClosed(std::uint16_t port) const { return m_closedPorts.contains(port); }
 

@@ -101,15 +101,15 @@ public:
     [[nodiscard]] std::vector<InputStatus> inputs() const;
     [[nodiscard]] ReceiveTotals totals() const;
 
-    /// Whether the receiving thread is late just now, since its computer is busy: what has come for a moment
-    /// is still in the sockets, and nobody may be called silent. One that stands still for long is not late.
+    /// True if the receiving thread is late just now, since its computer is busy: what has come for a moment
+    /// is still in the sockets, and nobody may be called silent. One that freezes for long is not late.
     [[nodiscard]] bool isHeldUp() const;
 
-    /// CPU time of the receiving thread in seconds; empty where the system does not report it.
+    /// CPU time of the receiving thread in seconds; empty if the system does not report it.
     [[nodiscard]] std::optional<double> cpuSeconds();
 
     /// Highest fill of a UDP input's buffer (0 to 1) since the last call, sampled about ten times a second
-    /// and after each delay; empty where the system does not report it or no UDP input is open.
+    /// and after each delay; empty if the system does not report it or no UDP input is open.
     [[nodiscard]] std::optional<double> takeBufferFill();
 
     /// Queues a packet for the log, once there is room; `arrival.sender` need not be set. False only when the

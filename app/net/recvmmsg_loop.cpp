@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/net/interface_watch.h"
 #include "app/net/kernel_socket.h"
 #include "app/net/listening.h"
 #include "app/net/receive_loop.h"
@@ -33,7 +32,7 @@ constexpr int kRoundsPerDropCheck = 16;
 
 struct Socket {
     std::shared_ptr<Input> input;
-    Descriptor descriptor;
+    log::Descriptor descriptor;
     SenderCache senders;
     std::uint32_t dropsInLog = 0;   ///< how many of the kernel's drops the log has
     std::uint32_t dropsCounted = 0; ///< how many of them the counters have
@@ -68,13 +67,14 @@ public:
         JoinedInput joined{input, {}};
         for (const auto& [socket, groups] : *bound) {
             // A descriptor of our own, without Qt's notifiers; Qt closes its own at the end of this turn.
-            Descriptor descriptor(::fcntl(static_cast<int>(socket->socketDescriptor()), F_DUPFD_CLOEXEC, 0));
-            prepare(descriptor.get());
+            log::Descriptor descriptor(
+                ::fcntl(static_cast<int>(socket->socketDescriptor()), F_DUPFD_CLOEXEC, 0));
+            prepare(descriptor.number());
             for (const QHostAddress& group : groups) {
-                joined.groups.add(
-                    group, [fd = descriptor.get()](const auto& address, const auto& interface, bool joins) {
-                        return changeMembership(fd, address, interface.index(), joins);
-                    });
+                joined.groups.add(group, [fd = descriptor.number()](const auto& address,
+                                                                    const auto& interface, bool joins) {
+                    return changeMembership(fd, address, interface.index(), joins);
+                });
             }
             m_sockets.push_back(std::unique_ptr<Socket>(
                 new Socket{.input = input,
@@ -126,7 +126,7 @@ public:
     void wake() override {
         const std::uint64_t one = 1;
         [[maybe_unused]] const auto written =
-            ::write(m_wake.get(), &one, sizeof one); // a full pipe wakes the loop just as well
+            ::write(m_wake.number(), &one, sizeof one); // a full pipe wakes the loop just as well
     }
 
 private:
@@ -155,7 +155,7 @@ private:
         std::size_t total = 0;
         for (int turn = 0; turn < kBatchesPerTurn; ++turn) {
             const auto lanes = writer.lanes();
-            const std::size_t count = socket.batch.receive(socket.descriptor.get(), lanes);
+            const std::size_t count = socket.batch.receive(socket.descriptor.number(), lanes);
             const log::Stamp now = m_clock.look();
             std::size_t bytes = 0;
             std::size_t heard = 0;
@@ -240,7 +240,7 @@ private:
 
     /// A packet reports loss only once the next one arrives; the socket knows at once.
     void checkDrops(Socket& socket) {
-        if (const auto memory = memoryOf(socket.descriptor.get())) {
+        if (const auto memory = memoryOf(socket.descriptor.number())) {
             countDrops(socket, memory->drops);
             if (socket.isEmpty) {
                 recordDrops(socket, memory->drops);
@@ -287,7 +287,8 @@ private:
     void measureFill() {
         m_isDelayed = false;
         for (const auto& socket : m_sockets) {
-            if (const auto memory = memoryOf(socket->descriptor.get()); memory && memory->bufferBytes != 0) {
+            if (const auto memory = memoryOf(socket->descriptor.number());
+                memory && memory->bufferBytes != 0) {
                 const auto fill =
                     static_cast<std::int32_t>(std::uint64_t{memory->usedBytes} * 1000 / memory->bufferBytes);
                 std::atomic<std::int32_t>& most = m_context.counters.bufferFill;
@@ -326,9 +327,9 @@ private:
     }
 
     void waitForSomething() {
-        std::vector<pollfd> watched{{m_wake.get(), POLLIN, 0}};
+        std::vector<pollfd> watched{{m_wake.number(), POLLIN, 0}};
         for (const auto& socket : m_sockets) {
-            watched.push_back({socket->descriptor.get(), POLLIN, 0});
+            watched.push_back({socket->descriptor.number(), POLLIN, 0});
         }
         int longestMs = -1;
         if (!m_joined.empty()) {
@@ -340,12 +341,12 @@ private:
         m_context.counters.readUntil.store(log::Moment::max(), std::memory_order_release);
         ::poll(watched.data(), watched.size(), longestMs);
         std::uint64_t wakes = 0;
-        [[maybe_unused]] const auto read = ::read(m_wake.get(), &wakes, sizeof wakes);
+        [[maybe_unused]] const auto read = ::read(m_wake.number(), &wakes, sizeof wakes);
     }
 
     ReceiveContext m_context;
     log::ClockWatch m_clock;
-    Descriptor m_wake;
+    log::Descriptor m_wake;
     log::Duration m_nap;
     std::size_t m_smallestBuffer = SIZE_MAX; ///< of the sockets, in bytes
     AllowList m_allowed;                     ///< the senders' caches point to it

@@ -32,7 +32,7 @@ bool isOfThisComputer(const QHostAddress& address) {
                                [&](const LocalAddress& local) { return local.address == text; });
 }
 
-/// Whether data sent there comes back through one of the inputs.
+/// True if data sent there comes back through one of the inputs.
 bool isHeardBy(const InputStatus& input, const QHostAddress& address, std::uint16_t port) {
     if (input.kind != InputKind::Udp || input.endpoint.port != port) {
         return false;
@@ -73,9 +73,9 @@ struct Relay::Target {
     log::SenderId returner{};
 
     // Created and used in the relay's thread. Bound, so that its port identifies what comes back from it;
-    // connected where it can be, since the system reports refusals to connected sockets alone.
+    // connected if it can be, since the system reports refusals to connected sockets alone.
     std::unique_ptr<QUdpSocket> socket{};
-    std::optional<log::Moment> opened{};       ///< anew
+    std::optional<log::Moment> opened{};       ///< again
     std::optional<log::Moment> firstRefusal{}; ///< by the other side, of those that went on
     log::Moment newestRefusal{};
     std::uint64_t sentAtRefusal = 0; ///< by then
@@ -91,7 +91,7 @@ struct Relay::Target {
             socket->connectToHost(address, endpoint.port);
         }
     }
-    /// Where nothing can be sent: a connected socket keeps to an address that this computer may have lost.
+    /// If nothing can be sent: a connected socket keeps to an address that this computer may have lost.
     void reopen(log::Moment now) {
         constexpr log::Duration kPause = std::chrono::seconds(1);
         if (!opened || now - *opened > kPause) {
@@ -106,10 +106,10 @@ struct Relay::Target {
     bool write(const log::Packet& packet) {
         const auto size = static_cast<qint64>(packet.bytes.size());
         const char* bytes = reinterpret_cast<const char*>(packet.bytes.data());
-        // The address also where it is connected: Qt sends nowhere on Windows without one.
+        // The address also if it is connected: Qt sends nowhere on Windows without one.
         return socket->writeDatagram(bytes, size, address, endpoint.port) == size;
     }
-    /// Whether a datagram was refused since the last call: one report at a time is kept.
+    /// True if a datagram was refused since the last call: one report at a time is kept.
     [[nodiscard]] bool takeRefusal() {
         char unused = 0;
         return isConnected() && socket->readDatagram(&unused, 1) < 0 &&

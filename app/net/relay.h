@@ -6,7 +6,7 @@
 #include "app/net/input.h"
 #include "app/net/loop_watch.h"
 #include "core/log/clock.h"
-#include "core/log/log_follower.h"
+#include "core/log/log_reader.h"
 #include "core/log/packet_log.h"
 #include "core/log/time.h"
 
@@ -39,7 +39,7 @@ struct RelayTarget {
     std::string problem;       ///< why the newest was refused, why nothing is sent, or that nobody has
                                ///< listened there for a second; empty if all is well
     bool isStopped = false;    ///< its datagrams came back: nothing is sent or counted any more
-    log::SenderId returner{};  ///< who sent them back, where it is stopped
+    log::SenderId returner{};  ///< who sent them back, if it is stopped
 };
 
 /// Forwards every received datagram unchanged to other hosts by UDP. It follows the log in a thread of its

@@ -32,7 +32,7 @@ struct ReplayFigures {
     std::uint64_t missing = 0; ///< not in the log any more when they were due
     std::uint64_t rounds = 0;  ///< that were sent to their end
     bool isOver = false;
-    std::string problem{}; ///< why it ended too early; empty where all is well
+    std::string problem{}; ///< why it ended too early; empty if all is well
 };
 
 /// Sends packets of a log once more, as far apart as they were received, in a thread of its own. All are due
@@ -43,7 +43,7 @@ class Replay {
 public:
     /// Begins with the connection. Both must outlive it.
     Replay(const log::PacketLog& log, const log::Clock& clock, ReplayChoice choice);
-    /// Ends it where it is.
+    /// Stops in the middle.
     ~Replay();
     Replay(const Replay&) = delete;
     Replay& operator=(const Replay&) = delete;
@@ -55,7 +55,7 @@ public:
 private:
     void run(const std::stop_token& stop);
     NetResult<void> sendRound(DatagramSender& sender, const std::stop_token& stop);
-    /// False where it is to end.
+    /// False if it is to end.
     bool waitFor(log::Duration due, const std::stop_token& stop);
     void note(const DatagramSender& sender, std::uint64_t position, std::uint64_t missing);
 

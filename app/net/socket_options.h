@@ -10,7 +10,7 @@ namespace posewire::net {
 /// The receive buffer that was granted, in the bytes that were asked for.
 [[nodiscard]] int receiveBufferBytes(QUdpSocket& socket);
 
-/// Has the system find out within a minute that the other end is gone, where it can be told so; else it takes
+/// Has the system find out within a minute that the other end is gone, if it can be told so; else it takes
 /// its own time, usually two hours.
 void keepAlive(QTcpSocket& socket);
 

@@ -70,7 +70,7 @@ void TcpRoom::heedAllowed() {
     publish();
 }
 
-/// Closes the connection with the least claim to its place, the longest silent of them. False where all
+/// Closes the connection with the least claim to its place, the longest silent of them. False if all
 /// are in use.
 bool TcpRoom::makeRoom() {
     while (true) {

@@ -2,7 +2,7 @@
 #include "core/feed/pose_feed.h"
 
 #include "core/feed/sample_order.h"
-#include "core/log/log_follower.h"
+#include "core/log/log_reader.h"
 
 #include <algorithm>
 #include <array>

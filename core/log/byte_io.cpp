@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "core/log/byte_io.h"
 
-#include "core/log/descriptor_sink.h"
+#include "core/log/system_files.h"
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <istream>
+#include <vector>
 
 namespace posewire::log {
 namespace {
@@ -18,25 +18,6 @@ bool isFile(const Descriptor& descriptor) {
     const auto status = statusOf(descriptor.number());
     return status && status->kind == FileStatus::Kind::File;
 }
-
-class StreamSource final : public ByteSource {
-public:
-    StreamSource(std::istream& stream, std::string name) : m_stream(stream), m_name(std::move(name)) {}
-
-    tl::expected<std::size_t, FileError> read(std::span<std::byte> into) override {
-        m_stream.read(reinterpret_cast<char*>(into.data()), static_cast<std::streamsize>(into.size()));
-        if (m_stream.bad()) {
-            return tl::unexpected(
-                FileError{m_name + ": reading failed; the device or the connection behind it may be gone"});
-        }
-        return static_cast<std::size_t>(m_stream.gcount());
-    }
-    [[nodiscard]] std::string name() const override { return m_name; }
-
-private:
-    std::istream& m_stream;
-    std::string m_name;
-};
 
 class DescriptorSource final : public ByteSource {
 public:
@@ -160,114 +141,6 @@ tl::expected<std::shared_ptr<const ByteStore>, FileError> openStore(const std::s
 std::unique_ptr<ByteSource> openStandardInput(IsCancelled isCancelled) {
     return std::make_unique<DescriptorSource>(duplicateOf(kStandardInput), "standard input",
                                               std::move(isCancelled));
-}
-
-std::unique_ptr<ByteSource> readingFrom(std::istream& stream, std::string name) {
-    return std::make_unique<StreamSource>(stream, std::move(name));
-}
-
-DescriptorSink::DescriptorSink(Descriptor descriptor, std::string name, std::string consequence)
-    : m_descriptor(std::move(descriptor)),
-      m_name(std::move(name)),
-      m_consequence(std::move(consequence)),
-      m_isFile(isFile(m_descriptor)) {
-    m_waiting.reserve(kBuffer);
-}
-
-DescriptorSink::~DescriptorSink() {
-    static_cast<void>(DescriptorSink::flush());
-}
-
-tl::expected<void, FileError> DescriptorSink::write(std::span<const std::byte> bytes) {
-    if (m_waiting.size() + bytes.size() > kBuffer) {
-        if (auto flushed = flush(); !flushed) {
-            return flushed;
-        }
-    }
-    if (bytes.size() >= kBuffer) {
-        return put(bytes);
-    }
-    m_waiting.insert(m_waiting.end(), bytes.begin(), bytes.end());
-    return {};
-}
-
-tl::expected<void, FileError> DescriptorSink::flush() {
-    auto result = put(m_waiting);
-    m_waiting.clear();
-    return result;
-}
-
-tl::expected<void, FileError> DescriptorSink::sync() {
-    if (auto flushed = flush(); !flushed) {
-        return flushed;
-    }
-    return bringToDisk(m_descriptor) ? tl::expected<void, FileError>() : failure();
-}
-
-tl::expected<void, FileError> DescriptorSink::put(std::span<const std::byte> bytes) {
-    constexpr std::size_t piece = 4096; // a pipe that has room takes as much at once
-    while (!bytes.empty() && !m_hasFailed) {
-        if (!m_isFile && !waitForRoom()) {
-            errno = ETIME;
-            return failure();
-        }
-        const std::size_t most = m_isFile ? bytes.size() : std::min(bytes.size(), piece);
-        const std::ptrdiff_t count = writeSome(m_descriptor.number(), bytes.first(most));
-        if (count >= 0) {
-            bytes = bytes.subspan(static_cast<std::size_t>(count));
-        } else if (errno != EINTR && errno != EAGAIN) {
-            return failure();
-        }
-    }
-    return {};
-}
-
-/// False where there is none for a second although somebody waits for the end.
-bool DescriptorSink::waitForRoom() const {
-    constexpr std::chrono::milliseconds step{50};
-    constexpr std::chrono::milliseconds patience{1000};
-    std::chrono::milliseconds waited{};
-    while (!hasRoom(m_descriptor.number(), step)) {
-        waited = m_isHurried ? waited + step : std::chrono::milliseconds();
-        if (waited >= patience) {
-            return false;
-        }
-    }
-    return true;
-}
-
-tl::unexpected<FileError> DescriptorSink::failure() {
-    const int error = errno;
-    m_hasFailed = true;
-    std::string why;
-    switch (error) {
-    case ENOSPC:
-#ifdef EDQUOT
-    case EDQUOT:
-#endif
-        why = "the disk is full; make room or choose another disk";
-        break;
-    case EFBIG:
-        why =
-            "writing failed (the file has the largest size that is allowed); raise the limit, see ulimit -f";
-        break;
-    case ETIME:
-        why = "nobody reads it";
-        break;
-    case EPIPE:
-        why = "nobody reads it any more";
-        break;
-    default:
-        why = std::string("writing failed (") + std::strerror(error) + "); is the disk still there?";
-    }
-    const bool isUnread = error == EPIPE;
-    return tl::unexpected(FileError{m_name + ": " + why + "; " + m_consequence,
-                                    isUnread ? FileError::Kind::Unread : FileError::Kind::Failed});
-}
-
-void DescriptorSink::discard() {
-    m_waiting.clear();
-    m_hasFailed = true;
 }
 
 } // namespace posewire::log

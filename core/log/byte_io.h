@@ -6,21 +6,20 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <iosfwd>
 #include <memory>
 #include <span>
 #include <string>
 
 namespace posewire::log {
 
-/// Why a file cannot be read or written: what, where and what to do, in one line for the user.
+/// Says in one line for the user why a file cannot be read or written, and what to do.
 struct FileError {
     enum class Kind : std::uint8_t {
         Failed,
         Cut,       ///< a capture ends amidst a packet; all before it was read
         Damaged,   ///< a capture makes no sense from some byte on; all before it was read
-        Cancelled, ///< whoever reads wants no more
-        Unread,    ///< whoever read what was written has gone
+        Cancelled, ///< by the caller
+        Unread,    ///< the reader of what was written is gone
     };
     std::string text;
     Kind kind = Kind::Failed;
@@ -29,7 +28,7 @@ struct FileError {
     [[nodiscard]] bool leavesABeginning() const { return kind == Kind::Cut || kind == Kind::Damaged; }
 };
 
-/// Bytes in order, from wherever.
+/// Bytes in order, from a file or a stream.
 class ByteSource {
 public:
     virtual ~ByteSource() = default;
@@ -41,35 +40,32 @@ public:
     [[nodiscard]] virtual std::string name() const = 0;
 };
 
-/// Whether whoever reads wants no more. Asked before bytes are fetched, and ten times a second where none
-/// come: a file may have no end, or nobody who writes it.
+/// Returns true to end reading. Called before each read, and ten times a second while no bytes come: a file
+/// may have no end, a pipe no writer.
 using IsCancelled = std::function<bool()>;
 
-/// Fails where there is no such file, it is a folder, or may not be read. Reading fails with
-/// FileError::Kind::Cancelled once `isCancelled` says so.
+/// Fails if there is no such file, it is a folder, or may not be read. Reading fails with
+/// FileError::Kind::Cancelled once `isCancelled` returns true.
 tl::expected<std::unique_ptr<ByteSource>, FileError> openFile(const std::string& path,
                                                               IsCancelled isCancelled = {});
 
 /// The standard input of this process.
 std::unique_ptr<ByteSource> openStandardInput(IsCancelled isCancelled = {});
 
-/// Reads from a stream that belongs to the caller.
-std::unique_ptr<ByteSource> readingFrom(std::istream& stream, std::string name);
-
 /// Bytes that can be read anywhere, as often as wanted and from any thread.
 class ByteStore {
 public:
     virtual ~ByteStore() = default;
 
-    /// Fills the front of `into` with what there is from a place on, and returns how much: less only where
-    /// the bytes end, or cannot be read.
+    /// Fills the front of `into` with the bytes from `offset` on and returns the count: less only at the end,
+    /// or if they cannot be read.
     [[nodiscard]] virtual std::size_t readAt(std::uint64_t offset, std::span<std::byte> into) const = 0;
 };
 
-/// Fails as openFile() does, and where a file can only be read once, such as a pipe.
+/// Fails as openFile() does, and if the file can only be read once, such as a pipe.
 tl::expected<std::shared_ptr<const ByteStore>, FileError> openStore(const std::string& path);
 
-/// Where bytes go in order. After a failure nothing more is to be written.
+/// Takes bytes in order. Write no more after a failure.
 class ByteSink {
 public:
     virtual ~ByteSink() = default;
@@ -82,11 +78,7 @@ public:
     /// What was written is on the disk: it survives the end of this computer. May take long.
     virtual tl::expected<void, FileError> sync() { return flush(); }
 
-    /// From any thread: somebody waits for the end. Where nobody reads what is written, a write fails after a
-    /// second instead of waiting for a reader.
-    virtual void hurry() {}
-
-    /// Last of all: what was written stays, under its name.
+    /// Call last: what was written stays, under its name.
     virtual tl::expected<void, FileError> finish() { return sync(); }
 };
 

@@ -76,7 +76,7 @@ private:
     std::vector<SenderTable::Held> m_senders;
 };
 
-/// Chunks that nobody holds any more, to be used again: memory stays flat, and its pages are there already.
+/// Chunks without a holder, to be used again: memory stays flat, and its pages are there already.
 /// While it still grows a thread gets the next chunk ready. Safe from any thread; a chunk may come back from
 /// a reader's.
 class ChunkPool : public std::enable_shared_from_this<ChunkPool> {
@@ -86,7 +86,7 @@ public:
     /// How many may be taken before others must come back: more are neither made ready nor kept.
     void setRoom(std::size_t chunks);
 
-    /// An empty chunk, used or made ready before where there is one; comes back by itself with its last
+    /// An empty chunk, used or made ready before if there is one; comes back by itself with its last
     /// owner.
     [[nodiscard]] std::shared_ptr<Chunk> take();
 
@@ -182,7 +182,7 @@ private:
         std::shared_ptr<Chunk> chunk;
     };
 
-    /// What the cap leaves beside so many chunks and what is kept beside so many packets.
+    /// What the cap leaves beside that many chunks and what is kept beside that many packets.
     [[nodiscard]] std::size_t left(std::size_t chunks, std::uint64_t packets) const;
 
     const LogLimits m_limits;

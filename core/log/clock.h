@@ -3,9 +3,11 @@
 
 #include "core/log/time.h"
 
+#include <ctime>
+
 namespace posewire::log {
 
-/// The only way to the time. Both calls are safe from any thread.
+/// The only source of the time. Both calls are safe from any thread.
 class Clock {
 public:
     virtual ~Clock() = default;
@@ -13,7 +15,7 @@ public:
     /// Comparable with kernel receive stamps. Jumps when the computer's clock is set.
     [[nodiscard]] virtual WallTime wall() const = 0;
 
-    /// Never jumps; goes on while the computer sleeps, where the system can tell.
+    /// Never jumps; runs on while the computer sleeps, if the system supports that.
     [[nodiscard]] virtual Moment monotonic() const = 0;
 };
 
@@ -22,5 +24,8 @@ public:
     [[nodiscard]] WallTime wall() const override;
     [[nodiscard]] Moment monotonic() const override;
 };
+
+/// In the local time zone; from any thread.
+[[nodiscard]] std::tm localTime(std::time_t time);
 
 } // namespace posewire::log

@@ -10,13 +10,19 @@ WallTime SystemClock::wall() const {
 }
 
 Moment SystemClock::monotonic() const {
-    // The steady clock of the library stands still while the computer sleeps, and the wall clock does not:
-    // waking up would look as if somebody had set it.
+    // The steady clock of the library stops while the computer sleeps, and the wall clock does not: waking up
+    // would look like a clock that was set.
     timespec now{};
     if (::clock_gettime(CLOCK_BOOTTIME, &now) == 0) {
         return Moment(std::chrono::seconds(now.tv_sec) + Duration(now.tv_nsec));
     }
     return std::chrono::time_point_cast<Duration>(std::chrono::steady_clock::now());
+}
+
+std::tm localTime(std::time_t time) {
+    std::tm local{};
+    ::localtime_r(&time, &local);
+    return local;
 }
 
 } // namespace posewire::log

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/log/clock.h"
 
+#include <time.h>
 #include <windows.h>
 
 namespace posewire::log {
@@ -28,6 +29,12 @@ Moment SystemClock::monotonic() const {
     const std::int64_t rest = now.QuadPart % frequency;
     return Moment(std::chrono::seconds(now.QuadPart / frequency) +
                   Duration(rest * 1'000'000'000 / frequency));
+}
+
+std::tm localTime(std::time_t time) {
+    std::tm local{};
+    ::localtime_s(&local, &time);
+    return local;
 }
 
 } // namespace posewire::log

@@ -4,7 +4,6 @@
 #include "core/log/file_names.h"
 #include "core/log/output_file.h"
 #include "core/log/recording_file.h"
-#include "core/log/system_files.h"
 
 #include <algorithm>
 #include <chrono>
@@ -139,7 +138,7 @@ DiskHistory::Result DiskHistory::beginFile(std::uint64_t first) {
     if (!path) {
         return tl::unexpected(path.error());
     }
-    m_files.push_back({*path, first, FileLock::take(*path)});
+    m_files.push_back({*path, first, openLocked(*path)});
     auto store = openStore(*path);
     if (!store) {
         return tl::unexpected(store.error());
@@ -210,7 +209,7 @@ std::vector<LostHistory> lostHistories(const std::string& folder) {
     std::error_code failed; // a file that goes meanwhile counts as empty
     for (const fs::directory_entry& entry : filesIn(folder)) {
         // An empty one may be about to be locked.
-        if (entry.file_size(failed) > 0 && FileLock::take(nameOf(entry.path()))) {
+        if (entry.file_size(failed) > 0 && openLocked(nameOf(entry.path())).isOpen()) {
             const auto end = std::chrono::file_clock::to_sys(entry.last_write_time(failed));
             lost.push_back(
                 {nameOf(entry.path()), entry.file_size(failed), std::chrono::time_point_cast<Duration>(end)});
@@ -242,7 +241,7 @@ void discardHistories(const std::string& folder, std::uint64_t most) {
     }
     for (const fs::directory_entry& entry : filesIn(folder)) {
         const bool isOld = fs::file_time_type::clock::now() - entry.last_write_time(failed) > kUnused;
-        if (entry.file_size(failed) == 0 && isOld && FileLock::take(nameOf(entry.path()))) {
+        if (entry.file_size(failed) == 0 && isOld && openLocked(nameOf(entry.path())).isOpen()) {
             fs::remove(entry.path(), failed);
         }
     }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/log/file_lock.h"
-#include "core/log/log_follower.h"
+#include "core/log/log_reader.h"
 #include "core/log/packet_log.h"
 #include "core/log/past.h"
 #include "core/log/pcapng_writer.h"
+#include "core/log/system_files.h"
 
 #include <condition_variable>
 #include <cstdint>
@@ -36,13 +36,13 @@ struct DiskHistoryFigures {
 
 /// Follows a log and keeps what it received in files, the oldest of which go at a cap: the log's Past, so
 /// that packets which memory has dropped are read from there. Each file is a recording as any other; they are
-/// removed at the end, and stay where the process dies. One thread of its own: a slow disk delays nobody.
+/// removed at the end, and stay where the process dies. One thread of its own: a slow disk delays no one.
 class DiskHistory {
 public:
     /// All files together are as many of these as fit.
     static constexpr std::uint64_t kFiles = 16;
 
-    /// Begins with the oldest packet in memory. Fails where no file can be made. `log` must outlive it.
+    /// Begins with the oldest packet in memory. Fails if no file can be made. `log` must outlive it.
     static tl::expected<std::unique_ptr<DiskHistory>, FileError>
     start(PacketLog& log, const DiskHistoryChoice& choice, const RecordingInfo& info);
     /// The log forgets what lay in the files, and they go.
@@ -59,8 +59,8 @@ private:
     using Result = PcapngWriter::Result;
     struct File {
         std::string path;
-        std::uint64_t first;          ///< packet
-        std::optional<FileLock> lock; ///< says that its process lives; none where the disk knows no locks
+        std::uint64_t first; ///< packet
+        Descriptor lock;     ///< shows that its process lives; not open if the disk knows no locks
         std::uint64_t bytes = 0;
     };
 
@@ -106,9 +106,10 @@ struct LostHistory {
 
 /// Those in a folder, the oldest first.
 [[nodiscard]] std::vector<LostHistory> lostHistories(const std::string& folder);
-/// When the first packet of a recording was received; nothing where it has none that can be read.
+/// When the first packet of a recording was received; empty if it has none that can be read.
 [[nodiscard]] std::optional<WallTime> beginOf(const std::string& path);
-/// Removes the oldest of them, until they are not more than so many bytes, and files that were never written.
+/// Removes the oldest of them, until they are not more than that many bytes, and files that were never
+/// written.
 void discardHistories(const std::string& folder, std::uint64_t most);
 
 } // namespace posewire::log

@@ -22,7 +22,7 @@ struct FileContents {
     std::uint64_t tcp = 0;
 };
 
-/// What it holds instead of MXTP and what to do, as it follows the name of the file; empty where it has MXTP.
+/// What it holds instead of MXTP and what to do, as it follows the name of the file; empty if it has MXTP.
 [[nodiscard]] std::string otherContents(const FileContents& contents);
 
 } // namespace posewire::log

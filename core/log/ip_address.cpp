@@ -57,7 +57,7 @@ std::optional<std::uint16_t> parseNumber(std::string_view text, int base, unsign
     return static_cast<std::uint16_t>(value);
 }
 
-/// All numbers between separators; nothing where one of them is none.
+/// All numbers between separators; empty if one of them is none.
 std::optional<std::vector<std::uint16_t>> parseList(std::string_view text, char separator, int base,
                                                     unsigned most) {
     std::vector<std::uint16_t> numbers;

@@ -38,7 +38,7 @@ std::optional<std::size_t> afterEtherType(Frame frame, std::size_t place, std::s
 }
 
 /// Where a frame has its network layer, and the EtherType that says what it is and may lead on over VLAN
-/// tags; where it has none, the version of IP says the rest.
+/// tags; if it has none, the version of IP says the rest.
 struct LinkLayer {
     std::uint32_t linkType; ///< LINKTYPE_ value, as registered for pcap and pcapng
     std::size_t content;

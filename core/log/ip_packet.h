@@ -10,7 +10,7 @@
 /// The headers of IP, UDP and TCP, as captures have them.
 namespace posewire::log {
 
-/// A captured frame and where it is in the file.
+/// A captured frame and its place in the file.
 struct CapturedFrame {
     std::uint32_t linkType = 0; ///< a LINKTYPE_ value of the capture formats
     std::span<const std::byte> bytes;
@@ -38,7 +38,7 @@ struct IpPacket {
 inline constexpr std::uint8_t kTcp = 6;
 inline constexpr std::uint8_t kUdp = 17;
 
-/// Whether ipPacketOf() looks through frames of that LINKTYPE_ value.
+/// True if ipPacketOf() looks through frames of that LINKTYPE_ value.
 [[nodiscard]] bool isLinkTypeKnown(std::uint32_t linkType);
 
 /// Looks through the headers of a captured frame: Ethernet (with VLAN tags), Linux cooked (SLL and SLL2), raw
@@ -53,7 +53,7 @@ struct UdpPayload {
     std::uint16_t targetPort = 0;
 };
 
-/// Empty where the packet is not UDP.
+/// Empty if the packet is not UDP.
 [[nodiscard]] std::optional<UdpPayload> udpPayloadOf(const IpPacket& packet);
 
 /// A segment of TCP (RFC 9293 section 3.1).
@@ -69,7 +69,7 @@ struct TcpSegment {
     bool isInOnePiece = true; ///< in the file
 };
 
-/// Empty where the header of the segment is damaged. The packet must be TCP.
+/// Empty if the header of the segment is damaged. The packet must be TCP.
 [[nodiscard]] std::optional<TcpSegment> tcpSegmentOf(const IpPacket& packet);
 
 /// Appends an IP packet that carries `payload` over UDP, with right lengths and checksums (RFC 791, 768,

@@ -57,7 +57,7 @@ public:
 private:
     void openLanes();
     bool refill(std::size_t lane);
-    /// Whether so many more records have their place in the chunk.
+    /// True if that many more records have their place in the chunk.
     [[nodiscard]] bool hasPlaceFor(std::size_t records) const {
         return m_chunk->room() >= records * sizeof(Record) && m_next + records <= m_chunkEnd;
     }

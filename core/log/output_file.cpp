@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "core/log/output_file.h"
 
-#include "core/log/descriptor_sink.h"
 #include "core/log/file_names.h"
+#include "core/log/system_files.h"
 
 #include <cerrno>
-#include <chrono>
 #include <cstring>
 #include <filesystem>
 #include <optional>
 #include <system_error>
-#include <thread>
 #include <vector>
 
 namespace posewire::log {
@@ -19,13 +17,13 @@ namespace {
 using Kind = FileStatus::Kind;
 
 constexpr int kInputDescriptor = 0;
+constexpr int kOutputDescriptor = 1;
 constexpr const char* kStays = "what was written before can be read";
 constexpr const char* kIsGone = "the file was not written";
 
 tl::unexpected<FileError> unwritable(const std::string& path, int error) {
-    if (const auto status = error == ENXIO ? statusOf(path) : std::nullopt; status && status->isPipe) {
-        return tl::unexpected(FileError{path + ": is a pipe that nobody reads; start its reader first",
-                                        FileError::Kind::Unread});
+    if (error == ENXIO) {
+        return tl::unexpected(FileError{path + ": is a pipe without a reader; start its reader first"});
     }
     return tl::unexpected(FileError{path + ": cannot be written (" + std::strerror(error) +
                                     "); choose another file or folder"});
@@ -45,31 +43,29 @@ tl::expected<void, FileError> checkInUse(const std::string& path, const FileStat
     return {};
 }
 
-/// Where a path leads.
-struct Target {
-    std::optional<int> descriptor;    ///< of this process
-    std::optional<FileStatus> status; ///< nothing where there is no file yet
-};
+/// The file that is there already, if there is one.
+using Target = std::optional<FileStatus>;
 
 tl::expected<Target, FileError> targetOf(const std::string& path, const OutputRules& rules) {
-    Target target{descriptorNamed(path), std::nullopt};
-    target.status = target.descriptor ? statusOf(*target.descriptor) : statusOf(path);
-    if (!target.status) {
+    const bool isStandard = path == kStandardOutput;
+    const Target target = isStandard ? statusOf(kOutputDescriptor) : statusOf(path);
+    if (!target) {
         const int error = errno;
-        const bool isMissing = error == ENOENT && !target.descriptor;
-        if (isMissing && isLink(path)) {
+        const bool isMissing = error == ENOENT && !isStandard && !path.empty();
+        std::error_code ignored;
+        if (isMissing && std::filesystem::is_symlink(pathOf(path), ignored)) {
             return tl::unexpected(
                 FileError{path + ": is a link to a file that does not exist; name that file instead"});
         }
-        return isMissing && !path.empty() ? tl::expected<Target, FileError>(target) : unwritable(path, error);
+        return isMissing ? tl::expected<Target, FileError>(target) : unwritable(path, error);
     }
-    if (target.status->kind == Kind::Folder) {
+    if (target->kind == Kind::Folder) {
         return unwritable(path, EISDIR);
     }
-    if (const auto checked = checkInUse(path, *target.status, rules); !checked) {
+    if (const auto checked = checkInUse(path, *target, rules); !checked) {
         return tl::unexpected(checked.error());
     }
-    if (!target.descriptor && target.status->holdsData() && !rules.mayReplace) {
+    if (!isStandard && target->holdsData() && !rules.mayReplace) {
         return tl::unexpected(
             FileError{path + ": exists already; choose another name, or add --force to replace it"});
     }
@@ -81,33 +77,18 @@ std::string folderOf(const std::string& path) {
     return folder.empty() ? "." : folder;
 }
 
-Descriptor openExisting(const std::string& path, const FileStatus& status, const OutputRules& rules) {
-    constexpr std::chrono::milliseconds step{20};
-    while (true) {
-        Descriptor descriptor = openToWrite(path);
-        const bool isUnread = !descriptor.isOpen() && errno == ENXIO && status.isPipe;
-        if (!isUnread) {
-            return descriptor;
-        }
-        if (!rules.waitsForReader || !rules.waitsForReader()) {
-            errno = ENXIO;
-            return descriptor;
-        }
-        std::this_thread::sleep_for(step);
-    }
-}
-
-/// What is written in place: streams, and files that grow.
-tl::expected<Descriptor, FileError> openTarget(const std::string& path, const Target& target,
+/// Opens a stream or a file that grows.
+tl::expected<Descriptor, FileError> openTarget(const std::string& path, bool exists,
                                                const OutputRules& rules) {
-    Descriptor descriptor = target.descriptor ? duplicateOf(*target.descriptor)
-                            : target.status   ? openExisting(path, *target.status, rules)
-                                              : createToWrite(path);
+    if (path == kStandardOutput) {
+        return duplicateOf(kOutputDescriptor);
+    }
+    Descriptor descriptor = exists ? openToWrite(path) : createToWrite(path);
     if (!descriptor.isOpen()) {
         return unwritable(path, errno);
     }
     const auto status = statusOf(descriptor.number()); // another file may be there by now
-    if (!target.descriptor && status && status->kind == Kind::File) {
+    if (status && status->kind == Kind::File) {
         if (const auto checked = checkInUse(path, *status, rules); !checked) {
             return tl::unexpected(checked.error());
         }
@@ -118,7 +99,7 @@ tl::expected<Descriptor, FileError> openTarget(const std::string& path, const Ta
     return descriptor;
 }
 
-/// A new file in the folder of `path`; `name` gets what it is called until it is complete.
+/// A new file in the folder of `path`; `name` becomes its name until it is complete.
 Descriptor openBeside(const std::string& path, std::string& name) {
     constexpr int attempts = 1000;
     for (int number = 0; number < attempts; ++number) {
@@ -132,18 +113,114 @@ Descriptor openBeside(const std::string& path, std::string& name) {
     return Descriptor();
 }
 
-class WholeFileSink final : public DescriptorSink {
+/// Buffers small pieces.
+class FileSink : public ByteSink {
+public:
+    /// `consequence` ends the messages about failures.
+    FileSink(Descriptor descriptor, std::string name, const char* consequence)
+        : m_descriptor(std::move(descriptor)), m_name(std::move(name)), m_consequence(consequence) {
+        m_waiting.reserve(kBuffer);
+    }
+    /// Writes the rest; call flush() before to learn of a failure.
+    ~FileSink() override { static_cast<void>(FileSink::flush()); }
+
+    tl::expected<void, FileError> write(std::span<const std::byte> bytes) override {
+        if (m_waiting.size() + bytes.size() > kBuffer) {
+            if (auto flushed = flush(); !flushed) {
+                return flushed;
+            }
+        }
+        if (bytes.size() >= kBuffer) {
+            return put(bytes);
+        }
+        m_waiting.insert(m_waiting.end(), bytes.begin(), bytes.end());
+        return {};
+    }
+    tl::expected<void, FileError> flush() override {
+        auto result = put(m_waiting);
+        m_waiting.clear();
+        return result;
+    }
+    tl::expected<void, FileError> sync() override {
+        if (auto flushed = flush(); !flushed) {
+            return flushed;
+        }
+        return bringToDisk(m_descriptor) ? tl::expected<void, FileError>() : failure();
+    }
+
+protected:
+    [[nodiscard]] const std::string& name() const { return m_name; }
+    /// Drops the buffer and everything that comes after it.
+    void discard() {
+        m_waiting.clear();
+        m_hasFailed = true;
+    }
+
+private:
+    static constexpr std::size_t kBuffer = std::size_t{64} << 10;
+    /// Between two looks at a full pipe.
+    static constexpr std::chrono::milliseconds kPause{100};
+
+    tl::expected<void, FileError> put(std::span<const std::byte> bytes) {
+        while (!bytes.empty() && !m_hasFailed) {
+            const std::ptrdiff_t count = writeSome(m_descriptor.number(), bytes);
+            if (count >= 0) {
+                bytes = bytes.subspan(static_cast<std::size_t>(count));
+            } else if (errno == EAGAIN) {
+                static_cast<void>(hasRoom(m_descriptor.number(), kPause));
+            } else if (errno != EINTR) {
+                return failure();
+            }
+        }
+        return {};
+    }
+
+    /// Of the last system call.
+    [[nodiscard]] tl::unexpected<FileError> failure() {
+        const int error = errno;
+        m_hasFailed = true;
+        std::string why;
+        switch (error) {
+        case ENOSPC:
+#ifdef EDQUOT
+        case EDQUOT:
+#endif
+            why = "the disk is full; make room or choose another disk";
+            break;
+        case EFBIG:
+            why = "writing failed (the file has the largest size that is allowed); raise the limit, see "
+                  "ulimit -f";
+            break;
+        case EPIPE:
+            why = "its reader is gone";
+            break;
+        default:
+            why = std::string("writing failed (") + std::strerror(error) + "); is the disk still there?";
+        }
+        return tl::unexpected(FileError{m_name + ": " + why + "; " + m_consequence,
+                                        error == EPIPE ? FileError::Kind::Unread : FileError::Kind::Failed});
+    }
+
+    Descriptor m_descriptor;
+    std::string m_name;
+    const char* m_consequence;
+    std::vector<std::byte> m_waiting;
+    bool m_hasFailed = false;
+};
+
+class WholeFileSink final : public FileSink {
 public:
     WholeFileSink(Descriptor descriptor, std::string path, std::string target, std::string temporary,
                   bool mayReplace)
-        : DescriptorSink(std::move(descriptor), std::move(path), kIsGone),
+        : FileSink(std::move(descriptor), std::move(path), kIsGone),
           m_target(std::move(target)),
           m_temporary(std::move(temporary)),
           m_mayReplace(mayReplace) {}
     ~WholeFileSink() override {
         if (!m_temporary.empty()) {
             discard();
-            removeFile(m_temporary);
+            std::error_code ignored;
+            std::filesystem::remove(pathOf(m_temporary), ignored);
         }
     }
 
@@ -162,7 +239,7 @@ public:
 
 private:
     std::string m_target;
-    std::string m_temporary; ///< empty once it has got its name
+    std::string m_temporary; ///< empty once it has its final name
     bool m_mayReplace;
 };
 
@@ -173,7 +250,7 @@ tl::expected<void, FileError> checkOutput(const std::string& path, const OutputR
     if (!target) {
         return tl::unexpected(target.error());
     }
-    if (!target->status && !mayCreateIn(folderOf(path))) {
+    if (!target->has_value() && !mayCreateIn(folderOf(path))) {
         return unwritable(path, errno);
     }
     return {};
@@ -185,8 +262,9 @@ tl::expected<std::unique_ptr<ByteSink>, FileError> createFile(const std::string&
     if (!target) {
         return tl::unexpected(target.error());
     }
-    return openTarget(path, *target, rules).map([&](Descriptor&& descriptor) -> std::unique_ptr<ByteSink> {
-        return std::make_unique<DescriptorSink>(std::move(descriptor), path, kStays);
+    const bool exists = target->has_value();
+    return openTarget(path, exists, rules).map([&](Descriptor&& descriptor) -> std::unique_ptr<ByteSink> {
+        return std::make_unique<FileSink>(std::move(descriptor), path, kStays);
     });
 }
 
@@ -196,20 +274,20 @@ tl::expected<std::unique_ptr<ByteSink>, FileError> createWholeFile(const std::st
     if (!target) {
         return tl::unexpected(target.error());
     }
-    const bool isFile = !target->descriptor && (!target->status || target->status->kind == Kind::File);
-    if (!isFile) {
+    const bool exists = target->has_value();
+    if (path == kStandardOutput || (exists && (*target)->kind != Kind::File)) {
         return createFile(path, rules);
     }
     std::error_code ignored;
-    const std::string real =
-        target->status ? nameOf(std::filesystem::canonical(pathOf(path), ignored)) : path;
+    const std::string real = exists ? nameOf(std::filesystem::canonical(pathOf(path), ignored)) : path;
     std::string temporary;
     Descriptor descriptor = openBeside(real, temporary);
     if (!descriptor.isOpen()) {
         return unwritable(path, errno);
     }
-    if (target->status) {
-        takeRights(descriptor, *target->status);
+    if (exists) { // best effort: a private file stays private
+        const auto permissions = std::filesystem::status(pathOf(real), ignored).permissions();
+        std::filesystem::permissions(pathOf(temporary), permissions, ignored);
     }
     return std::make_unique<WholeFileSink>(std::move(descriptor), path, real, temporary, rules.mayReplace);
 }

@@ -3,30 +3,30 @@
 
 #include "core/log/byte_io.h"
 
-#include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 /// The one place that decides which files are written, for every command and for the window.
 namespace posewire::log {
 
-/// What a file that is to be written may be.
+/// As a path, the standard output of this process on every system: appended to, never replaced.
+inline constexpr std::string_view kStandardOutput = "/dev/stdout";
+
+/// Limits on a file to be written.
 struct OutputRules {
-    bool mayReplace = false; ///< a file that exists; pipes and devices such as /dev/null need no leave
+    bool mayReplace = false; ///< an existing file; pipes and devices such as /dev/null need no permission
     /// Files in use, "-" for standard input: never written over, whatever names and links lead to them.
     std::vector<std::string> inUse{};
-    /// Asked again and again while a pipe has nobody who reads it: whether that is waited for any longer.
-    /// Without it opening such a pipe fails at once.
-    std::function<bool()> waitsForReader{};
 };
 
-/// Whether the file may be written as things are: to be asked before long work.
+/// Fails if the file may not be written at present: call it before long work.
 tl::expected<void, FileError> checkOutput(const std::string& path, const OutputRules& rules);
 
-/// A file that grows where it is, such as a recording: what was flushed is there whatever happens. Later
-/// failures, such as a full disk, come from write(), flush(), sync() and finish(). A pipe that nobody reads
-/// is FileError::Kind::Unread.
+/// A file that grows in place, such as a recording: what was flushed is there whatever happens. Later
+/// failures, such as a full disk, come from write(), flush(), sync() and finish(). Fails for a pipe without a
+/// reader.
 tl::expected<std::unique_ptr<ByteSink>, FileError> createFile(const std::string& path,
                                                               const OutputRules& rules = {});
 
@@ -35,11 +35,11 @@ tl::expected<std::unique_ptr<ByteSink>, FileError> createFile(const std::string&
 tl::expected<std::unique_ptr<ByteSink>, FileError> createWholeFile(const std::string& path,
                                                                    const OutputRules& rules = {});
 
-/// createWholeFile() at once.
+/// Creates, writes and finishes a whole file.
 tl::expected<void, FileError> writeWholeFile(const std::string& path, std::span<const std::byte> bytes,
                                              const OutputRules& rules = {});
 
-/// The same with the bytes of another file.
+/// Writes the bytes of one file to another, as a whole file.
 tl::expected<void, FileError> copyFile(const std::string& from, const std::string& to,
                                        const OutputRules& rules = {});
 

@@ -15,7 +15,7 @@ namespace posewire::log {
 
 /// Number of a SenderInfo in the SenderTable of the log.
 enum class SenderId : std::uint32_t {};
-/// Of what no sender has to do with, but this computer.
+/// For events of this computer, not of a sender.
 inline constexpr SenderId kNoSender{UINT32_MAX};
 
 enum class Transport : std::uint8_t { Udp, Tcp, File, Performer };
@@ -30,7 +30,7 @@ inline constexpr std::array<std::string_view, 4> kTransportNames{"udp", "tcp", "
 struct SenderInfo {
     std::string address; ///< "127.0.0.1:40001", "[::1]:40001", a file name, the name of a performer
     Transport transport = Transport::Udp;
-    std::uint16_t localPort = 0; ///< the port it arrived at; 0 where there is none
+    std::uint16_t localPort = 0; ///< the port it arrived at; 0 if there is none
 
     friend bool operator==(const SenderInfo&, const SenderInfo&) = default;
 };
@@ -71,7 +71,8 @@ struct DropSums {
         datagrams += drops;
         records += flags.isDropRecord ? 1 : 0;
     }
-    /// Datagrams that are missing with so many packets of the log, of which these are told: records are none.
+    /// Datagrams that are missing with that many packets of the log, of which these are told: records are
+    /// none.
     [[nodiscard]] std::uint64_t missingWith(std::uint64_t packets) const {
         return packets - std::min(packets, records) + datagrams;
     }
@@ -87,7 +88,7 @@ struct Packet {
     PacketFlags flags{};
     std::span<const std::byte> bytes;
 
-    /// Behind so many more.
+    /// Behind that many more.
     constexpr void addDrops(std::uint64_t more) {
         kernelDropsBefore +=
             static_cast<std::uint32_t>(std::min<std::uint64_t>(more, UINT32_MAX - kernelDropsBefore));

@@ -64,7 +64,7 @@ std::optional<Packet> PastReader::packet(std::uint64_t number) {
                   arrival.flags, {bytes, place.size}};
 }
 
-/// Null where the file does not have them, or there are none.
+/// Null if the file does not have them, or there are none.
 const std::byte* PastReader::bytesOf(const Past::Place& place, bool isNext) {
     if (place.isKept) {
         auto copy = std::make_shared<std::vector<std::byte>>(m_part->kept.get() + place.offset,

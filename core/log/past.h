@@ -40,10 +40,10 @@ public:
         std::uint64_t first = 0;
         std::uint64_t count = 0;
         std::shared_ptr<Place[]> places;
-        std::shared_ptr<std::byte[]> kept; ///< null where all lies in the file
+        std::shared_ptr<std::byte[]> kept; ///< null if all lies in the file
         std::shared_ptr<const ByteStore> file;
         std::vector<SenderTable::Held> senders;
-        std::optional<DropSums> drops; ///< before its first packet; nothing where nobody knows
+        std::optional<DropSums> drops; ///< before its first packet; empty if unknown
 
         [[nodiscard]] std::uint64_t end() const { return first + count; }
     };
@@ -54,16 +54,16 @@ public:
     void add(Part part);
     void dropBefore(std::uint64_t number);
 
-    /// Number of its oldest packet; UINT64_MAX where there is none.
+    /// Number of its oldest packet; UINT64_MAX if there is none.
     [[nodiscard]] std::uint64_t begin() const { return m_begin.load(std::memory_order_acquire); }
-    /// The part that has a packet; null where there is none.
+    /// The part that has a packet; null if there is none.
     [[nodiscard]] std::shared_ptr<const Part> find(std::uint64_t number) const;
-    /// The first number from one on that it has a packet of; UINT64_MAX where there is none.
+    /// The first number from one on that it has a packet of; UINT64_MAX if there is none.
     [[nodiscard]] std::uint64_t nextFrom(std::uint64_t number) const;
 
     [[nodiscard]] const std::shared_ptr<Scratch>& scratch() const { return m_scratch; }
 
-    /// Whether a reader did not find in a file what lay there: somebody else has cut it, or the disk fails.
+    /// True if a reader did not find in a file what lay there: somebody else has cut it, or the disk fails.
     [[nodiscard]] bool isDamaged() const { return m_isDamaged.load(std::memory_order_relaxed); }
     void noteDamage() const { m_isDamaged.store(true, std::memory_order_relaxed); }
 
@@ -84,7 +84,7 @@ public:
 
     explicit PastReader(const Past& past) : m_past(&past) {}
 
-    /// Nothing where there is none of that number, or the file has changed since.
+    /// Empty if there is none of that number, or the file has changed since.
     [[nodiscard]] std::optional<Packet> packet(std::uint64_t number);
 
 private:

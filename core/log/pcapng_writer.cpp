@@ -70,7 +70,7 @@ public:
         beginOption(code, bytes.size());
         padded(bytes);
     }
-    /// Nothing where `text` is empty.
+    /// Empty if `text` is empty.
     void option(PcapngOption code, std::string_view text) {
         if (!text.empty()) {
             option(code, std::as_bytes(std::span(text)));

@@ -51,7 +51,7 @@ enum class PcapngOption : std::uint16_t {
 struct RecordedOrigin {
     Transport transport = Transport::Udp;
     PacketFlags flags{.stampedByKernel = true};
-    std::optional<std::string> address{}; ///< nothing where the headers have it
+    std::optional<std::string> address{}; ///< empty if the headers have it
     Duration setBy{};                     ///< what the clock had been set by since the recording began
 
     friend bool operator==(const RecordedOrigin&, const RecordedOrigin&) = default;
@@ -59,7 +59,7 @@ struct RecordedOrigin {
 
 [[nodiscard]] std::string originText(const RecordedOrigin& origin);
 
-/// The inverse; nothing where somebody else wrote the comment.
+/// The inverse; empty if somebody else wrote the comment.
 [[nodiscard]] std::optional<RecordedOrigin> parseOrigin(std::string_view comment);
 
 /// What a recording says at its end about how it was received, so that a report on it is the one that was
@@ -75,7 +75,7 @@ struct Reception {
 
 [[nodiscard]] std::string receptionText(const Reception& reception);
 
-/// The inverse; nothing where somebody else wrote the note, or it tells of more than a year.
+/// The inverse; empty if somebody else wrote the note, or it tells of more than a year.
 [[nodiscard]] std::optional<Reception> parseReception(std::string_view note);
 /// The last one of the notes of a recording.
 [[nodiscard]] std::optional<Reception> receptionIn(std::span<const std::string_view> notes);
@@ -92,7 +92,7 @@ struct RecordedMark {
 
 [[nodiscard]] std::string markText(const RecordedMark& mark);
 
-/// The inverse; nothing where the note says something else.
+/// The inverse; empty if the note says something else.
 [[nodiscard]] std::optional<RecordedMark> parseMark(std::string_view note);
 
 /// What a recording says about itself; what is empty is left out.

@@ -150,7 +150,6 @@ tl::expected<void, FileError> Recording::stop(std::vector<std::string> notes) {
             m_notes = std::move(notes);
         }
         m_isStopping = true;
-        m_sink->hurry();
     }
     m_changed.notify_all();
     if (m_thread.joinable()) {
@@ -217,14 +216,8 @@ Recording::Result Recording::goOn() {
     m_before = m_kept;
     const LogFollower follower = m_recorder->follower();
     m_ended = figuresNow();
-    {
-        const std::lock_guard lock(m_mutex);
-        m_recorder.reset(); // it writes to the sink
-        m_sink = std::move(*next);
-        if (m_isStopping) {
-            m_sink->hurry();
-        }
-    }
+    m_recorder.reset(); // it writes to the sink
+    m_sink = std::move(*next);
     m_recorder.emplace(m_log, *m_sink, follower);
     m_fileBegin = std::chrono::steady_clock::now();
     return m_recorder->begin(m_info);
@@ -308,7 +301,7 @@ RecordingFigures Recording::figuresNow() const {
             m_ended.missed + file.missed, file.fileBegin};
 }
 
-/// False where nothing more is written. What was written until then is ended as well as that can be.
+/// False if nothing more is written. What was written until then is ended as well as that can be.
 bool Recording::note(const Result& result) {
     const std::lock_guard lock(m_mutex);
     m_figures = figuresNow();

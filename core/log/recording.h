@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/log/log_follower.h"
+#include "core/log/log_reader.h"
 #include "core/log/output_file.h"
 #include "core/log/pcapng_writer.h"
 
@@ -92,12 +92,12 @@ private:
     std::uint64_t m_synced = 0; ///< the packet after the last one on the disk
 };
 
-/// A Recorder on a thread of its own: a slow disk delays nobody. What was received is in the file within a
-/// tenth of a second, also where the process is killed, and on the disk within about a second, also where the
+/// A Recorder on a thread of its own: a slow disk delays no one. What was received is in the file within a
+/// tenth of a second, also if the process is killed, and on the disk within about a second, also if the
 /// power fails.
 class Recording {
 public:
-    /// Records from packet `from` on. Fails where the file cannot be made. `log` must outlive the recording.
+    /// Records from packet `from` on. Fails if the file cannot be made. `log` must outlive the recording.
     static tl::expected<std::unique_ptr<Recording>, FileError>
     start(const PacketLog& log, const std::string& path, const RecordingInfo& info,
           const OutputRules& rules = {}, std::uint64_t from = 0, const RecordingLimits& limits = {});
@@ -111,7 +111,7 @@ public:
     ~Recording();
 
     /// What operators have said so far of packets of the log, by its numbers: all of it, in place of what was
-    /// set before. Each is in the file that has its packet within about a second; where that had ended, in
+    /// set before. Each is in the file that has its packet within about a second; if that had ended, in
     /// the one that is being written, in other words.
     void setMarks(std::vector<RecordedMark> marks);
 
@@ -142,11 +142,11 @@ private:
     Result finish();
 
     const PacketLog& m_log;
-    std::string m_path; ///< of the first file; empty where a sink was given
+    std::string m_path; ///< of the first file; empty if a sink was given
     RecordingInfo m_info;
     RecordingLimits m_limits;
-    std::unique_ptr<ByteSink> m_sink; ///< exchanged under the mutex
     // The thread's own:
+    std::unique_ptr<ByteSink> m_sink;
     std::optional<Recorder> m_recorder;
     unsigned m_part = 1;
     RecordingFigures m_ended{.files = 0}; ///< of the files that have ended

@@ -48,7 +48,7 @@ public:
 
     bool bigEndian = false;
 
-    /// `size` bytes, valid until the next call; nothing where the file ends before or cannot be read.
+    /// `size` bytes, valid until the next call; empty if the file ends before or cannot be read.
     std::optional<Bytes> take(std::size_t size) {
         m_offset += m_bytes.size();
         m_bytes.resize(size);
@@ -146,7 +146,7 @@ public:
     }
     [[nodiscard]] bool isOfRecording() const { return m_origin.has_value(); }
 
-    /// Drops go to the first record after them, also where their own frame was none of ours.
+    /// Drops go to the first record after them, also if their own frame was none of ours.
     void apply(FileRecord& record) {
         constexpr std::uint64_t most = UINT32_MAX;
         record.kernelDropsBefore = static_cast<std::uint32_t>(std::min(std::exchange(m_drops, 0), most));
@@ -228,7 +228,7 @@ public:
     }
 
 private:
-    // The functions that read are false where there is nothing more to be read.
+    // The functions that read are false if there is nothing more to be read.
 
     bool readBlock() {
         const auto type = m_reader.takeNext(4);

@@ -47,7 +47,7 @@ using NotesVisitor = std::function<void(std::span<const std::string_view>)>;
 /// Damaged and the byte where that is. What PcapngWriter has written comes back as it was. A time before 1740
 /// or after 2260, or 146 years from the first one of the file, is none: all others can be subtracted from
 /// each other and from now. `visitNotes` is called for what a pcapng file says about itself, mostly at its
-/// end. `contents`, where there is one, gets what the file holds as far as it was read, its datagrams as they
+/// end. `contents`, if there is one, gets what the file holds as far as it was read, its datagrams as they
 /// are read.
 tl::expected<void, FileError> readFile(ByteSource& source, const FileVisitor& visit,
                                        const NotesVisitor& visitNotes = {}, FileContents* contents = nullptr);

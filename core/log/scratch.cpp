@@ -74,7 +74,7 @@ void Scratch::give(std::byte* memory, std::size_t size) {
     }
 }
 
-/// What is full is seldom looked at. Null where the file grows no more, now and later: what is kept in memory
+/// What is full is seldom looked at. Null if the file grows no more, now and later: what is kept in memory
 /// instead is bounded by others, and not twice.
 std::byte* Scratch::grow() {
     const std::uint64_t end = m_segments.size() * kSegment;

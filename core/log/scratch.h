@@ -30,7 +30,7 @@ public:
 
     /// Without a file.
     Scratch() = default;
-    /// With one in a folder that exists, of at most so many bytes.
+    /// With one in a folder that exists, of at most that many bytes.
     Scratch(const std::string& folder, std::uint64_t most);
     ~Scratch();
     Scratch(const Scratch&) = delete;
@@ -47,7 +47,7 @@ public:
     /// Of a number of bytes above 0, not initialized.
     [[nodiscard]] std::shared_ptr<std::byte[]> bytes(std::size_t size);
 
-    /// Whether what is taken lies in a file.
+    /// True if what is taken lies in a file.
     [[nodiscard]] bool hasFile() const;
     [[nodiscard]] ScratchFigures figures() const;
 
@@ -58,7 +58,7 @@ private:
     [[nodiscard]] bool isInFile(const std::byte* memory) const;
 
     mutable std::mutex m_mutex; ///< guards all that follows
-    int m_file = -1;            ///< -1 where there is none, or it grows no more
+    int m_file = -1;            ///< -1 if there is none, or it grows no more
     std::uint64_t m_most = 0;
     std::vector<std::byte*> m_segments;
     std::size_t m_used = kSegment;                          ///< of the newest segment
@@ -67,7 +67,7 @@ private:
 };
 
 /// For what is kept of each packet of a file: a tenth of most files, and gone when the file is closed, so
-/// that it may have half of what is free in the folder. Without a file where there is no such folder.
+/// that it may have half of what is free in the folder. Without a file if there is no such folder.
 [[nodiscard]] std::shared_ptr<Scratch> scratchOfFile(const std::filesystem::path& folder);
 
 } // namespace posewire::log

@@ -20,10 +20,10 @@ public:
 
     SenderTable();
 
-    /// The number of `info`, a new one where nobody holds it. Numbers grow and are never used twice.
+    /// The number of `info`, a new one where it has no holder. Numbers grow and are never used twice.
     SenderId intern(const SenderInfo& info);
 
-    /// Null where nobody holds it any more.
+    /// Null if it has no holder any more.
     [[nodiscard]] Held find(SenderId id) const;
 
     /// How many are held by anybody.
@@ -39,7 +39,7 @@ class SenderFinder {
 public:
     explicit SenderFinder(const SenderTable& table) : m_table(table) {}
 
-    /// Null where nobody holds it any more. Valid until the next call.
+    /// Null if it has no holder any more. Valid until the next call.
     [[nodiscard]] const SenderInfo* find(SenderId id) {
         if (m_last == nullptr || id != m_lastId) {
             m_last = m_table.find(id);

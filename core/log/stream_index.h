@@ -64,7 +64,7 @@ public:
     }
     [[nodiscard]] const StreamEntry& back() const { return (*this)[size() - 1]; }
 
-    /// Place of the newest entry at or before a packet or a stamp; nothing where all are later.
+    /// Place of the newest entry at or before a packet or a stamp; empty if all are later.
     [[nodiscard]] std::optional<std::size_t> atOrBeforePacket(std::uint64_t packet) const;
     [[nodiscard]] std::optional<std::size_t> atOrBeforeStamp(Stamp stamp) const;
 
@@ -113,7 +113,7 @@ public:
 
     [[nodiscard]] std::size_t memoryBytes() const;
 
-    /// Null where there is no such stream. Valid until the next add() or dropBefore().
+    /// Null if there is no such stream. Valid until the next add() or dropBefore().
     [[nodiscard]] const StreamEntries* find(const StreamKey& key) const;
 
 private:

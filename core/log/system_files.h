@@ -7,11 +7,10 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <utility>
 
 /// Files as the system knows them, in one unit for each system: system_files_posix.cpp,
-/// system_files_windows.cpp. Names are UTF-8. Where something fails, errno says why. Only for the units that
+/// system_files_windows.cpp. Names are UTF-8. After a failure errno has the reason. Only for the units that
 /// read and write files.
 namespace posewire::log {
 
@@ -33,7 +32,7 @@ private:
     int m_number;
 };
 
-/// What a name or a descriptor leads to.
+/// The kind and the identity of a file.
 struct FileStatus {
     enum class Kind : std::uint8_t {
         File,
@@ -42,12 +41,8 @@ struct FileStatus {
         Stream ///< a pipe, a terminal, another device
     };
     Kind kind = Kind::Stream;
-    bool isPipe = false;      ///< with a name or without
-    std::uint64_t volume = 0; ///< with the number the same for every name of a file
+    std::uint64_t volume = 0; ///< equal, as is the number, for every name of a file
     std::uint64_t number = 0;
-    std::uint32_t rights = 0; ///< as the system writes them, as are owner and group
-    std::uint32_t owner = 0;
-    std::uint32_t group = 0;
 
     /// Bytes that can be lost.
     [[nodiscard]] bool holdsData() const { return kind == Kind::File || kind == Kind::Disk; }
@@ -56,52 +51,45 @@ struct FileStatus {
     }
 };
 
-/// Of what a link leads to.
+/// Follows links.
 [[nodiscard]] std::optional<FileStatus> statusOf(const std::string& path);
 [[nodiscard]] std::optional<FileStatus> statusOf(int descriptor);
-/// Whether there is a link of that name, wherever it leads.
-[[nodiscard]] bool isLink(const std::string& path);
-/// What this process has open already, by a name that stands for it: writing goes on where others are.
-[[nodiscard]] std::optional<int> descriptorNamed(std::string_view path);
 
-/// Opening a pipe that nobody writes to does not wait: reading does.
+/// Opening a pipe without a writer does not wait: reading does.
 [[nodiscard]] Descriptor openToRead(const std::string& path);
-/// Fails with ENXIO where it is a pipe that nobody reads.
+/// Fails with ENXIO for a pipe without a reader. Writing to a full one fails with EAGAIN.
 [[nodiscard]] Descriptor openToWrite(const std::string& path);
-/// Fails with EEXIST where there is one.
+/// Fails with EEXIST if there is a file of that name.
 [[nodiscard]] Descriptor createToWrite(const std::string& path);
 [[nodiscard]] Descriptor duplicateOf(int descriptor);
 
-/// How much was read or written; 0 where nothing comes any more, negative where that failed.
+/// The count of bytes read or written; 0 at the end, negative after a failure.
 [[nodiscard]] std::ptrdiff_t readSome(const Descriptor& file, std::span<std::byte> into);
 [[nodiscard]] std::ptrdiff_t readSomeAt(const Descriptor& file, std::uint64_t offset,
                                         std::span<std::byte> into);
 [[nodiscard]] std::ptrdiff_t writeSome(int descriptor, std::span<const std::byte> bytes);
 
-/// Whether reading or writing need not wait, as known after so long at most. An error counts as news: the
-/// next call says what it is. Where the system cannot tell it is true.
+/// Waits `most` at most until reading or writing need not wait. An error counts as news: the next call
+/// returns it. Always true if the system cannot tell.
 [[nodiscard]] bool hasNews(const Descriptor& file, std::chrono::milliseconds most);
 [[nodiscard]] bool hasRoom(int descriptor, std::chrono::milliseconds most);
 
-/// What was written is on the disk, where it goes to one.
+/// Syncs what was written, if it lies on a disk.
 [[nodiscard]] bool bringToDisk(const Descriptor& file);
-/// And that it has this name is too, as well as it can be said.
+/// Also syncs the directory entry, best effort.
 void bringNameToDisk(const std::string& path);
 [[nodiscard]] bool makeEmpty(const Descriptor& file);
-/// Who could read and write a file may do the same with this one; where that may not be told it stays ours.
-void takeRights(const Descriptor& file, const FileStatus& from);
 
-/// Whether a file can be made there, as far as that can be known.
+/// Best effort: the folder may refuse a new file all the same.
 [[nodiscard]] bool mayCreateIn(const std::string& folder);
-/// Gives a file another name; fails with EEXIST where that is taken and may not be.
+/// Renames a file; fails with EEXIST if the new name is taken and may not be replaced.
 [[nodiscard]] bool giveName(const std::string& from, const std::string& to, bool mayReplace);
-void removeFile(const std::string& path);
 
-/// Locks the file as long as it is open here. False where somebody else has it locked, or it cannot be.
-[[nodiscard]] bool lockForOne(const Descriptor& file);
-[[nodiscard]] Descriptor openToLock(const std::string& path);
+/// Opens a file and locks it for as long as it is open. Not open if another owner, in this process or any
+/// other, has it locked, or it cannot be opened. The lock ends with the process, however that ends.
+[[nodiscard]] Descriptor openLocked(const std::string& path);
 
-/// Of this process.
+/// The ID of this process.
 [[nodiscard]] std::uint64_t processNumber();
 
 } // namespace posewire::log

@@ -3,7 +3,6 @@
 #include "core/log/system_files.h"
 
 #include <cerrno>
-#include <charconv>
 #include <system_error>
 
 #include <fcntl.h>
@@ -24,12 +23,8 @@ FileStatus statusFrom(const Status& status) {
                   : S_ISDIR(status.st_mode) ? Kind::Folder
                   : S_ISBLK(status.st_mode) ? Kind::Disk
                                             : Kind::Stream;
-    result.isPipe = S_ISFIFO(status.st_mode);
     result.volume = status.st_dev;
     result.number = status.st_ino;
-    result.rights = status.st_mode & 07777U;
-    result.owner = status.st_uid;
-    result.group = status.st_gid;
     return result;
 }
 
@@ -54,30 +49,6 @@ std::optional<FileStatus> statusOf(const std::string& path) {
 std::optional<FileStatus> statusOf(int descriptor) {
     Status status{};
     return ::fstat(descriptor, &status) == 0 ? std::optional(statusFrom(status)) : std::nullopt;
-}
-
-bool isLink(const std::string& path) {
-    Status status{};
-    return ::lstat(path.c_str(), &status) == 0 && S_ISLNK(status.st_mode);
-}
-
-std::optional<int> descriptorNamed(std::string_view path) {
-    if (path == "/dev/stdout") {
-        return STDOUT_FILENO;
-    }
-    if (path == "/dev/stderr") {
-        return STDERR_FILENO;
-    }
-    for (const std::string_view folder : {"/dev/fd/", "/proc/self/fd/"}) {
-        int number = 0;
-        const std::string_view rest = path.starts_with(folder) ? path.substr(folder.size()) : "";
-        const char* end = rest.data() + rest.size();
-        const auto read = std::from_chars(rest.data(), end, number);
-        if (!rest.empty() && read.ec == std::errc{} && read.ptr == end && number >= 0) {
-            return number;
-        }
-    }
-    return std::nullopt;
 }
 
 Descriptor openToRead(const std::string& path) {
@@ -139,11 +110,6 @@ bool makeEmpty(const Descriptor& file) {
     return ::ftruncate(file.number(), 0) == 0;
 }
 
-void takeRights(const Descriptor& file, const FileStatus& from) {
-    static_cast<void>(::fchmod(file.number(), from.rights));
-    [[maybe_unused]] const int given = ::fchown(file.number(), from.owner, from.group);
-}
-
 bool mayCreateIn(const std::string& folder) {
     return ::access(folder.c_str(), W_OK | X_OK) == 0;
 }
@@ -166,16 +132,9 @@ bool giveName(const std::string& from, const std::string& to, bool mayReplace) {
     return !error;
 }
 
-void removeFile(const std::string& path) {
-    ::unlink(path.c_str());
-}
-
-Descriptor openToLock(const std::string& path) {
-    return Descriptor(::open(path.c_str(), O_RDWR | O_CLOEXEC));
-}
-
-bool lockForOne(const Descriptor& file) {
-    return ::flock(file.number(), LOCK_EX | LOCK_NB) == 0;
+Descriptor openLocked(const std::string& path) {
+    Descriptor file(::open(path.c_str(), O_RDWR | O_CLOEXEC));
+    return file.isOpen() && ::flock(file.number(), LOCK_EX | LOCK_NB) == 0 ? std::move(file) : Descriptor();
 }
 
 std::uint64_t processNumber() {

@@ -166,16 +166,6 @@ std::optional<FileStatus> statusOf(int descriptor) {
     return statusFrom(handle);
 }
 
-bool isLink(const std::string& path) {
-    const DWORD attributes = ::GetFileAttributesW(pathOf(path).c_str());
-    return attributes != INVALID_FILE_ATTRIBUTES && (attributes & FILE_ATTRIBUTE_REPARSE_POINT) != 0;
-}
-
-/// The names of others, since Windows has none of its own.
-std::optional<int> descriptorNamed(std::string_view path) {
-    return path == "/dev/stdout" ? std::optional(1) : path == "/dev/stderr" ? std::optional(2) : std::nullopt;
-}
-
 Descriptor openToRead(const std::string& path) {
     return opened(path, GENERIC_READ, OPEN_EXISTING);
 }
@@ -253,8 +243,6 @@ bool makeEmpty(const Descriptor& file) {
            isDone(::SetEndOfFile(handle));
 }
 
-void takeRights(const Descriptor&, const FileStatus&) {} // a new file has those of its folder
-
 bool mayCreateIn(const std::string& folder) {
     if (isFolder(folder)) {
         return true;
@@ -268,20 +256,15 @@ bool giveName(const std::string& from, const std::string& to, bool mayReplace) {
     return isDone(::MoveFileExW(pathOf(from).c_str(), pathOf(to).c_str(), flags));
 }
 
-void removeFile(const std::string& path) {
-    ::DeleteFileW(pathOf(path).c_str());
-}
-
-Descriptor openToLock(const std::string& path) {
-    return opened(path, GENERIC_READ | GENERIC_WRITE, OPEN_EXISTING);
-}
-
-/// Behind all that a file can hold: what is locked nobody else can read or write.
-bool lockForOne(const Descriptor& file) {
+/// Locks a byte behind all that a file can hold: others cannot read or write locked bytes.
+Descriptor openLocked(const std::string& path) {
+    Descriptor file = opened(path, GENERIC_READ | GENERIC_WRITE, OPEN_EXISTING);
     OVERLAPPED place{};
     place.OffsetHigh = 0x7fffffff;
-    return isDone(::LockFileEx(handleOf(file.number()), LOCKFILE_EXCLUSIVE_LOCK | LOCKFILE_FAIL_IMMEDIATELY,
-                               0, 1, 0, &place));
+    constexpr DWORD flags = LOCKFILE_EXCLUSIVE_LOCK | LOCKFILE_FAIL_IMMEDIATELY;
+    const bool isLocked =
+        file.isOpen() && isDone(::LockFileEx(handleOf(file.number()), flags, 0, 1, 0, &place));
+    return isLocked ? std::move(file) : Descriptor();
 }
 
 std::uint64_t processNumber() {

@@ -17,12 +17,12 @@ void useLargePages(std::byte* memory, std::size_t size);
 using MemoryFile = int;
 inline constexpr MemoryFile kNoMemoryFile = -1;
 
-/// In a folder that exists; kNoMemoryFile where none can be made.
+/// In a folder that exists; kNoMemoryFile if none can be made.
 [[nodiscard]] MemoryFile openMemoryFile(const std::string& folder);
 /// What is mapped stays.
 void closeMemoryFile(MemoryFile file);
 
-/// Lets the file grow by a segment at its end, `offset`, and maps that. Null where there is no room for it:
+/// Lets the file grow by a segment at its end, `offset`, and maps that. Null if there is no room for it:
 /// the disk has room for what was mapped, so that no access can fail.
 [[nodiscard]] std::byte* mapSegment(MemoryFile file, std::uint64_t offset, std::size_t size);
 void unmapSegment(std::byte* segment, std::size_t size);

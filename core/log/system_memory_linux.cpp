@@ -8,7 +8,7 @@
 namespace posewire::log {
 
 void useLargePages(std::byte* memory, std::size_t size) {
-    ::madvise(memory, size, MADV_HUGEPAGE); // where it is refused, ordinary pages do
+    ::madvise(memory, size, MADV_HUGEPAGE); // if it is refused, ordinary pages do
 }
 
 MemoryFile openMemoryFile(const std::string& folder) {

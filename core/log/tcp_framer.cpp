@@ -195,7 +195,7 @@ bool TcpFramer::await(const Window& window, std::size_t size) {
     return false;
 }
 
-/// Whether the datagram itself says that its size is right, so that nothing after it need be seen.
+/// True if the datagram itself says that its size is right, so that nothing after it need be seen.
 bool TcpFramer::isTrusted(Bytes datagram) {
     if (!wire::decodeInto(datagram, m_scratch)) {
         return false;

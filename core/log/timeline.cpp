@@ -34,7 +34,7 @@ Reading read(const Clock& clock) {
     return best;
 }
 
-/// Nothing where it does not fit.
+/// Empty if it does not fit.
 std::optional<Duration> difference(Duration a, Duration b) {
     const bool isTooMuch = b < Duration::zero() ? a > Duration::max() + b : a < Duration::min() + b;
     return isTooMuch ? std::nullopt : std::optional(a - b);
@@ -135,7 +135,7 @@ void ClockWatch::tell(Stamp from) {
     m_timeline.add({from, m_setBy, m_setBy - m_before});
 }
 
-/// Where the wall clock was set by `by`; nothing where that is no time near the file's first.
+/// Where the wall clock was set by `by`; empty if that is no time near the file's first.
 std::optional<Stamp> RecordedClock::at(WallTime time, Duration by) const {
     const auto stamp = difference(time.time_since_epoch(), by);
     const auto since = stamp && m_first ? difference(*stamp, m_first->time_since_epoch()) : stamp;

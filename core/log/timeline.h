@@ -17,7 +17,7 @@ namespace posewire::log {
 struct ClockStep {
     Stamp from{};      ///< from here on
     Duration setBy{};  ///< the wall clock is ahead of stamps by this
-    Duration change{}; ///< by how much it was set this time; zero where it only shows what it showed before
+    Duration change{}; ///< by how much it was set this time; zero if it only shows what it showed before
 };
 
 /// The time of a log. A stamp runs steadily; the wall clock that it began with may be set meanwhile, which is
@@ -29,7 +29,7 @@ public:
 
     /// Now. The first call sets what a stamp of this log is.
     [[nodiscard]] Stamp now(const Clock& clock) const;
-    /// What the wall clock is ahead of now; nothing where both could not be read at about the same time.
+    /// What the wall clock is ahead of now; empty if both could not be read at about the same time.
     [[nodiscard]] std::optional<Duration> wallAhead(const Clock& clock) const;
 
     /// What the wall clock showed.

@@ -49,7 +49,7 @@ struct NoticeRow {
     NoticeCode code;
     std::string_view name;
     std::string_view text;
-    std::string_view counted; ///< what the count counts, in the plural; empty where it is always one
+    std::string_view counted; ///< what the count counts, in the plural; empty if it is always one
 };
 
 constexpr std::array<NoticeRow, kNoticeCodeCount> kNotices{{

@@ -36,7 +36,7 @@ enum class Unit : std::uint8_t {
     TimeOfDay, ///< "HH:MM:SS.mmm"
 };
 
-/// Symbol as shown to people, such as "m/s²"; empty where there is nothing to say.
+/// Symbol as shown to people, such as "m/s²"; empty if there is nothing to say.
 std::string_view unitSymbol(Unit unit);
 
 /// What a number names, or what the items of a list are about.
@@ -195,7 +195,7 @@ constexpr void forEachList(Function&& f) {
     });
 }
 
-/// True where every field has a fixed size.
+/// True if every field has a fixed size.
 template <class T, Form F = Form::Standard>
 inline constexpr bool kIsFixed = std::apply([](const auto&... field) { return (field.kIsValue && ...); },
                                             kLayout<T, F>);

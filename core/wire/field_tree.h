@@ -49,12 +49,12 @@ struct FieldTree {
     std::vector<Notice> notices;
     std::optional<WireError> fault;
 
-    /// The field that reading ended in, with FieldDetail::Parts; -1 where there is none. `cutError` says what
+    /// The field that reading ended in, with FieldDetail::Parts; -1 if there is none. `cutError` says what
     /// it lacked: it can be nearer to the cause than `fault`, which is about the datagram.
     std::int32_t cutNode = -1;
     WireError cutError;
 
-    /// The innermost node on the byte at `offset`; -1 where there is none.
+    /// The innermost node on the byte at `offset`; -1 if there is none.
     [[nodiscard]] std::int32_t nodeAt(std::uint32_t offset) const;
 
     /// "segments[6].position.z", unique within a datagram and the same in every datagram of a type.

@@ -15,7 +15,7 @@ namespace posewire::wire {
 /// least one sender counts 12 bytes of a time code and sends the four bytes of its length before them too.
 [[nodiscard]] std::size_t sentPayload(const Header& header, Bytes payload);
 
-/// The form that a message comes in besides the standard one; Standard where there is no other.
+/// The form that a message comes in besides the standard one; Standard if there is no other.
 template <class T>
 inline constexpr Form kOtherForm = kHasForm<T, Form::Bare>    ? Form::Bare
                                    : kHasForm<T, Form::Short> ? Form::Short
@@ -68,7 +68,7 @@ void setForm(T& value, Form form) {
     }
 }
 
-/// True where the header's number of items gives the size of the payload.
+/// True if the header's number of items gives the size of the payload.
 template <class T, Form F = Form::Standard>
 inline constexpr bool kIsSized = std::apply(
     []<class... FieldType>(const FieldType&...) {
@@ -94,7 +94,7 @@ constexpr std::size_t sizeWith(std::size_t items) {
 }
 
 /// Calls f(T&) with `body` holding a value of the message type that belongs to `type`, reusing its memory
-/// where it already does; false where the type is not known.
+/// where it already does; false if the type is not known.
 template <class Function>
 bool withMessage(Body& body, std::uint8_t type, Function&& f) {
     return Messages::with(type, [&]<class T>() {

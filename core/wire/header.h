@@ -40,10 +40,10 @@ struct Header {
     friend bool operator==(const Header&, const Header&) = default;
 };
 
-/// True where the bytes begin with "MXTP": what does not is foreign.
+/// True if the bytes begin with "MXTP": what does not is foreign.
 [[nodiscard]] bool startsWithMagic(Bytes bytes);
 
-/// True where the bytes begin with "MXTP" and two digits: the start of a datagram of any type.
+/// True if the bytes begin with "MXTP" and two digits: the start of a datagram of any type.
 [[nodiscard]] bool startsDatagram(Bytes bytes);
 
 /// Reads the header. Fails with HeaderTruncated, BadMagic or BadType.

@@ -193,7 +193,7 @@ struct MessageList {
     static constexpr void forEach(Function&& f) {
         (f.template operator()<Message>(), ...);
     }
-    /// Calls f.template operator()<Message>() for the message of that type; false where it is not known.
+    /// Calls f.template operator()<Message>() for the message of that type; false if it is not known.
     template <class Function>
     static constexpr bool with(std::uint8_t type, Function&& f) {
         return ((Message::kType == type && (f.template operator()<Message>(), true)) || ...);

@@ -32,7 +32,7 @@ bool readRaw(Cursor& cursor, Datagram& into, NoticeCode why, Visitor& visitor) {
 
 } // namespace detail
 
-/// Reads the body that into.header announces. False with cursor.error where it cannot be read.
+/// Reads the body that into.header announces. False with cursor.error if it cannot be read.
 template <class Visitor>
 bool readBody(Cursor& cursor, Datagram& into, Visitor& visitor) {
     const std::uint8_t type = into.header.type();

@@ -12,7 +12,7 @@
 namespace posewire::wire {
 
 /// Index of the first byte that is not part of a well-formed UTF-8 sequence (RFC 3629: no overlong forms, no
-/// surrogates, nothing above U+10FFFF); text.size() where all is well.
+/// surrogates, nothing above U+10FFFF); text.size() if all is well.
 [[nodiscard]] std::size_t firstInvalidUtf8(std::string_view text);
 
 /// The small letter of a capital of ASCII; anything else as it is.
@@ -24,7 +24,7 @@ namespace posewire::wire {
 /// Two small letters or digits a byte, nothing between them.
 [[nodiscard]] std::string hexadecimal(Bytes bytes);
 
-/// The inverse; capitals are accepted. Empty where there is anything but whole bytes.
+/// The inverse; capitals are accepted. Empty if there is anything but whole bytes.
 [[nodiscard]] std::optional<std::vector<std::byte>> fromHexadecimal(std::string_view text);
 
 /// One line of a type 12 text (§2.6.3). Views into the text that was parsed.

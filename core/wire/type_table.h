@@ -32,7 +32,7 @@ struct FieldRow {
     Scalar scalar = Scalar::Text;
     TextKind textKind = TextKind::Prefixed;
     std::uint8_t components = 1;       ///< of a value: 3 of a vector
-    std::size_t size = 0;              ///< bytes of a value, or of each item; 0 where it varies
+    std::size_t size = 0;              ///< bytes of a value, or of each item; 0 if it varies
     std::size_t least = 0;             ///< bytes that each item has at least
     std::size_t max = 0;               ///< of CountedItems
     std::span<const FieldRow> items{}; ///< fields of each item
@@ -43,7 +43,7 @@ struct FieldRow {
 /// One layout of a message.
 struct FormRow {
     Form form = Form::Standard;
-    std::size_t size = 0; ///< bytes of the payload; 0 where it varies
+    std::size_t size = 0; ///< bytes of the payload; 0 if it varies
     std::span<const FieldRow> fields;
 };
 
@@ -70,7 +70,7 @@ inline constexpr TypeInfo kRow = Message::needsARowInTheTypeTable;
 /// All message types, in order.
 [[nodiscard]] std::span<const TypeInfo> typeTable();
 
-/// The row of a type; null where the type is not known.
+/// The row of a type; null if the type is not known.
 [[nodiscard]] const TypeInfo* findType(std::uint8_t type);
 
 /// The type as the two digits on the wire, "02".

@@ -207,7 +207,7 @@ bool readField(Cursor& cursor, const Items<Member, ItemForm, Max>& field, T& val
 
 } // namespace detail
 
-/// Reads one value. False where the bytes do not suffice: cursor.error says what and where, and value and
+/// Reads one value. False if the bytes do not suffice: cursor.error says what and where, and value and
 /// visitor have everything up to the fault.
 template <class T, Form F, class Visitor>
 bool readLayout(Cursor& cursor, T& value, Visitor& visitor) {

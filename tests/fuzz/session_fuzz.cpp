@@ -9,6 +9,7 @@
 #include "core/model/body/null_pose_findings.h"
 #include "core/model/incidents/incident_follower.h"
 #include "core/model/session/session.h"
+#include "tests/support/stream_source.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -47,7 +48,7 @@ private:
 std::uint64_t readInto(log::PacketLog& log, log::PastWriter& past, const std::uint8_t* data,
                        std::size_t size) {
     std::istringstream bytes(std::string(reinterpret_cast<const char*>(data), size));
-    const auto source = log::readingFrom(bytes, "input");
+    const auto source = test::readingFrom(bytes, "input");
     std::uint64_t records = 0;
     log::RecordedClock clock(log.timeline());
     // What cannot be read further is an error that says so: what came before counts.

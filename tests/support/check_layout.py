@@ -53,7 +53,7 @@ FORBIDDEN = [
 OF_A_SYSTEM = re.compile(r"<(unistd|fcntl|io|poll|signal|pthread|windows|winsock2|psapi|shellapi|iphlpapi|mstcpip|ws2tcpip|ifaddrs|"
                          r"sys/\w+|netinet/\w+|arpa/\w+|net/if|linux/\w+)\.h>")
 SAYS_ITS_SYSTEM = re.compile(r"_(posix|linux|windows)\.cpp$")
-LINUX_TWINS_OF_QT = ("app/net/interface_watch.cpp", "app/net/kernel_socket.cpp", "app/net/kernel_socket.h", "app/net/recvmmsg_loop.cpp")
+LINUX_TWINS_OF_QT = ("app/net/kernel_socket.cpp", "app/net/kernel_socket.h", "app/net/recvmmsg_loop.cpp")
 # Core may format text with snprintf; printing is what the rule is about.
 ALLOWED_LINES = {("core/model", "<cstdio>")}
 # What a sender wrote is plain text wherever it is shown: what would let Qt guess otherwise has one place. A tooltip is a

@@ -4,7 +4,7 @@
 #include "app/gui/models/packet_numbers.h"
 #include "app/gui/models/position_units.h"
 #include "core/filter/filter.h"
-#include "core/log/log_follower.h"
+#include "core/log/log_reader.h"
 #include "core/log/packet_log.h"
 #include "core/log/time.h"
 #include "core/model/accounting/packet_digest.h"

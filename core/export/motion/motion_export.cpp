@@ -2,7 +2,6 @@
 #include "core/export/motion/motion_export.h"
 
 #include "core/log/file_names.h"
-#include "core/log/system_files.h"
 #include "core/wire/text.h"
 
 #include <algorithm>
@@ -169,7 +168,7 @@ tl::expected<void, FileError> checkAll(const MotionRequest& request, const std::
     std::error_code error;
     const auto kind = std::filesystem::status(log::pathOf(request.path), error).type();
     const bool isOrdinary =
-        !log::descriptorNamed(request.path) && // a file behind it has another name
+        request.path != log::kStandardOutput && // a file behind it has another name
         (kind == std::filesystem::file_type::regular || kind == std::filesystem::file_type::not_found);
     if (!isOrdinary && !paths.empty() && paths.front() != request.path) {
         return tl::unexpected(

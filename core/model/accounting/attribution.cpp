@@ -14,13 +14,13 @@ constexpr std::size_t kMostDamages = 1'024;
 // After samples that came later than that, more is waited for; for as long.
 constexpr log::Duration kMostPatience = std::chrono::seconds(2);
 constexpr log::Duration kForgetLate = std::chrono::seconds(30);
-// Where stamps stand still nothing becomes due.
+// Where stamps freeze nothing becomes due.
 constexpr std::size_t kMostPartials = 65'536;
 constexpr std::size_t kMostSilences = 64;
 // A sender with more streams than these is no performance.
 constexpr std::size_t kMostStreams = 64;
 // Late arrivals are looked for among this many gaps of a stream, or incomplete samples, and not farther back
-// than so many gaps of all.
+// than that many gaps of all.
 constexpr std::size_t kMostBack = 1'024;
 constexpr std::size_t kMostLooked = 8'192;
 // Judged partials that are remembered: those of a range of time are looked up among them.
@@ -219,7 +219,7 @@ void Attribution::noteSpacing(Stream& stream, const Verdict& verdict) {
     stream.evenSpacing = isMore ? common : spacing;
 }
 
-/// Whether a gap that is due is one of several that are alike, or may become one, and the stream still goes
+/// True if a gap that is due is one of several that are alike, or may become one, and the stream still goes
 /// on like that.
 bool Attribution::mayBeStep(const Due& due, log::Stamp stamp) const {
     const Gap* gap = due.stream != nullptr ? find(due.gap) : nullptr;

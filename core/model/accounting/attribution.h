@@ -111,7 +111,7 @@ public:
         }
     }
     [[nodiscard]] std::size_t memoryBytes() const;
-    /// The gap that a packet ended; null where it ended none, or one that is forgotten.
+    /// The gap that a packet ended; null if it ended none, or one that is forgotten.
     [[nodiscard]] const Gap* endedBy(std::uint64_t packet) const;
 
     /// The first packet that ended a gap after a moment and is yet to be judged; UINT64_MAX for none.
@@ -136,7 +136,7 @@ private:
     };
     /// A sample of which only a part has come yet.
     struct Partial {
-        Stream* stream = nullptr; ///< null where it was judged, or retired
+        Stream* stream = nullptr; ///< null if it was judged, or retired
         std::uint32_t sample = 0;
         log::Stamp stamp{};
         std::uint64_t packet = 0;     ///< the first that came of it
@@ -167,20 +167,20 @@ private:
     /// A gap and the stream it is of.
     struct Due {
         std::uint64_t gap = 0;
-        Stream* stream = nullptr;    ///< null where it was judged, or retired
+        Stream* stream = nullptr;    ///< null if it was judged, or retired
         std::uint64_t datagrams = 0; ///< of the stream until then
     };
 
     /// A message of types 10 to 13 that lacked something when its first part came.
     struct OpenMessage {
-        Stream* stream = nullptr; ///< null where it was retired
+        Stream* stream = nullptr; ///< null if it was retired
         log::Stamp stamp{};
         std::uint64_t packet = 0;
     };
 
     /// A stream whose step has changed.
     struct Rest {
-        Stream* stream = nullptr; ///< null where it was retired
+        Stream* stream = nullptr; ///< null if it was retired
         log::Stamp stamp{};
     };
 

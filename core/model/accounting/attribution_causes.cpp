@@ -127,7 +127,7 @@ bool Attribution::hasPaused(const Gap& gap, const Sender& sender) const {
 }
 
 /// A gap of another stream in the same silence that lacks the sample before or after this one, as many others
-/// do: a sender that pauses sends its samples whole, and a few may have been lost by themselves. Null where
+/// do: a sender that pauses sends its samples whole, and a few may have been lost by themselves. Null if
 /// there is none.
 const Gap* Attribution::cutBeside(const Gap& gap, const Sender& sender) const {
     constexpr std::size_t kMostBeside = 512;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "core/log/time.h"
-#include "core/model/accounting/depth.h"
 #include "core/model/accounting/sender_clock.h"
 #include "core/model/accounting/stream_counts.h"
 
@@ -95,7 +94,7 @@ private:
         log::Stamp leastDelayed{}; ///< stamp of the least difference
         double differenceMs = 0;
     };
-    /// The newest bucket before one, empty where there is none.
+    /// The newest bucket before one, empty if there is none.
     [[nodiscard]] const Bucket& before(std::size_t index) const;
     /// What came between the ends of a range.
     [[nodiscard]] Counters between(log::Stamp from, log::Stamp to) const;

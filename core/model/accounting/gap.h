@@ -33,7 +33,7 @@ struct Gap {
     log::Stamp toStamp{};
     std::uint64_t fromPacket = 0;
     std::uint64_t toPacket = 0;
-    std::uint32_t lost = 0; ///< what still is; 0 where all came late or nothing was expected
+    std::uint32_t lost = 0; ///< what still is; 0 if all came late or nothing was expected
     LossCause cause = LossCause::Unknown;
     Evidence evidence = Evidence::None;
     bool isJudged = false;           ///< else late arrivals are still waited for

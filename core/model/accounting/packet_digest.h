@@ -42,7 +42,7 @@ struct PacketDigest {
     bool isTruncated : 1 = false;  ///< longer than what could be received
     bool followsDrops : 1 = false; ///< this computer dropped datagrams of its socket just before it
 
-    /// Whether an operator who looks for trouble wants to stop here.
+    /// True if an operator who looks for trouble wants to stop here.
     [[nodiscard]] bool isProblem() const {
         return kind != PacketKind::Datagram || gap != 0 || isDuplicate || isReordered || isRestart ||
                isInDoubt || hasNotices || isTruncated || followsDrops;
@@ -52,7 +52,7 @@ static_assert(sizeof(PacketDigest) == 12, "one is kept for every packet of the l
 static_assert(sizeof(log::StreamEntry) + sizeof(PacketDigest) + 2 <= log::kBesidePacket,
               "the cap of the log is for what is kept of its packets");
 
-/// What a packet shows by itself. `datagram` is what it was decoded to, null where that failed.
+/// What a packet shows by itself. `datagram` is what it was decoded to, null if that failed.
 [[nodiscard]] PacketDigest digestOf(const log::Packet& packet, const wire::Datagram* datagram);
 
 /// Copies what a digest has of its verdict.
@@ -108,7 +108,7 @@ public:
         return number < m_begin || number >= m_end ? nullptr : &at(number);
     }
 
-    /// The nearest problem after or before a packet; nothing where there is none.
+    /// The nearest problem after or before a packet; empty if there is none.
     [[nodiscard]] std::optional<std::uint64_t> nextProblem(std::uint64_t after) const;
     [[nodiscard]] std::optional<std::uint64_t> previousProblem(std::uint64_t before) const;
 

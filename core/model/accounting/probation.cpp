@@ -14,7 +14,7 @@ constexpr std::size_t kAdvances = 3;
 // expected place.
 constexpr std::size_t kAgreeingAnyhow = 32;
 
-/// Whether datagrams with these counters may have been on their way for long.
+/// True if datagrams with these counters may have been on their way for long.
 bool mayBeLate(const SampleLedger& ledger, std::uint32_t low, std::uint32_t high, log::Stamp stamp) {
     constexpr std::int32_t kNear = 100;
     return ledger.present().overlaps(low, high, Probation::kMostLate, 0) ||
@@ -141,7 +141,7 @@ void Probation::scan(const SampleLedger& ledger, Scan& scan) const {
     }
 }
 
-/// Whether a group is the new place of the counter.
+/// True if a group is the new place of the counter.
 bool Probation::isSettled(const Group& group, const SampleLedger& ledger, log::Stamp stamp, bool isEnd) {
     if (group.count < Probation::kAgreeing) {
         return false;

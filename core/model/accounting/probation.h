@@ -20,7 +20,7 @@ public:
     /// RFC 3550 appendix A.1: a jump that is no loss.
     static constexpr std::int32_t kMostBack = 100;
     static constexpr std::int32_t kMostForward = 3'000;
-    /// Steps ahead that are taken for loss at once; fewer where it may be from before a restart.
+    /// Steps ahead that are taken for loss at once; fewer if it may be from before a restart.
     static constexpr std::uint32_t kSteps = 100;
     static constexpr std::uint32_t kStepsInDoubt = 8;
     /// RFC 3550 appendix A.1 takes two successive numbers for a restart. They are enough where nothing can
@@ -46,7 +46,7 @@ public:
         std::array<Outcome, kMost> outcomes{};
     };
 
-    /// Whether a counter is so near to the expected one that it is counted at once.
+    /// True if a counter is so near to the expected one that it is counted at once.
     [[nodiscard]] static bool isExpected(const SampleLedger& ledger, const SampleLedger::Datagram& datagram);
 
     [[nodiscard]] bool empty() const { return m_waiting.empty(); }

@@ -30,7 +30,7 @@ public:
 
     [[nodiscard]] const SampleSequence& present() const { return m_present; }
     [[nodiscard]] const SampleSequence& before() const { return m_before; }
-    /// Whether something of the sequence before may still come.
+    /// True if something of the sequence before may still come.
     [[nodiscard]] bool hasBefore(log::Stamp stamp) const {
         return !m_before.empty() && stamp - m_restart < kStraggling;
     }

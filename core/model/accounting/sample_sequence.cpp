@@ -126,7 +126,7 @@ void SampleSequence::begin(const Datagram& datagram) {
     m_runCount = 1;
 }
 
-/// Counts the datagram of a sample that is in the window, and in its run where it is the sample's first.
+/// Counts the datagram of a sample that is in the window, and in its run if it is the sample's first.
 /// `isSteady`: nothing is lost between it and the sample before.
 Placement SampleSequence::mark(const Datagram& datagram, std::size_t index, CountHistory* history,
                                bool isSteady) {
@@ -219,7 +219,7 @@ log::Stamp SampleSequence::dueStamp(std::size_t index) const {
     return m_window[index].stamp;
 }
 
-/// The first entry of a run, or the `most`th from the end where that is later.
+/// The first entry of a run, or the `most`th from the end if that is later.
 std::size_t SampleSequence::firstOfRun(const Run& run, std::size_t most) const {
     std::size_t index = m_window.size() > most ? m_window.size() - most : 0;
     while (index + 1 < m_window.size() && position(m_window[index].sample) < run.first) {
@@ -279,7 +279,7 @@ void SampleSequence::changeStep(std::uint32_t step) {
     old.step = isAllSeen ? findStep(front) : old.step;
 }
 
-/// Whether the newest run is irregular only because one step went over to another, or lost much for a while.
+/// True if the newest run is irregular only because one step went over to another, or lost much for a while.
 bool SampleSequence::isTransitionTo(std::uint32_t step) const {
     if (newestRun().step != 0 || step == 0 || m_runCount == 1 || m_runs[m_runCount - 2].step == 0) {
         return false;

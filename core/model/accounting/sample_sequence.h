@@ -54,7 +54,7 @@ public:
     [[nodiscard]] std::uint32_t step() const { return m_runCount == 0 ? 0 : newestRun().step; }
     [[nodiscard]] std::uint32_t first() const { return m_first; }
     [[nodiscard]] std::uint32_t highest() const { return m_window.back().sample; }
-    /// Whether counters from `low` to `high` overlap what is remembered, from `below` before the oldest
+    /// True if counters from `low` to `high` overlap what is remembered, from `below` before the oldest
     /// sample to `above` beyond the highest.
     [[nodiscard]] bool overlaps(std::uint32_t low, std::uint32_t high, std::int32_t below,
                                 std::int32_t above) const;

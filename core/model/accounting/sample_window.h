@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/log/time.h"
-#include "core/model/accounting/depth.h"
+#include "core/model/accounting/stream_counts.h"
 
 #include <bitset>
 #include <cstddef>
@@ -55,7 +55,7 @@ public:
     enum class Mark : std::uint8_t { Duplicate, Part, Completing };
     /// Notes a datagram of the sample at an index.
     Mark mark(std::size_t index, std::uint8_t datagram, bool isLast);
-    /// Whether a datagram of the sample at an index has arrived.
+    /// True if a datagram of the sample at an index has arrived.
     [[nodiscard]] bool contains(std::size_t index, std::uint8_t datagram) const;
 
     void clear();

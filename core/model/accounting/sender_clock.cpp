@@ -24,7 +24,7 @@ constexpr double kMostErrorPpm = 50;
 constexpr double kMostErrorShare = 0.05;
 /// The least delay itself is not the same at both ends: kernels, schedulers and switches are so restless.
 constexpr double kRestlessMs = 0.05;
-/// A skew that is less than so many of its errors is not seen.
+/// A skew that is less than that many of its errors is not seen.
 constexpr double kLeastErrors = 2;
 
 constexpr std::int32_t kDayMs = 86'400'000;

@@ -52,7 +52,7 @@ constexpr std::uint32_t kMostUnlikely = 8;
 /// What is usual before a change, or after it.
 struct Side {
     std::uint32_t step = 0;
-    std::uint32_t usual = 0; ///< where there is no step
+    std::uint32_t usual = 0; ///< if there is no step
 
     /// How much a difference speaks against it: the more, the more samples would be lost, and most where it
     /// is no multiple of the step.

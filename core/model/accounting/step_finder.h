@@ -13,16 +13,16 @@ inline constexpr std::size_t kStepDifferences = 64;
 inline constexpr std::size_t kStepHistory = 128;
 
 /// The sender's own spacing of sample counters, since a stream may be sent at a fraction of the capture rate:
-/// the most frequent of the newest kStepDifferences, the smallest of equally frequent ones, where it is at
+/// the most frequent of the newest kStepDifferences, the smallest of equally frequent ones, if it is at
 /// least 40 % of them and at least 90 % of them are multiples of it. Loss makes multiples, never fractions.
-/// 0 where there is none: the stream is irregular.
+/// 0 if there is none: the stream is irregular.
 [[nodiscard]] std::uint32_t findStep(std::span<const std::uint32_t> differences);
 
-/// Whether a step that was found stays the step: at least 60 % of the newest kStepDifferences are multiples
+/// True if a step that was found stays the step: at least 60 % of the newest kStepDifferences are multiples
 /// of it, and at least 20 % are equal to it.
 [[nodiscard]] bool holdsStep(std::span<const std::uint32_t> differences, std::uint32_t step);
 
-/// The step after another difference. `held` is the one until now, 0 where there was none. It is held on to
+/// The step after another difference. `held` is the one until now, 0 if there was none. It is held on to
 /// once kStepDifferences differences are known; until then every difference decides afresh.
 [[nodiscard]] std::uint32_t nextStep(std::span<const std::uint32_t> differences, std::uint32_t held);
 

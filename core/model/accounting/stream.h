@@ -65,13 +65,13 @@ struct Stream {
     std::uint64_t restIncident = 0; ///< Attribution: that these are told in
     bool awaitsRest = false;        ///< Attribution
     std::uint32_t evenSpacing = 0;  ///< Attribution: what the newest differences are multiples of, all gaps
-    std::uint32_t evenGaps = 0;     ///< Attribution: so many are
+    std::uint32_t evenGaps = 0;     ///< Attribution: that many are
     std::uint64_t judgedMessage = UINT64_MAX; ///< Attribution: its first packet, where the rest is lost
     double usualHz = 0;              ///< ThresholdWatch: its rate before the window; 0 before it is known
     bool isWatched = false;          ///< ThresholdWatch
     log::Stamp excusedUntil{};       ///< ThresholdWatch: an incident says why it is not as it should be
     std::uint32_t toldStep = 0;      ///< IncidentFollower
-    std::uint64_t toldStepSince = 0; ///< IncidentFollower: so many datagrams when it was first so
+    std::uint64_t toldStepSince = 0; ///< IncidentFollower: that many datagrams when it was first so
     bool isFollowed = false;         ///< IncidentFollower
     bool isUneven = false;           ///< IncidentFollower: it had a step
     bool isStalled = false;          ///< IncidentFollower: missing for a moment, while others go on

@@ -4,7 +4,6 @@
 #include "core/log/packet.h"
 #include "core/log/time.h"
 #include "core/model/accounting/count_history.h"
-#include "core/model/accounting/depth.h"
 #include "core/model/accounting/probation.h"
 #include "core/model/accounting/sample_ledger.h"
 #include "core/model/accounting/sender_clock.h"
@@ -50,12 +49,12 @@ class MessageRounds {
 public:
     static constexpr log::Duration kTogether = std::chrono::milliseconds(250);
 
-    /// Returns true where the datagram begins a message.
+    /// Returns true if the datagram begins a message.
     bool add(log::Stamp stamp, std::uint8_t datagram, bool isLast);
 
     /// The newest message included.
     [[nodiscard]] std::uint64_t incomplete() const { return m_incomplete; }
-    /// Whether the newest message still lacks something.
+    /// True if the newest message still lacks something.
     [[nodiscard]] bool isPartial() const { return m_arrived.any() && !isWhole(); }
 
 private:
@@ -129,11 +128,11 @@ public:
     /// is one of every `step` after the first.
     [[nodiscard]] std::optional<std::uint32_t>
     arrivedBetween(std::uint32_t from, std::uint32_t to, std::uint32_t step, const TimeRange& when) const;
-    /// Whether some but not all datagrams of a sample came. After a restart, samples of before are known for
+    /// True if some but not all datagrams of a sample came. After a restart, samples of before are known for
     /// a while.
     [[nodiscard]] bool isIncomplete(std::uint32_t sample) const;
 
-    /// Samples between two counters, both exclusive, that are still missing; nothing where the first of them
+    /// Samples between two counters, both exclusive, that are still missing; empty if the first of them
     /// is forgotten.
     [[nodiscard]] std::optional<std::uint32_t> missingBetween(std::uint32_t from, std::uint32_t to) const;
 

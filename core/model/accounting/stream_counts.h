@@ -33,7 +33,7 @@ using LossesByCause = std::array<std::uint64_t, kLossCauses>;
 /// "this computer", "network", "sender", "unknown".
 [[nodiscard]] std::string_view nameOf(LossCause cause);
 
-/// Whether sample accounting applies to a message type: types 10 to 13 carry sample 0 and are sent again and
+/// True if sample accounting applies to a message type: types 10 to 13 carry sample 0 and are sent again and
 /// again on purpose.
 [[nodiscard]] inline bool countsSamples(std::uint8_t type) {
     return wire::isSampled(type);
@@ -53,13 +53,13 @@ struct StreamCounts {
     std::uint64_t restarts = 0;
     /// Most samples lost in a row; of an irregular stream the longest difference of sample counters.
     std::uint64_t longestGapSamples = 0;
-    std::uint32_t step = 0;        ///< of the newest run; 0 where there is none: irregular, or one sample
+    std::uint32_t step = 0;        ///< of the newest run; 0 if there is none: irregular, or one sample
     std::uint32_t firstSample = 0; ///< as on the wire
     std::uint32_t lastSample = 0;  ///< the highest of the newest run, as on the wire
 
     /// Samples that should have come.
     [[nodiscard]] std::uint64_t expected() const { return samples + incomplete + lost; }
-    /// Of those, the share of which nothing or not all came; 0 where none were expected.
+    /// Of those, the share of which nothing or not all came; 0 if none were expected.
     [[nodiscard]] double lossRatio() const {
         return expected() == 0 ? 0 : static_cast<double>(lost + incomplete) / static_cast<double>(expected());
     }
@@ -96,8 +96,8 @@ struct InterArrival {
 };
 
 /// How much faster the sender's clock goes than ours, in parts per million, and what that made. Both are 0
-/// where it is not known: where only the sample counter shows the sender's time, and as long as delays on the
-/// way hide it; and where it is less than twice its own error, so that none is seen.
+/// if it is not known: where only the sample counter shows the sender's time, and as long as delays on the
+/// way hide it; and if it is less than twice its own error, so that none is seen.
 struct ClockSkew {
     double skewPpm = 0;
     double driftMs = 0;
@@ -134,6 +134,29 @@ public:
 private:
     Burst m_cluster; ///< losses with fewer than kGmin samples received in a row between them
     std::uint64_t m_receivedSince = 0; ///< since the newest loss
+};
+
+/// How much of each stream is remembered. Counts do not depend on it: how late a datagram may come, and how
+/// fine ranges of time are, do. The more streams there are the less it is, so that all of them together take
+/// about as much as kFullStreams.
+struct AccountingDepth {
+    /// As many streams are remembered in full.
+    static constexpr std::size_t kFullStreams = 512;
+
+    std::size_t samples = 4096; ///< the newest, before and after a restart each; a power of two from 512 on
+    std::size_t buckets = 2048; ///< of time in a history
+
+    friend bool operator==(const AccountingDepth&, const AccountingDepth&) = default;
+
+    /// For that many streams, which are kStreamLimit at most.
+    [[nodiscard]] static constexpr AccountingDepth of(std::size_t streams) {
+        AccountingDepth depth;
+        for (std::size_t most = kFullStreams; streams > most && depth.samples > 512; most *= 2) {
+            depth.samples /= 2;
+            depth.buckets /= 2;
+        }
+        return depth;
+    }
 };
 
 } // namespace posewire::model

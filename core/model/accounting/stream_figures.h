@@ -101,7 +101,7 @@ struct FigureRow {
     FigureStyle style;
     FigureSum sum;
     FigureTrouble trouble;
-    double (*read)(const RangeFigures&); ///< NaN where it is not known
+    double (*read)(const RangeFigures&); ///< NaN if it is not known
     const char* help;                    ///< what it is, and who defined it
     FigureScope scope = FigureScope::Samples;
     const char* column = nullptr;    ///< a short title, where columns are narrow
@@ -122,18 +122,18 @@ public:
     StreamFigures();
     StreamFigures(const log::StreamKey& key, const RangeFigures& read);
 
-    /// NaN where it is not known: times between samples before there are two, clock skew without time codes.
+    /// NaN if it is not known: times between samples before there are two, clock skew without time codes.
     [[nodiscard]] double operator[](Figure figure) const {
         return m_values[static_cast<std::size_t>(figure)];
     }
-    /// 0 where it is not known.
+    /// 0 if it is not known.
     [[nodiscard]] double orZero(Figure figure) const;
     [[nodiscard]] std::uint64_t count(Figure figure) const {
         return static_cast<std::uint64_t>(orZero(figure));
     }
-    /// Whether it means anything here: messages without samples and sums lack some.
+    /// True if it means anything here: messages without samples and sums lack some.
     [[nodiscard]] bool has(Figure figure) const;
-    /// Whether it is one to look at.
+    /// True if it is one to look at.
     [[nodiscard]] FigureTrouble trouble(Figure figure) const;
 
     [[nodiscard]] const log::StreamKey& key() const { return m_key; } ///< of a stream

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/log/log_follower.h"
+#include "core/log/log_reader.h"
 #include "core/log/packet_log.h"
 #include "core/log/stream_index.h"
 #include "core/log/time.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/session/listed_incidents.h"
 
+#include "core/log/clock.h"
 #include "core/log/ip_address.h"
-#include "core/log/local_time.h"
 #include "core/model/accounting/count_history.h"
 #include "core/model/accounting/gap.h"
 #include "core/model/incidents/incident_kinds.h"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/input_output.h"
+#include "tests/support/stream_source.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +11,7 @@ namespace {
 
 std::vector<std::string> linesOf(const std::string& text) {
     std::istringstream stream(text);
-    const auto sender = log::readingFrom(stream, "test");
+    const auto sender = test::readingFrom(stream, "test");
     LineReader reader(*sender);
     std::vector<std::string> lines;
     while (true) {
@@ -42,7 +43,7 @@ TEST(LineReader, KeepsLinesWholeAcrossReads) {
 TEST(LineReader, EndsWithAnErrorAtALineThatWouldNotEnd) {
     EXPECT_EQ(linesOf(std::string(LineReader::kLongestLine, 'x')).size(), 1U);
     std::istringstream stream("a\n" + std::string(LineReader::kLongestLine + 1, 'x'));
-    const auto source = log::readingFrom(stream, "test");
+    const auto source = test::readingFrom(stream, "test");
     LineReader reader(*source);
     EXPECT_TRUE(reader.next());
     const auto line = reader.next();

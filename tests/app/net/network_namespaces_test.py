@@ -76,6 +76,11 @@ class Namespaces:
     def start(self, name, *command):
         return subprocess.Popen([*inside(name), *command], stdout=subprocess.PIPE, text=True)
 
+    def udp6_received(self, name):
+        """Datagrams that programs have read from sockets of IPv6."""
+        text = self.run(name, "cat", "/proc/net/snmp6")
+        return int(re.search(r"^Udp6InDatagrams\s+(\d+)", text, re.M)[1])
+
     def udp(self, name, field):
         lines = [line.split() for line in self.run(name, "cat", "/proc/net/snmp").splitlines() if line.startswith("Udp:")]
         return int(dict(zip(*lines))[field])
@@ -153,7 +158,6 @@ def check_groups(cli):
             spaces.run(receiver, "ip", "link", "set", f"short{number}", "up")
             wait_for(lambda: joined(spaces, f"short{number}"), f"interface {number} of many is joined")
             spaces.run(receiver, "ip", "link", "delete", f"short{number}")
-            time.sleep(0.3)
         monitor.terminate()
         report = json.loads(monitor.communicate(timeout=30)[0])
         counted = [(source["address"], source["datagrams"]) for source in report["sources"]]
@@ -162,22 +166,26 @@ def check_groups(cli):
 
 
 def check_address(cli):
-    """Where the address that is listened on goes, that is told, and that it is back."""
-    with Namespaces() as spaces:
+    """The monitor reports when the address that it listens on disappears and when it returns."""
+    with Namespaces() as spaces, tempfile.NamedTemporaryFile("w+", encoding="utf-8") as errors:
         sender, receiver = spaces.names
         monitor = subprocess.Popen([*inside(receiver), cli, "monitor", "--udp", f"{RECEIVER}:{PORT}", "--json", "--duration",
-                                    "60"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+                                    "60"], stdout=subprocess.PIPE, stderr=errors, text=True)
+
+        def said():
+            errors.seek(0)
+            return errors.read()
+
         wait_for(lambda: f":{PORT:04X} " in spaces.run(receiver, "cat", "/proc/net/udp"), "the monitor listens")
         spaces.run(receiver, "ip", "address", "delete", RECEIVER + "/24", "dev", "receiver")
-        time.sleep(1)
+        wait_for(lambda: f"has the address {RECEIVER} any more" in said(), "the address is reported as gone")
         spaces.run(receiver, "ip", "address", "add", RECEIVER + "/24", "dev", "receiver")
-        time.sleep(1)
+        wait_for(lambda: f"{RECEIVER}:{PORT}: all is well now" in said(), "the address is reported as back")
         spaces.run(sender, cli, "send", "--to", f"{RECEIVER}:{PORT}", "--duration", "0.5")
         monitor.terminate()
-        out, told = monitor.communicate(timeout=30)
-        print(f"an address that went and came back: {told}")
-        gone, back = told.find(f"has the address {RECEIVER} any more"), told.find(f"{RECEIVER}:{PORT}: all is well now")
-        return 0 <= gone < back and len(json.loads(out)["sources"]) == 1
+        out, _ = monitor.communicate(timeout=30)
+        print(f"an address that went and came back: {said()}")
+        return len(json.loads(out)["sources"]) == 1
 
 
 def link_local(spaces, name, device):
@@ -203,8 +211,9 @@ def check_zones(cli):
         elsewhere = "ff02::77" in spaces.run(receiver, "ip", "maddress", "show", "dev", "receiver")
         address = link_local(spaces, sender, "late-out")
         send = [cli, "send", "--characters", "1", "--types", "02", "--rate", "50", "--duration", "1", "--to"]
+        before = spaces.udp6_received(receiver)
         spaces.run(sender, *send, f"[ff02::77%late-out]:{PORT}")
-        time.sleep(0.5)
+        wait_for(lambda: spaces.udp6_received(receiver) >= before + 50, "the group's datagrams are read")
         monitor.terminate()
         out, told = monitor.communicate(timeout=30)
         heard = [source["datagrams"] for source in json.loads(out)["sources"]]
@@ -215,8 +224,9 @@ def check_zones(cli):
             alone = [cli, "monitor", "--udp", str(PORT), "--from", f"{address}%{zone}", "--json", "--duration", "60"]
             monitor = subprocess.Popen([*inside(receiver), *alone], stdout=subprocess.PIPE, text=True)
             wait_for(lambda: f":{PORT:04X} " in spaces.run(receiver, "cat", "/proc/net/udp6"), "the monitor listens")
+            before = spaces.udp6_received(receiver)
             spaces.run(sender, *send, f"[{link_local(spaces, receiver, 'late')}%late-out]:{PORT}")
-            time.sleep(0.5)
+            wait_for(lambda: spaces.udp6_received(receiver) >= before + 50, "the sender's datagrams are read")
             monitor.terminate()
             report = json.loads(monitor.communicate(timeout=30)[0])
             counts.append((sum(source["datagrams"] for source in report["sources"]), report["local"]["refusedDatagrams"]))

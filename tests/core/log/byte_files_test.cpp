@@ -4,6 +4,7 @@
 #include "core/log/output_file.h"
 
 #include "tests/core/log/log_fixture.h"
+#include "tests/support/stream_source.h"
 #include "tests/support/temporary_folder.h"
 
 #include <gmock/gmock.h>
@@ -84,7 +85,7 @@ TEST_F(ByteFiles, GoByTheNameTheyWereOpenedWith) {
     write("walk.bin", pattern(10, 1));
     EXPECT_EQ((*openFile(path("walk.bin")))->name(), path("walk.bin"));
     std::istringstream stream;
-    EXPECT_EQ(readingFrom(stream, "standard input")->name(), "standard input");
+    EXPECT_EQ(test::readingFrom(stream, "standard input")->name(), "standard input");
 }
 
 TEST_F(ByteFiles, CanHaveAnyName) {
@@ -192,7 +193,7 @@ private:
 TEST(ByteStream, SaysThatReadingFailed) {
     FailingBuffer buffer(10);
     std::istream stream(&buffer);
-    const auto source = readingFrom(stream, "standard input");
+    const auto source = test::readingFrom(stream, "standard input");
     std::vector<std::byte> into(10);
     EXPECT_EQ(*source->read(into), 10U);
     const auto failed = source->read(into);
@@ -202,7 +203,7 @@ TEST(ByteStream, SaysThatReadingFailed) {
 
 TEST(ByteStream, GivesWhatThereIsAndThenTheEnd) {
     std::istringstream stream("abcdefg");
-    const auto source = readingFrom(stream, "x");
+    const auto source = test::readingFrom(stream, "x");
     std::vector<std::byte> into(5);
     EXPECT_EQ(*source->read(into), 5U);
     EXPECT_EQ(*source->read(into), 2U);

@@ -4,6 +4,7 @@
 #include "core/log/recording_file.h"
 #include "core/log/system_files.h"
 #include "tests/core/log/log_fixture.h"
+#include "tests/support/stream_source.h"
 
 #include <gtest/gtest.h>
 
@@ -120,7 +121,7 @@ TEST_F(DiskHistoryTest, ItsFilesAreRecordingsThatSurviveTheProcess) {
     ASSERT_TRUE(waitUntil([&] { return history->figures().end == m_next; }));
     ASSERT_EQ(files().size(), 1U);
     std::ifstream stream(files().front(), std::ios::binary);
-    const auto source = readingFrom(stream, "history");
+    const auto source = test::readingFrom(stream, "history");
     std::uint64_t read = 0;
     const auto result = readFile(*source, [&](const FileRecord& record) {
         EXPECT_TRUE(equal(record.bytes, pattern(sizeOf(read), read)));

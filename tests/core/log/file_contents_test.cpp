@@ -2,6 +2,7 @@
 #include "core/log/file_contents.h"
 
 #include "core/log/recording_file.h"
+#include "tests/support/stream_source.h"
 
 #include <gmock/gmock.h>
 
@@ -44,7 +45,7 @@ std::string packetOfOthers(const std::string& payload, std::uint8_t protocol = 1
 std::string otherIn(const std::string& file) {
     std::istringstream stream(file);
     FileContents contents;
-    const auto source = readingFrom(stream, "file");
+    const auto source = test::readingFrom(stream, "file");
     EXPECT_TRUE(readFile(
         *source, [](const FileRecord&) {}, {}, &contents));
     return otherContents(contents);

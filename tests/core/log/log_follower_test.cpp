@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/log/log_follower.h"
+#include "core/log/log_reader.h"
 #include "core/log/packet_log.h"
 
 #include <gtest/gtest.h>

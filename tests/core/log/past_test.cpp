@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/log/past.h"
 
-#include "core/log/log_follower.h"
+#include "core/log/log_reader.h"
 #include "core/log/packet_log.h"
 #include "tests/core/log/log_fixture.h"
 

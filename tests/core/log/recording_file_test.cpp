@@ -3,6 +3,7 @@
 
 #include "tests/core/log/datagram_fixture.h"
 #include "tests/support/paths.h"
+#include "tests/support/stream_source.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -60,7 +61,7 @@ std::vector<SeenRecord> records(ByteSource& source, tl::expected<void, FileError
 TEST(RecordingFile, GivesDatagramsWithTheirPlaces) {
     std::istringstream stream(textOf(joined({poseDatagram(1), textBytes("gap"), poseDatagram(2)})));
     tl::expected<void, FileError> result;
-    const auto seen = records(*readingFrom(stream, "standard input"), result);
+    const auto seen = records(*test::readingFrom(stream, "standard input"), result);
     EXPECT_TRUE(result.has_value());
     EXPECT_EQ(seen, (std::vector<SeenRecord>{{0, 760, false}, {760, 3, true}, {763, 760, false}}));
 }
@@ -70,7 +71,7 @@ TEST(RecordingFile, WhatBeginsLikeNoCaptureIsReadAsItIs) {
          {"", "M", "abc", "MXTP02", "\xa1\xb2\xc3\xd5", "\xa1\xb2\xcd\x34 another kind"}) {
         std::istringstream stream(text);
         tl::expected<void, FileError> result;
-        const auto seen = records(*readingFrom(stream, "x"), result);
+        const auto seen = records(*test::readingFrom(stream, "x"), result);
         EXPECT_TRUE(result.has_value());
         EXPECT_EQ(seen.size(), text.empty() ? 0U : 1U) << text;
     }
@@ -83,7 +84,7 @@ TEST(RecordingFile, LongFileIsReadInPieces) {
     }
     std::istringstream stream(textOf(joined(parts)));
     tl::expected<void, FileError> result;
-    EXPECT_EQ(records(*readingFrom(stream, "x"), result).size(), 500U);
+    EXPECT_EQ(records(*test::readingFrom(stream, "x"), result).size(), 500U);
 }
 
 TEST(RecordingFile, KeepsWhatCameBeforeAFailure) {
@@ -98,7 +99,7 @@ TEST(RecordingFile, KeepsWhatCameBeforeAFailure) {
 TEST(RecordingFile, ADamagedCaptureIsNamedNotMisread) {
     std::istringstream stream("\x0a\x0d\x0d\x0a and more of the same");
     tl::expected<void, FileError> result;
-    EXPECT_TRUE(records(*readingFrom(stream, "walk.pcapng"), result).empty());
+    EXPECT_TRUE(records(*test::readingFrom(stream, "walk.pcapng"), result).empty());
     ASSERT_FALSE(result.has_value());
     EXPECT_THAT(result.error().text, HasSubstr("walk.pcapng: is damaged"));
     EXPECT_EQ(result.error().kind, FileError::Kind::Damaged);

@@ -4,6 +4,7 @@
 
 #include "tests/core/log/log_fixture.h"
 #include "tests/core/log/recording_fixture.h"
+#include "tests/support/stream_source.h"
 #include "tests/support/temporary_folder.h"
 
 #include <gmock/gmock.h>
@@ -220,7 +221,7 @@ TEST(Recording, CountsPacketsOfMarksAsTheFileHasThem) {
     ASSERT_GT(missed, 0U);
     const std::string text(reinterpret_cast<const char*>(gate.bytes.data()), gate.bytes.size());
     std::istringstream stream(text);
-    EXPECT_THAT(notesIn(*readingFrom(stream, "memory")),
+    EXPECT_THAT(notesIn(*test::readingFrom(stream, "memory")),
                 testing::ElementsAre("Mark on packet 0", "Mark on packet 1: missed",
                                      "Mark on packet " + std::to_string(4998 - missed)));
     const auto seen = recordedIn(gate.bytes);

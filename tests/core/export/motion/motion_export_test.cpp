@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "tests/core/export/motion/motion_fixture.h"
 
-#ifndef _WIN32
-#include <fcntl.h>
-#include <unistd.h>
-#endif
-
 namespace posewire::exporting {
 namespace {
 
@@ -194,20 +189,6 @@ TEST_F(MotionExportTest, ReplacesNothingUnasked) {
     EXPECT_TRUE(exportMotion({two, kAlone, path("take.txt"), {.mayReplace = true}, ""}));
     EXPECT_NE(textOf(second), "precious");
 }
-
-#ifndef _WIN32
-TEST_F(MotionExportTest, MakesNoFilesBesideAStandardStreamThatGoesToOne) {
-    perform(settings(2), 3);
-    const feed::PoseSource two = source();
-    std::ofstream(path("out")) << "precious";
-    const int descriptor = ::open(path("out").c_str(), O_WRONLY);
-    const auto exported = exportMotion({two, kAlone, "/dev/fd/" + std::to_string(descriptor), {}, ""});
-    ::close(descriptor);
-    ASSERT_FALSE(exported);
-    EXPECT_THAT(exported.error().text, HasSubstr("is a folder or a device"));
-    EXPECT_EQ(textOf(path("out")), "precious");
-}
-#endif
 
 TEST_F(MotionExportTest, WritesNothingWhereThereIsNothing) {
     auto silent = settings();
