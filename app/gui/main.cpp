@@ -72,7 +72,7 @@ void openComparison(MainWindow& window, const Options& options, const Settings& 
     if (!isToRestore(options)) {
         window.compareWith(file);
     } else if (QFileInfo(file).isFile()) {
-        window.driver().compareWith(file); // docks are as they were
+        window.driver().files().comparing().open(file); // docks are as they were
     } else {
         window.say(QCoreApplication::translate(
                        "main",
@@ -94,20 +94,20 @@ void openInputs(MainWindow& window, const Options& options, const Settings& sett
         driver.receiving().relaying().add(relay);
     }
     if (options.demoCharacters > 0) {
-        driver.setDemo(options.demoCharacters);
+        driver.demo().setCharacters(options.demoCharacters);
     }
     const QString file = fileToOpen(options, settings);
     if (!file.isEmpty()) {
         window.openPath(file);
-        if (isToRestore(options) && driver.file() != nullptr) {
-            driver.file()->session().setDisplayFilter(settings.fileFilter.toStdString());
+        if (OpenedFile* opened = driver.files().file(); isToRestore(options) && opened != nullptr) {
+            opened->session().setDisplayFilter(settings.fileFilter.toStdString());
         }
         if (options.seekSeconds) {
             QObject::connect(
-                &driver, &SessionDriver::fileOpened, &window,
+                &driver.files(), &Files::opened, &window,
                 [&driver, seconds = *options.seekSeconds](bool isRead) {
                     if (isRead) {
-                        driver.seek(seconds);
+                        driver.playback().seek(seconds);
                     }
                 },
                 Qt::SingleShotConnection);
@@ -135,7 +135,7 @@ void saveScreenshot(MainWindow& window, const Options& options) {
 /// it is. Right after a refresh: what is painted later may know more than the verdict beside it.
 void takeScreenshot(MainWindow& window, const Options& options, int attempts) {
     constexpr int kAgainMs = 50;
-    const bool isOpening = window.driver().isOpening();
+    const bool isOpening = window.driver().files().isOpening();
     const bool isUnsettled = window.viewport().failure().isEmpty() && !window.viewport().isSettled();
     if (isOpening || (attempts > 0 && isUnsettled)) {
         const int left = isOpening ? attempts : attempts - 1;
@@ -158,7 +158,7 @@ void begin(MainWindow& window, const Options& options, const Settings& settings)
     window.driver().start();
     if (options.screenshotFile.isEmpty()) {
         window.offerRecovered();
-        if (!options.skipsTour && window.driver().lostHistories().empty()) {
+        if (!options.skipsTour && window.driver().history().lost().empty()) {
             window.offerTour();
         }
     } else {

@@ -115,9 +115,9 @@ int main(int argc, char** argv) {
     std::fprintf(stderr,
                  "sent %llu, received %llu, followed %llu, dropped by the kernel %llu, memory %.0f MB\n",
                  static_cast<unsigned long long>(sent), static_cast<unsigned long long>(totals.datagrams),
-                 static_cast<unsigned long long>(driver.session().end()),
+                 static_cast<unsigned long long>(driver.commands().session().end()),
                  static_cast<unsigned long long>(totals.kernelDropped), watch.memory() * 1e-6);
-    const auto lost = static_cast<double>(sent) - static_cast<double>(driver.session().end());
+    const auto lost = static_cast<double>(sent) - static_cast<double>(driver.commands().session().end());
     return verdict("design_load_lost", lost, 0, isChecked) |
            verdict("design_load_cpu", watch.share(), kMostCpu, isChecked) |
            verdict("design_load_memory", watch.growth(), kMostGrowth, isChecked);

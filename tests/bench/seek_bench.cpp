@@ -69,12 +69,12 @@ public:
     }
 
     bool open(const QString& path) {
-        m_driver.openFile(path);
-        while (m_driver.isOpening()) {
+        m_driver.files().open(path);
+        while (m_driver.files().isOpening()) {
             QCoreApplication::processEvents(QEventLoop::AllEvents, 10);
         }
-        const model::SessionView& session = m_driver.session();
-        if (!m_driver.isFileShown() || session.end() == 0) {
+        const model::SessionView& session = m_driver.commands().session();
+        if (!m_driver.commands().isFileShown() || session.end() == 0) {
             return false;
         }
         log::LogReader reader(session.log());
@@ -84,12 +84,12 @@ public:
 
     /// ms until the window shows a moment; `share` of the recording.
     double seek(double share) {
-        const model::SessionView& session = m_driver.session();
+        const model::SessionView& session = m_driver.commands().session();
         const double length = log::secondsOf(m_last - session.firstStamp());
         const std::uint64_t pictures = m_window.viewport().picturesShown();
         const std::uint64_t ticks = m_tableTicks;
         const Clock::time_point begin = Clock::now();
-        m_driver.showMoment(session.firstStamp() + log::durationOf(share * length));
+        m_driver.playback().showMoment(session.firstStamp() + log::durationOf(share * length));
         const auto isShown = [&] {
             return m_tableTicks > ticks && m_window.viewport().picturesShown() > pictures &&
                    m_window.viewport().isSettled();

@@ -34,7 +34,7 @@ MAY_INCLUDE = [
     ("app/gui/base", ["core", "app/net", "app/usage", "app/gui/theme"]),
     ("app/gui/models", ["core", "app/gui/base", "app/gui/theme"]),
     ("app/gui/plots", ["app/gui/theme"]),
-    ("app/gui/panels", ["core", "app/gui/base", "app/gui/theme", "app/gui/models", "app/gui/plots"]),
+    ("app/gui/panels", ["core", "app/gui/base", "app/gui/theme", "app/gui/models", "app/gui/plots", "app/gui/driver"]),
     ("app/gui/driver", ["core", "app/net", "app/system", "app/gui/base"]),
     ("app/gui/viewport", ["core", "render", "app/net", "app/system", "app/gui/base", "app/gui/theme", "app/gui/models"]),
     ("app/gui/inputs", ["core", "app/net", "app/gui/base", "app/gui/theme", "app/gui/models", "app/gui/panels", "app/gui/driver"]),

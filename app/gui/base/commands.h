@@ -1,65 +1,106 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/model/session/choices.h"
-#include "core/model/session/detection.h"
+#include "core/model/session/session.h"
 
+#include <QObject>
 #include <QString>
 
 namespace posewire::gui {
 
-struct ComparisonChoice;
+/// Which session is shown (of what is received, or of the opened file), and what is chosen in it. Each
+/// command is carried out at once, and shown at the next display tick. Panels never change the session
+/// themselves.
+class Commands final : public QObject {
+    Q_OBJECT
 
-/// What a panel may ask for. Each command is carried out before the next display tick; panels never change
-/// the session themselves.
-class Commands {
 public:
-    virtual ~Commands() = default;
+    /// The session must outlive this.
+    explicit Commands(model::Session& live) : m_live(live), m_shown(&live) {}
 
-    virtual void select(const model::Selection& selection) = 0;
+    /// What is shown.
+    [[nodiscard]] model::SessionView& session() const { return *m_shown; }
+    /// What is received, whatever is shown.
+    [[nodiscard]] model::SessionView& live() const { return m_live; }
+    [[nodiscard]] bool isFileShown() const { return m_shown != &m_live; }
+    void showLive() { show(m_live); }
+    /// Stops what plays in the one that was shown.
+    void show(model::Session& session);
+
+    /// Moves what plays on, without the haste of a command.
+    void playTo(const model::Cursor& cursor) { m_shown->setCursor(cursor); }
+    void setCursor(const model::Cursor& cursor) { change(&model::Session::setCursor, cursor); }
+    void select(const model::Selection& selection) { change(&model::Session::setSelection, selection); }
+    /// Selects a packet with its sender and character; a display that is stopped moves there. Ignored if
+    /// there is no such packet.
+    void selectPacket(std::uint64_t number);
+    /// Lets go of the packet that is selected: the newest one of the moment is inspected.
+    void unselectPacket();
     /// What time statistics are of.
-    virtual void selectRange(const model::RangeChoice& range) = 0;
-    /// Selects a packet with its sender and character; a display that is stopped moves there. Nothing happens
-    /// where there is no such packet.
-    virtual void selectPacket(std::uint64_t number) = 0;
-    /// Follows what is received, and lets go of a packet that is selected.
-    virtual void goLive() = 0;
-    /// Stops the display at a moment.
-    virtual void showMoment(log::Stamp moment) = 0;
-    virtual void setMarked(std::uint64_t packet, bool isMarked) = 0;
-    virtual void setComment(std::uint64_t packet, const QString& comment) = 0;
+    void selectRange(const model::RangeChoice& range) { change(&model::Session::setRange, range); }
+    void setMarked(std::uint64_t packet, bool isMarked) {
+        change(&model::Session::setMarked, packet, isMarked);
+    }
+    void setComment(std::uint64_t packet, const QString& comment) {
+        change(&model::Session::setComment, packet, comment.toStdString());
+    }
     /// What is declared about a sender counts instead of what was detected.
-    virtual void setOverride(log::SenderId sender, const model::SenderOverride& overrides) = 0;
+    void setOverride(log::SenderId sender, const model::SenderOverride& overrides) {
+        change(&model::Session::setOverride, sender, overrides);
+    }
     /// What the list of packets shows; empty for all.
-    virtual void setDisplayFilter(const QString& filter) = 0;
+    void setDisplayFilter(const QString& filter) {
+        change(&model::Session::setDisplayFilter, filter.toStdString());
+    }
     /// Stops at a packet with another filter, or the same, so that goBack() brings all back as it was.
-    /// Nothing is selected where there is no such packet.
-    virtual void jump(std::uint64_t packet, const QString& filter) = 0;
-    virtual void goBack() = 0;
-    /// Points the camera at a character.
-    virtual void frameCharacter(const model::CharacterKey& key) = 0;
-    virtual void setCharacterVisible(const model::CharacterKey& key, bool isVisible) = 0;
+    /// Selects nothing else if there is no such packet.
+    void jump(std::uint64_t packet, const QString& filter);
+    void goBack();
+    void setCharacterVisible(const model::CharacterKey& key, bool isVisible) {
+        change(&model::Session::setHidden, key, !isVisible);
+    }
     /// Puts a character on the floor that is sent below it.
-    virtual void setLifted(const model::CharacterKey& key, bool isLifted) = 0;
-    /// Takes a sender out of all lists from which nothing more is expected. Nothing happens where it sends.
-    virtual void forgetSender(log::SenderId sender) = 0;
+    void setLifted(const model::CharacterKey& key, bool isLifted) {
+        change(&model::Session::setLifted, key, isLifted);
+    }
+    /// Takes a sender out of all lists from which no more is expected. Ignored while it sends.
+    void forgetSender(log::SenderId sender) { change(&model::Session::forget, sender); }
     /// Shows the null pose of the shown character as a ghost over its figure.
-    virtual void setGhostVisible(bool isVisible) = 0;
-    /// Brings the list of incidents to the front: with one selected where there is a number, with those of a
-    /// character alone where there is one.
-    virtual void showIncident(std::optional<std::uint64_t> number,
-                              std::optional<model::CharacterKey> of = {}) = 0;
-    /// Asks which recording what is shown is to be compared with, and compares it.
-    virtual void askForComparison() = 0;
-    virtual void endComparison() = 0;
-    virtual void setComparison(const ComparisonChoice& choice) = 0;
-    /// Gives up what is worked out of the range, or begins with it again.
-    virtual void setComparing(bool isOn) = 0;
-    /// Writes the differences to a file; its place was chosen in askWhereToSave().
-    virtual void saveComparison(const QString& path) = 0;
-    virtual void copyText(const QString& text) = 0;
+    void setGhostVisible(bool isVisible) { change(&model::Session::setGhostShown, isVisible); }
+    /// Brings the list of incidents to the front: with one selected if there is a number, with those of a
+    /// character alone if there is one.
+    void showIncident(std::optional<std::uint64_t> number, std::optional<model::CharacterKey> of = {});
+
+    // Of what is received, whatever is shown:
+    /// A new span counts for the take: counts, incidents and verdict from now on.
+    void resetForTake();
+    /// What streams must keep from now on.
+    void setThresholds(const model::Thresholds& thresholds);
+
+signals:
+    /// A command was carried out.
+    void changed();
+    /// Another session is shown.
+    void switched();
+    /// What was seen before the newest jump is shown again.
+    void wentBack();
+
+    // What the window does; anyone may ask.
+    /// Points the camera at a character.
+    void frameCharacter(const model::CharacterKey& key);
     /// Brings a dock before the others, by its object name.
-    virtual void showDock(const QString& dock) = 0;
+    void showDock(const QString& dock);
+
+private:
+    template <class Setter, class... Arguments>
+    void change(Setter setter, const Arguments&... arguments) {
+        (m_shown->*setter)(arguments...);
+        emit changed();
+    }
+    void stopPlaying();
+
+    model::Session& m_live;
+    model::Session* m_shown;
 };
 
 } // namespace posewire::gui

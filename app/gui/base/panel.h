@@ -2,7 +2,6 @@
 #pragma once
 
 #include "app/gui/base/commands.h"
-#include "app/gui/base/program_view.h"
 #include "core/model/session/session_view.h"
 
 #include <QJsonObject>
@@ -104,16 +103,5 @@ protected:
     model::SessionView& m_view;
     Commands& m_commands;
 };
-
-/// One row of the table of docks. To add a dock: a file pair in panels/ and a row in panels.cpp.
-struct PanelInfo {
-    const char* id;    ///< object name of the dock, fixed for scripts
-    const char* title; ///< translated in context "Panel"
-    Qt::DockWidgetArea area;
-    Panel* (*make)(model::SessionView& view, Commands& commands, const ProgramView& program, QWidget* parent);
-    std::span<const ActionInfo> (*actions)();
-};
-
-[[nodiscard]] std::span<const PanelInfo> panelTable();
 
 } // namespace posewire::gui

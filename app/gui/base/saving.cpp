@@ -6,9 +6,11 @@
 #include "core/log/output_file.h"
 
 #include <QBuffer>
+#include <QClipboard>
 #include <QFile>
 #include <QFileDialog>
 #include <QFileInfo>
+#include <QGuiApplication>
 #include <QPixmap>
 #include <QRegularExpression>
 
@@ -78,6 +80,10 @@ std::future<QString> saveCopy(const QString& from, const QString& to) {
             log::copyFile(QFile::encodeName(from).toStdString(), QFile::encodeName(to).toStdString(), rules);
         return copied ? QString() : tr("Not saved: %1").arg(QString::fromStdString(copied.error().text));
     });
+}
+
+void copyText(const QString& text) {
+    QGuiApplication::clipboard()->setText(text);
 }
 
 QString savePicture(const QPixmap& picture, const QString& path) {

@@ -41,7 +41,10 @@ namespace posewire::gui {
 /// The same with what another file holds, on a thread of its own.
 [[nodiscard]] std::future<QString> saveCopy(const QString& from, const QString& to);
 
-/// The same for a picture, in the format that its ending says.
+/// To the clipboard.
+void copyText(const QString& text);
+
+/// The same as saveFile() for a picture, in the format that its ending says.
 [[nodiscard]] QString savePicture(const QPixmap& picture, const QString& path);
 
 /// The file is open as an input for as long as this is there: saveFile() does not write over it, whatever

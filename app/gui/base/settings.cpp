@@ -35,6 +35,10 @@ void renameSources(QJsonObject& object) {
 /// From each version to the next, from version 1 on.
 constexpr std::array<void (*)(QJsonObject&), kSchema - 1> kMigrations{renameSources};
 
+QLatin1String keyOf(const model::ThresholdRow& row) {
+    return {row.key.data(), static_cast<qsizetype>(row.key.size())};
+}
+
 /// Of a window, in logical pixels: a rectangle of these has edges that can be calculated with.
 constexpr int kFarthest = 100'000;
 
@@ -95,6 +99,31 @@ Settings settingsOf(const QJsonObject& object) {
 }
 
 } // namespace
+
+QJsonObject jsonOf(const AlertChoices& choices) {
+    QJsonObject object;
+    for (const model::ThresholdRow& row : model::thresholdTable()) {
+        object[keyOf(row)] = choices.thresholds.*row.limit;
+    }
+    object["warningSound"] = choices.hasWarningSound;
+    object["errorSound"] = choices.hasErrorSound;
+    object["notification"] = choices.hasNotification;
+    return object;
+}
+
+AlertChoices alertChoicesOf(const QJsonObject& object) {
+    AlertChoices choices;
+    for (const model::ThresholdRow& row : model::thresholdTable()) {
+        const double value = object[keyOf(row)].toDouble(-1);
+        if (value >= row.least && value <= row.most) {
+            choices.thresholds.*row.limit = value;
+        }
+    }
+    choices.hasWarningSound = object["warningSound"].toBool();
+    choices.hasErrorSound = object["errorSound"].toBool();
+    choices.hasNotification = object["notification"].toBool();
+    return choices;
+}
 
 tl::expected<Settings, QString> parseSettings(const QByteArray& json) {
     auto object = parseSmallObject(json);

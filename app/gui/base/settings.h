@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/base/alert_choices.h"
 #include "app/gui/base/input_choices.h"
 #include "app/gui/base/recording_choice.h"
 #include "app/gui/theme/theme.h"
+#include "core/model/incidents/thresholds.h"
 
 #include <QByteArray>
 #include <QJsonObject>
@@ -15,6 +15,19 @@
 #include <tl/expected.hpp>
 
 namespace posewire::gui {
+
+/// When the operator wants to be alerted, and how: kept from one run to the next.
+struct AlertChoices {
+    model::Thresholds thresholds;
+    bool hasWarningSound = false;
+    bool hasErrorSound = false;
+    bool hasNotification = false; ///< by the desktop, when the verdict turns bad
+    friend bool operator==(const AlertChoices&, const AlertChoices&) = default;
+};
+
+[[nodiscard]] QJsonObject jsonOf(const AlertChoices& choices);
+/// Entries that are missing or make no sense are as shipped.
+[[nodiscard]] AlertChoices alertChoicesOf(const QJsonObject& object);
 
 /// How much of what is received is kept on the disk, too.
 struct HistoryChoice {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/driver/comparing.h"
 
+#include "app/gui/base/logging.h"
+
 #include <QFile>
 
 #include <algorithm>
@@ -11,8 +13,8 @@
 namespace posewire::gui {
 namespace {
 
-/// Between the end of one comparison and the begin of the next, where only the moment has moved on; and as
-/// often as long as it took, so that it never takes more than a tenth of a processor.
+/// Between the end of one comparison and the begin of the next, if only the moment has moved on; and this
+/// many times as long as it took, so that it never takes more than a tenth of a processor.
 constexpr log::Duration kPause = std::chrono::milliseconds(500);
 constexpr int kRest = 9;
 
@@ -22,14 +24,31 @@ exporting::SampleMoment momentOf(const model::CharacterPose& pose) {
 
 } // namespace
 
-void Comparing::open(const QString& path, const std::shared_ptr<log::Scratch>& scratch) {
-    close();
-    m_file = std::make_unique<OpenedFile>(m_clock, path, scratch);
+Comparing::Comparing(Commands& commands, const log::Clock& clock, QString cacheFolder)
+    : m_commands(commands), m_clock(clock), m_cacheFolder(std::move(cacheFolder)) {
+    // Not only with the next tick: a series of pictures draws before it.
+    connect(&commands, &Commands::changed, this, [this] {
+        if (m_file != nullptr && m_known.log == &m_commands.session().log()) {
+            followCursor(m_commands.session());
+        }
+    });
+}
+
+void Comparing::open(const QString& path) {
+    qCInfo(filesLog).noquote() << "comparing with" << path;
+    clear();
+    m_file = std::make_unique<OpenedFile>(m_clock, path, m_cacheFolder);
     m_state.isOpen = true;
     m_state.name = m_file->name();
+    emit changed();
 }
 
 void Comparing::close() {
+    clear();
+    emit changed();
+}
+
+void Comparing::clear() {
     forgetResults();
     m_ending.clear();
     m_saving.reset();
@@ -40,6 +59,17 @@ void Comparing::close() {
     m_state = std::move(none);
 }
 
+void Comparing::stopReading() {
+    if (isReading()) {
+        m_file->stop();
+        const QString text = m_file->notes().join(QLatin1Char(' '));
+        if (m_file->session().end() == 0) {
+            clear();
+        }
+        emit changed(text);
+    }
+}
+
 void Comparing::choose(const ComparisonChoice& choice) {
     ComparisonChoice before = std::exchange(m_state.choice, choice);
     before.isBeside = choice.isBeside; // changes no figure
@@ -48,21 +78,23 @@ void Comparing::choose(const ComparisonChoice& choice) {
         m_nextWork = {};
         m_pairChosen = {};
     }
+    emit changed();
 }
 
 void Comparing::stop() {
     if (m_work != nullptr) {
-        m_work->cancel();
-        m_ending.push_back(std::move(m_work));
+        endWork();
         m_subject.reset();
         m_state.isStopped = true;
     }
+    emit changed();
 }
 
 void Comparing::workAgain() {
     m_state.isStopped = false;
     m_subject.reset();
     m_nextWork = {};
+    emit changed();
 }
 
 void Comparing::endOf(const log::PacketLog& log) {
@@ -75,12 +107,16 @@ void Comparing::endOf(const log::PacketLog& log) {
     }
 }
 
-/// Threads that still read end on their own.
-void Comparing::forgetResults() {
+/// Its thread ends on its own.
+void Comparing::endWork() {
     if (m_work != nullptr) {
         m_work->cancel();
         m_ending.push_back(std::move(m_work));
     }
+}
+
+void Comparing::forgetResults() {
+    endWork();
     m_subject.reset();
     m_known = {};
     m_firstTable.reset();
@@ -95,11 +131,20 @@ void Comparing::forgetResults() {
     m_nextWork = {};
 }
 
-bool Comparing::follow(model::SessionView& shown, log::Duration most) {
+bool Comparing::follow(log::Duration most) {
+    finishSaving();
     if (m_file == nullptr) {
         return false;
     }
-    const bool hasRead = m_file->isReading() && m_file->follow(most);
+    model::SessionView& shown = m_commands.session();
+    const bool wasReading = m_file->isReading();
+    const bool hasRead = wasReading && m_file->follow(most);
+    if (!m_file->failure().isEmpty()) {
+        const QString problem = tr("Nothing to compare with: %1").arg(m_file->failure());
+        clear();
+        emit changed(problem);
+        return true;
+    }
     m_state.second = m_file->session().end() != 0 ? &m_file->session() : nullptr;
     std::erase_if(m_ending, [](const auto& one) { return one->isDone(); });
     updatePair(shown);
@@ -111,6 +156,9 @@ bool Comparing::follow(model::SessionView& shown, log::Duration most) {
     const bool hadPartner = m_state.atCursor.has_value();
     followCursor(shown);
     describe(shown);
+    if (wasReading && !m_file->isReading()) {
+        emit changed();
+    }
     return hasRead || hasResult || before != m_file->session().cursor() ||
            hadPartner != m_state.atCursor.has_value();
 }
@@ -134,7 +182,7 @@ void Comparing::updatePair(model::SessionView& shown) {
     }
 }
 
-/// Of the selected character; without one, or where that has no partner, the first pair.
+/// Of the selected character; the first pair if none is selected, or it has no partner.
 std::optional<exporting::CharacterPair> Comparing::choosePair(model::SessionView& shown) const {
     const auto& selected = shown.selection().character;
     const auto pairs = exporting::pairCharacters(shown, m_file->session());
@@ -184,15 +232,13 @@ ComparisonOrder Comparing::orderFor(const model::SessionView& shown) const {
 }
 
 void Comparing::beginWork(model::SessionView& shown) {
-    if (m_work != nullptr) {
-        m_work->cancel();
-        m_ending.push_back(std::move(m_work));
-    }
+    endWork();
     m_subject = subjectOf(shown);
     m_reach = {shown.range(), shown.end()};
     m_order = orderFor(shown);
     m_begun = m_clock.monotonic();
-    m_work = std::make_unique<ComparisonWork>(m_order);
+    m_work = std::make_unique<Work>(
+        [order = m_order](const Work::Progress& progress) { return compared(order, progress); });
 }
 
 bool Comparing::takeResult() {
@@ -218,12 +264,6 @@ bool Comparing::takeResult() {
         m_shown.by = m_partners->alignment().by;
     }
     return true;
-}
-
-void Comparing::showMoment(model::SessionView& shown) {
-    if (m_file != nullptr && m_known.log == &shown.log()) {
-        followCursor(shown);
-    }
 }
 
 /// The second recording to the moment of the first.
@@ -312,24 +352,24 @@ void Comparing::addNotes() {
     }
 }
 
-QString Comparing::save(const QString& path, const log::OutputRules& rules) {
+void Comparing::save(const QString& path) {
     if (m_state.range == nullptr || m_state.range->segments.empty()) {
-        return tr("There are no differences to save yet.");
+        emit changed(tr("There are no differences to save yet."));
+        return;
     }
     m_savingTo = path;
     m_savingOf = m_shown.first.log;
-    m_saving = std::make_unique<ComparisonSaving>(m_shown, m_state.range->segments,
-                                                  QFile::encodeName(path).toStdString(), rules);
-    return {};
+    m_saving = std::make_unique<Background<std::string>>(
+        [order = m_shown, segments = m_state.range->segments, file = QFile::encodeName(path).toStdString()](
+            const auto& progress) { return writeDifferences(order, segments, file, progress); });
 }
 
-std::optional<QString> Comparing::takeSaved() {
-    if (m_saving == nullptr || !m_saving->isDone()) {
-        return std::nullopt;
+void Comparing::finishSaving() {
+    if (m_saving != nullptr && m_saving->isDone()) {
+        const QString problem = QString::fromStdString(m_saving->take());
+        m_saving.reset();
+        emit changed(problem.isEmpty() ? tr("Saved %1").arg(m_savingTo) : problem);
     }
-    const QString problem = QString::fromStdString(m_saving->take());
-    m_saving.reset();
-    return problem.isEmpty() ? tr("Saved %1").arg(m_savingTo) : problem;
 }
 
 } // namespace posewire::gui

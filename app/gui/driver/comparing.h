@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/gui/base/background.h"
+#include "app/gui/base/commands.h"
 #include "app/gui/base/comparison.h"
 #include "app/gui/driver/comparison_work.h"
 #include "app/gui/driver/opened_file.h"
 
-#include <QCoreApplication>
+#include <QObject>
 
 #include <memory>
 #include <optional>
@@ -14,37 +16,43 @@
 namespace posewire::gui {
 
 /// Compares what is shown with a second recording: keeps that at the same moment, and has a thread work out
-/// the range that figures are of. Neither ever waits for that thread, but where a log goes that it reads.
-class Comparing {
-    Q_DECLARE_TR_FUNCTIONS(Comparing)
+/// the range that figures are of. Neither ever waits for that thread, except if a log goes that it reads.
+class Comparing final : public QObject {
+    Q_OBJECT
 
 public:
-    explicit Comparing(const log::Clock& clock) : m_clock(clock) {}
+    /// Commands and clock must outlive it.
+    Comparing(Commands& commands, const log::Clock& clock, QString cacheFolder);
 
-    /// Begins to read the second recording, instead of one that is open.
-    void open(const QString& path, const std::shared_ptr<log::Scratch>& scratch);
+    /// Begins to read the second recording, instead of one that is open; changed() says how it went.
+    void open(const QString& path);
     void close();
-    /// Null where none is open.
+    /// Reads no further: what was read is compared.
+    void stopReading();
+    /// Null if none is open.
     [[nodiscard]] OpenedFile* file() const { return m_file.get(); }
+    [[nodiscard]] bool isReading() const { return m_file != nullptr && m_file->isReading(); }
 
     void choose(const ComparisonChoice& choice);
     /// Ends the work on the range until it is asked for again, or something else is chosen.
     void stop();
     void workAgain();
-    /// Nothing reads this log any more once it returns.
+    /// No thread reads this log any more once it returns.
     void endOf(const log::PacketLog& log);
 
-    /// One display tick, for about as long as `most`; true where there is something new to show.
-    bool follow(model::SessionView& shown, log::Duration most);
-    /// The second recording to the moment that is shown, before the next tick.
-    void showMoment(model::SessionView& shown);
+    /// One display tick, for about as long as `most`; true if there is something new to show.
+    bool follow(log::Duration most);
     [[nodiscard]] const ComparisonState& state() const { return m_state; }
 
-    /// Writes the differences of the range that was worked out last. The answer is why not, empty where it
-    /// begins; takeSaved() says how it went.
-    QString save(const QString& path, const log::OutputRules& rules);
-    /// A sentence for the operator, once it is done.
-    [[nodiscard]] std::optional<QString> takeSaved();
+    /// Writes the differences of the range that was worked out last; changed() says how it went.
+    void save(const QString& path);
+
+signals:
+    /// Another recording is compared, or it is in another way; `text` is what is to be said, empty for
+    /// nothing.
+    void changed(const QString& text = {});
+    /// The window asks which recording what is shown is to be compared with.
+    void askForRecording();
 
 private:
     /// What a result is of.
@@ -63,8 +71,11 @@ private:
         friend bool operator==(const Reach&, const Reach&) = default;
     };
 
+    void clear();
+    void finishSaving();
     void updatePair(model::SessionView& shown);
     [[nodiscard]] std::optional<exporting::CharacterPair> choosePair(model::SessionView& shown) const;
+    void endWork();
     void forgetResults();
     [[nodiscard]] bool takeResult();
     void beginWork(model::SessionView& shown);
@@ -76,7 +87,9 @@ private:
     [[nodiscard]] QString problemOf(model::SessionView& shown) const;
     void addNotes();
 
+    Commands& m_commands;
     const log::Clock& m_clock;
+    const QString m_cacheFolder;
     std::unique_ptr<OpenedFile> m_file;
     ComparisonState m_state;
     model::Selection m_pairSelection; ///< that the pair was chosen for, and when
@@ -95,9 +108,10 @@ private:
     log::Moment m_begun{};
     log::Moment m_nextWork{};
     // Last: their threads read the logs.
-    std::unique_ptr<ComparisonWork> m_work;
-    std::vector<std::unique_ptr<ComparisonWork>> m_ending;
-    std::unique_ptr<ComparisonSaving> m_saving;
+    using Work = Background<ComparisonOutcome>;
+    std::unique_ptr<Work> m_work;
+    std::vector<std::unique_ptr<Work>> m_ending;
+    std::unique_ptr<Background<std::string>> m_saving;
     QString m_savingTo;
     const log::PacketLog* m_savingOf = nullptr;
 };

@@ -36,8 +36,8 @@ private:
     log::RawPace::Nanoseconds m_time{};
 };
 
-/// Reads a file from its beginning to its end, or to where it is cut off or damaged: then the answer
-/// says so.
+/// Reads a file from its beginning to its end, or as far as it is not cut off or damaged: then the
+/// result says so.
 ImportResult visitFile(const QString& path, const log::FileVisitor& visit,
                        const log::IsCancelled& isCancelled, const log::NotesVisitor& visitNotes = {},
                        log::FileContents* contents = nullptr) {
@@ -128,7 +128,7 @@ void FileImport::run(const std::stop_token& stop, log::Stamp end) {
         m_path, taker, end, m_log.timeline(), [&stop] { return stop.stop_requested(); },
         [this](std::span<const std::string_view> notes) { keepNotes(notes); });
     keepStep(stop);
-    m_log.writer().publish(); // also where it was stopped
+    m_log.writer().publish(); // also if it was stopped
     if (m_past) {
         m_past->finish();
     }

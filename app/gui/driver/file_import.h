@@ -29,14 +29,14 @@ class Timeline;
 
 namespace posewire::gui {
 
-/// What was read well, but not to the end where it says why; or why nothing could be read. For the operator.
+/// Read well, with why it was not read to its end, if so; or why it could not be read. For the operator.
 using ImportResult = tl::expected<QString, QString>;
 using PacketTaker = std::function<void(const log::FileRecord& record, const log::SenderInfo& sender,
                                        const log::Arrival& arrival)>;
 
 /// Reads a file of datagrams, in the order of the file. Captures keep stamps and senders; a raw file has
 /// none: it is spaced as log::RawPace says so that its newest datagram is at `end`, and is its own sender.
-/// What the file says of its clock goes to `timeline`. Gives up once `isCancelled` says so.
+/// What the file says of its clock goes to `timeline`. Ends once `isCancelled` returns true.
 [[nodiscard]] ImportResult importRawFile(const QString& path, const PacketTaker& take, log::Stamp end,
                                          log::Timeline& timeline,
                                          const std::function<bool()>& isCancelled = {},
@@ -63,15 +63,15 @@ public:
     void follow(std::uint64_t position);
     /// How much of it is in the log, from 0 to 1.
     [[nodiscard]] double share() const;
-    /// What the file says of a packet, by its number; bytes as they are there, clipped.
+    /// Of a packet of the file, by its number; its bytes as they are there, clipped.
     using Comment = std::pair<std::uint64_t, std::string>;
     /// Those that were read since this was asked last; of a file that has too many the first ones.
     [[nodiscard]] std::vector<Comment> takeComments();
-    /// What was marked while the file was recorded, as it says up to where it was read.
+    /// Packets that were marked while the file was recorded, as far as it was read.
     [[nodiscard]] std::vector<log::RecordedMark> marks() const;
-    /// How long it was recorded after its last packet, where it says so and was read to its end.
+    /// Time of recording after its last packet, if the file has it and was read to its end.
     [[nodiscard]] log::Duration afterLast() const;
-    /// Once everything is in the log, or nothing more comes.
+    /// Once all of it is in the log, or no more comes.
     [[nodiscard]] std::optional<ImportResult> result() const;
 
 private:
@@ -92,7 +92,7 @@ private:
     mutable std::mutex m_mutex;            ///< guards the members below
     std::condition_variable_any m_moved;
     std::uint64_t m_followed = 0;
-    std::vector<Comment> m_comments; ///< that nobody has taken
+    std::vector<Comment> m_comments; ///< not taken yet
     std::vector<log::RecordedMark> m_marks;
     log::Duration m_afterLast{};
     std::optional<ImportResult> m_result;

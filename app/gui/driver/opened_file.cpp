@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/driver/opened_file.h"
 
+#include <QFile>
 #include <QFileInfo>
 
 #include <utility>
@@ -11,15 +12,20 @@ namespace {
 /// At once, so that the time that was given is kept to.
 constexpr std::size_t kPacketsInTurn = 1'000;
 
-/// Of a file that is read again where it is wanted.
+/// Of a file that is read again when it is wanted.
 constexpr std::size_t kMemoryCap = std::size_t{64} << 20;
+
+log::LogLimits limitsOf(const log::Scratch& scratch) {
+    return scratch.hasFile() ? log::LogLimits{.memoryCap = kMemoryCap} : log::LogLimits{};
+}
 
 } // namespace
 
-OpenedFile::OpenedFile(const log::Clock& clock, QString path, const std::shared_ptr<log::Scratch>& scratch)
+OpenedFile::OpenedFile(const log::Clock& clock, QString path, const QString& cacheFolder)
     : m_clock(clock),
       m_path(std::move(path)),
-      m_log(scratch->hasFile() ? log::LogLimits{.memoryCap = kMemoryCap} : log::LogLimits{}, scratch),
+      m_scratch(log::scratchOfFile(QFile::encodeName(cacheFolder).toStdString())),
+      m_log(limitsOf(*m_scratch), m_scratch),
       m_import(std::make_unique<FileImport>(m_log, m_path, m_log.timeline().now(clock))) {}
 
 QString OpenedFile::name() const {

@@ -16,15 +16,15 @@
 
 namespace posewire::gui {
 
-/// A file that was opened: a session of its own, so that nothing of it touches what is received. It is shown
-/// as it was then, stopped at its newest packet. Its packets are read from the file where they are wanted; in
+/// A file that was opened: a session of its own, so that it touches none of what is received. It is shown as
+/// it was then, stopped at its newest packet. Its packets are read from the file when they are wanted; in
 /// memory are only the newest that were read, unless there is no room for a scratch file.
 class OpenedFile {
     Q_DECLARE_TR_FUNCTIONS(OpenedFile)
 
 public:
-    /// Begins to read. The clock outlives this.
-    OpenedFile(const log::Clock& clock, QString path, const std::shared_ptr<log::Scratch>& scratch);
+    /// Begins to read. The clock outlives this. `cacheFolder`: for its scratch file; in memory without one.
+    OpenedFile(const log::Clock& clock, QString path, const QString& cacheFolder);
 
     [[nodiscard]] model::Session& session() { return m_session; }
     [[nodiscard]] const QString& path() const { return m_path; }
@@ -38,12 +38,12 @@ public:
     bool follow(log::Duration most);
     /// Reads no further: what was read is there.
     void stop();
-    /// Why nothing could be read; empty while there is no such reason.
+    /// Why it could not be read; empty if it could, or is being read.
     [[nodiscard]] const QString& failure() const { return m_failure; }
 
     /// On all of it that was read.
     [[nodiscard]] const model::TakeVerdict& verdict();
-    /// What the operator must know for as long as the file is shown: that it is cut off, was not read to its
+    /// For the operator to know for as long as the file is shown: that it is cut off, was not read to its
     /// end, or does not fit into memory. A line each.
     [[nodiscard]] QStringList notes() const;
 
@@ -58,12 +58,13 @@ private:
     const log::Clock& m_clock;
     const QString m_path;
     const KeptFromSaving m_kept{m_path};
+    const std::shared_ptr<log::Scratch> m_scratch;
     log::PacketLog m_log;
     model::Session m_session{m_log};
     model::TakeVerdict m_verdict;
     std::uint64_t m_verdictEnd = 0; ///< packets that it is on
     QString m_failure;
-    QString m_ending;                     ///< where it ends too early, or was stopped
+    QString m_ending;                     ///< if it ends too early, or was stopped
     std::unique_ptr<FileImport> m_import; ///< null once it was read; last: it writes the log
 };
 

@@ -20,6 +20,7 @@ void HealthMeter::add(const Reading& reading) {
     m_health.memoryBytes = reading.memoryBytes;
     const log::Duration follow = std::exchange(m_follow, {});
     const std::uint64_t followed = std::exchange(m_followed, 0);
+    const std::uint64_t pictures = m_pictures - std::exchange(m_picturesBefore, m_pictures);
     if (followed != 0) {
         m_health.followUsPerPacket =
             static_cast<double>(follow.count()) * 1e-3 / static_cast<double>(followed);
@@ -31,7 +32,7 @@ void HealthMeter::add(const Reading& reading) {
     m_health.receiverShare = shareOf(before->receiverCpuS, reading.receiverCpuS, seconds);
     m_health.processShare = shareOf(before->processCpuS, reading.processCpuS, seconds);
     m_health.followShare = log::secondsOf(follow) / seconds;
-    m_health.framesPerSecond = static_cast<double>(reading.frames - before->frames) / seconds;
+    m_health.framesPerSecond = static_cast<double>(pictures) / seconds;
 }
 
 } // namespace posewire::gui

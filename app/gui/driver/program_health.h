@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/base/program_view.h"
+#include "app/gui/base/program_state.h"
 #include "core/log/time.h"
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 
 namespace posewire::gui {
 
@@ -21,7 +22,6 @@ public:
         std::optional<double> processCpuS{};
         std::optional<double> bufferFill{};
         std::optional<std::uint64_t> memoryBytes{};
-        std::uint64_t frames = 0;
     };
 
     /// Time that the session took to follow a number of packets.
@@ -30,7 +30,18 @@ public:
         m_followed += packets;
     }
 
-    /// Whether it is time for another reading.
+    /// Pictures shown since the start, and how they are drawn now.
+    void setPictures(std::uint64_t shown, PictureHealth health) {
+        m_pictures = shown;
+        m_health.picture = std::move(health);
+    }
+    /// What the bodies in the viewport take, and can become.
+    void setMeshMemory(std::size_t bytes, std::size_t most) {
+        m_health.meshBytes = bytes;
+        m_health.mostMeshBytes = most;
+    }
+
+    /// It is time for another reading.
     [[nodiscard]] bool isDue(log::Moment monotonic) const {
         return !m_before || monotonic - m_before->monotonic >= kPeriod;
     }
@@ -42,6 +53,8 @@ private:
     std::optional<Reading> m_before;
     log::Duration m_follow{};
     std::uint64_t m_followed = 0;
+    std::uint64_t m_pictures = 0;
+    std::uint64_t m_picturesBefore = 0;
     MonitorHealth m_health;
 };
 

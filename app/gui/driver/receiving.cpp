@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/driver/receiving.h"
 
+#include "app/gui/base/background.h"
 #include "app/gui/base/logging.h"
 #include "app/gui/base/saving.h"
 #include "core/wire/header.h"
@@ -34,7 +35,7 @@ net::UdpInput udpOf(const InputAddress& port) {
     return input;
 }
 
-/// Whether one keeps the other from being opened.
+/// One keeps the other from being opened.
 bool useTheSame(const InputAddress& a, const InputAddress& b) {
     const bool isWide = a.address.isEmpty() || b.address.isEmpty();
     return a.kind == b.kind && a.port == b.port &&
@@ -107,7 +108,7 @@ bool Receiving::removePort(const InputAddress& port) {
     qCInfo(inputsLog).noquote() << displayText(port) << "is closed";
     if (known->id) {
         m_receiver.remove(*known->id);
-        m_portTotals.erase(*known->id);
+        m_portRates.erase(*known->id);
     }
     m_state.ports.erase(known);
     return true;
@@ -134,7 +135,7 @@ void Receiving::open(PortState& state) {
     if (id) {
         state.id = *id;
         readStatus();
-        state.port.port = state.status.endpoint.port; // where the system was to choose one
+        state.port.port = state.status.endpoint.port; // if the system was to choose one
         qCInfo(inputsLog).noquote() << displayText(state.port) << "is open";
     }
 }
@@ -143,7 +144,7 @@ void Receiving::readStatus() {
     for (net::InputStatus& status : m_receiver.inputs()) {
         const auto state = std::ranges::find(m_state.ports, std::optional(status.id), &PortState::id);
         if (state != m_state.ports.end()) {
-            // A group that is joined in some places only is no reason to hear nothing: inputState() says it.
+            // Packets come also if a group is joined on some interfaces only: inputState() says it.
             const bool isConnection = state->port.kind == Kind::TcpConnection;
             state->problem = isConnection ? QString::fromStdString(status.problem) : QString();
             state->status = std::move(status);
@@ -212,11 +213,8 @@ void Receiving::listenTo(const QStringList& allowed) {
 }
 
 void Receiving::takeAllowed() {
-    const auto isReady = [](const auto& answer) {
-        return answer.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
-    };
-    std::erase_if(m_abandoned, isReady);
-    if (!m_lookUp.valid() || !isReady(m_lookUp)) {
+    std::erase_if(m_abandoned, [](const auto& answer) { return isReady(answer); });
+    if (!isReady(m_lookUp)) {
         return;
     }
     if (const auto list = m_lookUp.get()) {
@@ -234,39 +232,30 @@ void Receiving::measure(log::Stamp now) {
     m_state.refusedDatagrams = figures.refusedDatagrams;
     m_state.receiveBufferBytes = figures.receiveBufferBytes;
     m_state.longestDelay = figures.longestDelay;
-    const Totals totals{now, figures.datagrams, figures.bytes};
-    const Totals& before = oldest(m_totals, totals);
-    const double seconds = log::secondsOf(now - before.stamp);
-    if (seconds > 0) {
-        m_state.datagramsPerSecond = static_cast<double>(totals.datagrams - before.datagrams) / seconds;
-        m_state.bytesPerSecond = static_cast<double>(totals.bytes - before.bytes) / seconds;
+    const Rates all = m_rates.add(now, figures.datagrams, figures.bytes);
+    m_state.datagramsPerSecond = all.datagrams;
+    m_state.bytesPerSecond = all.bytes;
+    for (PortState& port : m_state.ports) {
+        const net::InputStatus& status = port.status;
+        port.datagramsPerSecond =
+            port.id ? m_portRates[*port.id].add(now, status.datagrams, status.bytes).datagrams : 0;
     }
-    measurePorts(now);
     m_relaying.measure(openInputs());
     m_state.relays = m_relaying.states();
 }
 
-const Receiving::Totals& Receiving::oldest(Window& window, const Totals& totals) {
-    window.push_back(totals);
-    while (window.size() > 2 && window[1].stamp <= totals.stamp - kRateWindow) {
-        window.pop_front();
+Receiving::Rates Receiving::RateMeter::add(log::Stamp now, std::uint64_t datagrams, std::uint64_t bytes) {
+    m_totals.push_back({now, datagrams, bytes});
+    while (m_totals.size() > 2 && m_totals[1].stamp <= now - kRateWindow) {
+        m_totals.pop_front();
     }
-    return window.front();
-}
-
-void Receiving::measurePorts(log::Stamp now) {
-    for (PortState& state : m_state.ports) {
-        if (!state.id) {
-            state.datagramsPerSecond = 0;
-            continue;
-        }
-        const Totals totals{now, state.status.datagrams, state.status.bytes};
-        const Totals& before = oldest(m_portTotals[*state.id], totals);
-        const double seconds = log::secondsOf(now - before.stamp);
-        if (seconds > 0) {
-            state.datagramsPerSecond = static_cast<double>(totals.datagrams - before.datagrams) / seconds;
-        }
+    const Totals& before = m_totals.front();
+    const double seconds = log::secondsOf(now - before.stamp);
+    if (seconds > 0) {
+        m_rates = {static_cast<double>(datagrams - before.datagrams) / seconds,
+                   static_cast<double>(bytes - before.bytes) / seconds};
     }
+    return m_rates;
 }
 
 std::vector<net::InputStatus> Receiving::openInputs() const {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/base/program_view.h"
+#include "app/gui/base/program_state.h"
 #include "app/gui/driver/relaying.h"
 #include "app/net/allow_list.h"
 #include "app/net/receiver.h"
@@ -20,8 +20,8 @@
 
 namespace posewire::gui {
 
-/// Everything that the window lets into the log: the receiver with its inputs, and files; and why nothing
-/// comes.
+/// Everything that the window lets into the log: the receiver with its inputs, and files; and why no
+/// packet comes.
 class Receiving {
 public:
     Receiving(log::PacketLog& log, const log::Clock& clock)
@@ -30,19 +30,19 @@ public:
     /// Listens or connects to one more; what is wrong with it is in state(), and it is tried again by
     /// retry().
     void addPort(const InputAddress& port);
-    /// In that row, where it was before.
+    /// In the row that it was in before.
     void addPort(const InputAddress& port, std::size_t row);
 
-    /// The same for what an operator enters: kept only where it can be opened. The answer is what went wrong,
-    /// empty for nothing.
+    /// The same for what an operator enters: kept only if it can be opened. Returns what went wrong, else
+    /// empty.
     [[nodiscard]] QString tryPort(const InputAddress& port);
     /// Puts one in the place of another, or leaves that and says why.
     [[nodiscard]] QString changePort(const InputAddress& from, const InputAddress& to);
 
-    /// False where it was not there.
+    /// False if it was not there.
     bool removePort(const InputAddress& port);
 
-    /// Opens every port that should be open and is not, where that has become possible; to be called now and
+    /// Opens every port that should be open and is not, if that has become possible; to be called now and
     /// then.
     void retry();
 
@@ -58,7 +58,7 @@ public:
     void examine(const model::SessionView& session, log::Stamp now);
     [[nodiscard]] const ReceivingState& state() const { return m_state; }
 
-    /// The first UDP port that is open; 0 where none is.
+    /// The first UDP port that is open; 0 if none is.
     [[nodiscard]] std::uint16_t openPort() const { return openPlace().port; }
     /// The same with an address at which this computer reaches it; of none the port is 0.
     [[nodiscard]] net::Endpoint openPlace() const;
@@ -66,31 +66,40 @@ public:
     [[nodiscard]] net::Receiver& receiver() { return m_receiver; }
     [[nodiscard]] Relaying& relaying() { return m_relaying; }
 
-    /// What is open and forwarded to now.
+    /// Inputs that are open and targets that are forwarded to now.
     [[nodiscard]] InputChoices choices() const;
 
 private:
-    struct Totals {
-        log::Stamp stamp;
-        std::uint64_t datagrams;
-        std::uint64_t bytes;
+    struct Rates {
+        double datagrams = 0; ///< a second
+        double bytes = 0;
     };
-    using Window = std::deque<Totals>;
+    /// Over the last second.
+    class RateMeter {
+    public:
+        Rates add(log::Stamp now, std::uint64_t datagrams, std::uint64_t bytes);
+
+    private:
+        struct Totals {
+            log::Stamp stamp;
+            std::uint64_t datagrams;
+            std::uint64_t bytes;
+        };
+        std::deque<Totals> m_totals;
+        Rates m_rates;
+    };
 
     void takeAllowed();
     void open(PortState& state);
     void readStatus();
-    void measurePorts(log::Stamp now);
     [[nodiscard]] std::vector<net::InputStatus> openInputs() const;
-    /// The oldest of a window of one second that ends with `totals`.
-    static const Totals& oldest(Window& window, const Totals& totals);
 
     const log::Clock& m_clock;
     ReceivingState m_state;
     net::Receiver m_receiver;
     Relaying m_relaying;
-    Window m_totals;
-    std::map<net::InputId, Window> m_portTotals;
+    RateMeter m_rates;
+    std::map<net::InputId, RateMeter> m_portRates;
     std::vector<net::InputId> m_open; ///< the inputs at the last examine()
     log::Stamp m_opened{};            ///< when they became these
     std::optional<net::Firewall> m_firewall;

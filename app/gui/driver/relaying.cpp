@@ -1,18 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/driver/relaying.h"
 
+#include "app/gui/base/background.h"
+
 #include <algorithm>
-#include <chrono>
 
 namespace posewire::gui {
-
-namespace {
-
-bool isReady(const std::future<net::NetResult<net::RelayId>>& answer) {
-    return answer.valid() && answer.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
-}
-
-} // namespace
 
 bool Relaying::add(const RelayChoice& choice, std::size_t row) {
     const auto isSame = [&](const RelayState& state) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/base/program_view.h"
+#include "app/gui/base/program_state.h"
 #include "app/net/relay.h"
 
 #include <future>
@@ -19,9 +19,9 @@ public:
     /// Both must outlive it.
     Relaying(const log::PacketLog& log, const log::Clock& clock) : m_log(log), m_clock(clock) {}
 
-    /// False where that host and port are there already.
+    /// False if that host and port are there already.
     bool add(const RelayChoice& choice) { return add(choice, m_states.size()); }
-    /// In that row, where it was before.
+    /// In the row that it was in before.
     bool add(const RelayChoice& choice, std::size_t row);
     void remove(std::size_t row);
     void setOn(std::size_t row, bool isOn);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/driver/replaying.h"
 
+#include "app/gui/base/background.h"
+
 #include <algorithm>
-#include <chrono>
 #include <utility>
 
 namespace posewire::gui {
@@ -28,9 +29,7 @@ QString Replaying::start(const ReplayRequest& request, const model::SessionView&
 }
 
 void Replaying::stop() {
-    std::erase_if(m_ending, [](const Ending& one) {
-        return one.end.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
-    });
+    std::erase_if(m_ending, [](const Ending& one) { return isReady(one.end); });
     if (m_replay != nullptr) { // a connection may take seconds to be given up
         m_ending.push_back({m_log, std::async(std::launch::async,
                                               [last = std::move(m_replay)]() mutable { last.reset(); })});

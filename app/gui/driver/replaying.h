@@ -14,7 +14,7 @@
 
 namespace posewire::gui {
 
-/// What the operator wants to be sent again.
+/// Packets that the operator wants to be sent again.
 struct ReplayRequest {
     net::SendTarget target;
     double speed = 1;
@@ -30,10 +30,10 @@ class Replaying {
 public:
     explicit Replaying(const log::Clock& clock) : m_clock(clock) {}
 
-    /// Ends the one before. The answer is why it cannot begin, empty where it does.
+    /// Ends the one before. Returns why it cannot begin; empty if it does.
     QString start(const ReplayRequest& request, const model::SessionView& view);
     void stop();
-    /// Ends what is sent of a log that is about to go, and waits until nothing reads it any more.
+    /// Ends what is sent of a log that is about to go, and waits until it is not read any more.
     void endOf(const log::PacketLog& log);
 
     /// Null before the first, and after one was stopped.

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/driver/takes.h"
 
+#include "app/gui/base/background.h"
 #include "app/gui/base/logging.h"
-#include "core/log/pcapng_writer.h"
+#include "app/gui/driver/history.h"
 #include "core/model/session/listed_incidents.h"
 
 #include <QCoreApplication>
@@ -36,41 +37,60 @@ Takes::~Takes() {
     m_ending.clear(); // waits for each
 }
 
-QString Takes::start(const RecordingChoice& choice, const model::SessionView& live) {
+QString Takes::toggle(const RecordingChoice& choice) {
+    QString problem;
+    if (isRecording()) {
+        stop();
+    } else {
+        problem = start(choice);
+    }
+    emit changed({});
+    return problem;
+}
+
+void Takes::follow(log::Stamp now) {
+    keepMarks();
+    const std::string problem = takeProblem();
+    if (problem.empty()) {
+        return;
+    }
+    model::Occurrence one = model::Occurrence::at(model::IncidentKind::RecordingEnded, log::kNoSender, now,
+                                                  m_live.end() == 0 ? 0 : m_live.end() - 1);
+    one.detail = "The recording has ended: " + problem + '.';
+    m_live.report(one);
+    emit changed(QString::fromStdString(one.detail));
+}
+
+QString Takes::start(const RecordingChoice& choice) {
     const QString folder = recordingFolder(choice);
     if (!QDir().mkpath(folder)) {
         return tr("%1 cannot be made: choose another folder under Recording options.").arg(folder);
     }
-    m_begin = live.now();
+    const log::Stamp begin = m_live.now();
     const log::Duration preRoll = std::chrono::seconds(choice.preRollSeconds);
-    m_from = choice.preRollSeconds == 0 ? live.end() : live.packetFrom(m_begin - preRoll);
-    const auto first = live.packet(m_from);
-    m_fromStamp = first ? first->stamp : m_begin;
+    m_from = choice.preRollSeconds == 0 ? m_live.end() : m_live.packetFrom(begin - preRoll);
+    const auto first = m_live.packet(m_from);
+    m_fromStamp = first ? first->stamp : begin;
     m_path = nextTakePath(choice, QDateTime::currentDateTime());
     const log::RecordingLimits limits{static_cast<std::uint64_t>(choice.fileMegabytes) * 1'000'000,
                                       std::chrono::minutes(choice.fileMinutes),
                                       static_cast<std::uint64_t>(choice.freeMegabytes) * 1'000'000};
-    const QString application =
-        QCoreApplication::applicationName() + u' ' + QCoreApplication::applicationVersion();
-    auto recording = log::Recording::start(m_log, QFile::encodeName(m_path).toStdString(),
-                                           {{}, {}, application.toStdString()}, {}, m_from, limits);
+    auto recording = log::Recording::start(m_log, QFile::encodeName(m_path).toStdString(), writtenByUs(), {},
+                                           m_from, limits);
     if (!recording) {
         return QString::fromStdString(recording.error().text);
     }
     m_recording = std::move(*recording);
     m_annotations = {};
-    keepMarks(live);
+    keepMarks();
     qCInfo(filesLog).noquote() << "recording to" << m_path << "from packet" << m_from;
     return {};
 }
 
-void Takes::stop(const model::SessionView& live) {
-    if (m_recording == nullptr) {
-        return;
-    }
+void Takes::stop() {
     qCInfo(filesLog).noquote() << "recorded" << m_path;
-    keepMarks(live);
-    std::vector<std::string> notes = notesOf(live);
+    keepMarks();
+    std::vector<std::string> notes = notesAtEnd();
     m_ending.push_back(std::async(std::launch::async, [recording = std::shared_ptr(std::move(m_recording)),
                                                        notes = std::move(notes)]() mutable {
         const auto stopped = recording->stop(std::move(notes));
@@ -78,11 +98,11 @@ void Takes::stop(const model::SessionView& live) {
     }));
 }
 
-std::optional<TakeState> Takes::state(const model::SessionView& live) const {
+std::optional<TakeState> Takes::state() const {
     if (m_recording == nullptr) {
         return std::nullopt;
     }
-    return TakeState{m_path, log::secondsOf(live.now() - m_fromStamp), m_recording->figures()};
+    return TakeState{m_path, log::secondsOf(m_live.now() - m_fromStamp), m_recording->figures()};
 }
 
 std::string Takes::takeProblem() {
@@ -94,7 +114,7 @@ std::string Takes::takeProblem() {
         }
     }
     std::erase_if(m_ending, [&](std::future<std::string>& ending) {
-        const bool isOver = ending.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+        const bool isOver = isReady(ending);
         if (const std::string text = isOver ? ending.get() : std::string(); !text.empty()) {
             problem = text;
         }
@@ -103,30 +123,30 @@ std::string Takes::takeProblem() {
     return problem;
 }
 
-void Takes::keepMarks(const model::SessionView& live) {
-    if (m_recording == nullptr || live.annotations() == m_annotations) {
+void Takes::keepMarks() {
+    if (m_recording == nullptr || m_live.annotations() == m_annotations) {
         return;
     }
-    m_annotations = live.annotations();
+    m_annotations = m_live.annotations();
     std::vector<log::RecordedMark> marks;
     const auto& comments = m_annotations.comments;
     for (auto mark = m_annotations.marks.lower_bound(m_from); mark != m_annotations.marks.end(); ++mark) {
         if (!comments.contains(*mark)) {
-            marks.push_back(markOn(live, *mark, {}));
+            marks.push_back(markOn(m_live, *mark, {}));
         }
     }
     for (auto comment = comments.lower_bound(m_from); comment != comments.end(); ++comment) {
-        marks.push_back(markOn(live, comment->first, comment->second));
+        marks.push_back(markOn(m_live, comment->first, comment->second));
     }
     marks.resize(std::min(marks.size(), kMostNotes));
     m_recording->setMarks(std::move(marks));
 }
 
-std::vector<std::string> Takes::notesOf(const model::SessionView& live) const {
-    std::vector<std::string> notes{log::receptionText(reception(live))};
-    for (const model::ListedIncident& listed : model::listedIncidents(live, m_fromStamp)) {
+std::vector<std::string> Takes::notesAtEnd() const {
+    std::vector<std::string> notes{log::receptionText(reception())};
+    for (const model::ListedIncident& listed : model::listedIncidents(m_live, m_fromStamp)) {
         if (listed.incident.lastStamp >= m_fromStamp && !model::isOnlyComing(listed)) {
-            notes.push_back(headlineOf(live, listed) + whenOf(live, listed));
+            notes.push_back(headlineOf(m_live, listed) + whenOf(m_live, listed));
         }
     }
     notes.resize(std::min(notes.size(), kMostNotes));
@@ -134,12 +154,12 @@ std::vector<std::string> Takes::notesOf(const model::SessionView& live) const {
 }
 
 /// Of its newest file.
-log::Reception Takes::reception(const model::SessionView& live) const {
-    const auto first = live.packet(m_recording->figures().fileBegin);
-    const auto last = live.end() == 0 ? std::nullopt : live.packet(live.end() - 1);
+log::Reception Takes::reception() const {
+    const auto first = m_live.packet(m_recording->figures().fileBegin);
+    const auto last = m_live.end() == 0 ? std::nullopt : m_live.packet(m_live.end() - 1);
     log::Reception reception;
-    reception.time = live.now() - (first ? first->stamp : m_fromStamp);
-    reception.afterLast = last ? live.now() - last->stamp : reception.time;
+    reception.time = m_live.now() - (first ? first->stamp : m_fromStamp);
+    reception.afterLast = last ? m_live.now() - last->stamp : reception.time;
     reception.time = std::max(reception.time, log::Duration());
     reception.afterLast = std::clamp(reception.afterLast, log::Duration(), reception.time);
     return reception;

@@ -3,9 +3,9 @@
 
 #include "app/gui/base/recording_choice.h"
 #include "core/log/recording.h"
-#include "core/model/session/session_view.h"
+#include "core/model/session/session.h"
 
-#include <QCoreApplication>
+#include <QObject>
 #include <QString>
 
 #include <future>
@@ -23,44 +23,48 @@ struct TakeState {
     log::RecordingFigures figures;
 };
 
-/// Records what is received, one take after the other: each written from the log by a thread of its own, so
-/// that neither receiving nor the window waits for the disk.
-class Takes {
-    Q_DECLARE_TR_FUNCTIONS(Takes)
+/// Records what is received, whatever is shown, one take after the other: each written from the log by a
+/// thread of its own, so that neither receiving nor the window waits for the disk.
+class Takes final : public QObject {
+    Q_OBJECT
 
 public:
-    explicit Takes(const log::PacketLog& log) : m_log(log) {}
+    /// Both must outlive it.
+    Takes(const log::PacketLog& log, model::Session& live) : m_log(log), m_live(live) {}
     /// Waits until everything is in its file.
-    ~Takes();
-    Takes(const Takes&) = delete;
-    Takes& operator=(const Takes&) = delete;
+    ~Takes() override;
 
-    /// Begins a take with what the pre-roll wants of the past. The answer is why it cannot, empty where it
-    /// does.
-    QString start(const RecordingChoice& choice, const model::SessionView& live);
-    /// Has the marks and comments of the take as they are now noted in its file, without waiting for it.
-    void keepMarks(const model::SessionView& live);
-    /// Ends it, with notes of how it was received and of the incidents of its time.
-    void stop(const model::SessionView& live);
+    /// Begins a take with what the pre-roll wants of the past, or ends it. Returns why it cannot begin; empty
+    /// if it does.
+    QString toggle(const RecordingChoice& choice);
     [[nodiscard]] bool isRecording() const { return m_recording != nullptr; }
-    [[nodiscard]] std::optional<TakeState> state(const model::SessionView& live) const;
+    [[nodiscard]] std::optional<TakeState> state() const;
 
-    /// Why a take has ended by itself, or could not be ended well, since this was asked last; empty where all
-    /// is well.
-    [[nodiscard]] std::string takeProblem();
+    /// Has the marks and comments of the take as they are now noted in its file. A take that ended by itself
+    /// is an incident of this computer.
+    void follow(log::Stamp now);
+
+signals:
+    /// A take began or ended; `problem` is why it ended by itself, else empty.
+    void changed(const QString& problem);
 
 private:
-    /// How it was received, and the incidents of its time.
-    [[nodiscard]] std::vector<std::string> notesOf(const model::SessionView& live) const;
-    [[nodiscard]] log::Reception reception(const model::SessionView& live) const;
+    QString start(const RecordingChoice& choice);
+    /// Ends it, with notes of how it was received and of the incidents of its time.
+    void stop();
+    void keepMarks();
+    /// Why a take has ended by itself, or could not be ended well, since this was asked last; else empty.
+    [[nodiscard]] std::string takeProblem();
+    [[nodiscard]] std::vector<std::string> notesAtEnd() const;
+    [[nodiscard]] log::Reception reception() const;
 
     const log::PacketLog& m_log;
+    model::Session& m_live;
     std::unique_ptr<log::Recording> m_recording; ///< null while none runs
     QString m_path;
     std::uint64_t m_from = 0;         ///< the first packet
     model::Annotations m_annotations; ///< as they are noted
     log::Stamp m_fromStamp{};
-    log::Stamp m_begin{};                           ///< when it was started
     std::vector<std::future<std::string>> m_ending; ///< with what went wrong
 };
 

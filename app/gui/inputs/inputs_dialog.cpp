@@ -2,6 +2,7 @@
 #include "app/gui/inputs/inputs_dialog.h"
 
 #include "app/gui/base/help_topics.h"
+#include "app/gui/base/saving.h"
 #include "app/gui/inputs/inputs_page.h"
 #include "app/gui/inputs/relay_page.h"
 #include "app/gui/models/text.h"
@@ -11,10 +12,8 @@
 #include "app/gui/theme/widgets.h"
 #include "app/gui/theme/words.h"
 
-#include <QClipboard>
 #include <QDialogButtonBox>
 #include <QGridLayout>
-#include <QGuiApplication>
 #include <QLabel>
 #include <QPainter>
 #include <QPushButton>
@@ -196,7 +195,7 @@ public:
         column->addLayout(row);
         column->addWidget(area, 1);
         connect(copy, &QPushButton::clicked, this,
-                [this] { QGuiApplication::clipboard()->setText(m_shown); });
+                [this] { copyText(m_shown); });
     }
 
     void refresh(const ReceivingState& receiving) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/inputs/inputs_page.h"
 
+#include "app/gui/base/saving.h"
 #include "app/gui/inputs/undo_removal.h"
 #include "app/gui/models/text.h"
 #include "app/gui/panels/table_view.h"
@@ -9,9 +10,7 @@
 #include "app/gui/theme/widgets.h"
 #include "app/gui/theme/words.h"
 
-#include <QClipboard>
 #include <QGridLayout>
-#include <QGuiApplication>
 #include <QHBoxLayout>
 #include <QItemSelectionModel>
 #include <QKeyEvent>
@@ -120,7 +119,7 @@ private:
         m_grid->addWidget(widgets.copy, row, 2);
         m_grid->addWidget(widgets.interface, row, 3);
         connect(widgets.copy, &QToolButton::clicked, this,
-                [host = widgets.host] { QGuiApplication::clipboard()->setText(host->text()); });
+                [host = widgets.host] { copyText(host->text()); });
         m_rows.push_back(widgets);
     }
 
@@ -179,8 +178,6 @@ InputsPage::InputsPage(Receiving& receiving, QWidget* parent)
     setFocusProxy(m_table);
     connect(m_table->selectionModel(), &QItemSelectionModel::currentChanged, this, &InputsPage::showChoice);
     connect(m_table, &QAbstractItemView::activated, this, &InputsPage::editSelected);
-    connect(m_table, &TableView::copyRequested, this,
-            [](const QString& text) { QGuiApplication::clipboard()->setText(text); });
     connect(m_edit, &QPushButton::clicked, this, &InputsPage::editSelected);
     connect(m_remove, &QPushButton::clicked, this, &InputsPage::removeSelected);
     connect(m_openFile, &QPushButton::clicked, this, &InputsPage::openFileRequested);

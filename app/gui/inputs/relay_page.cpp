@@ -6,8 +6,6 @@
 #include "app/gui/theme/event_watch.h"
 #include "app/gui/theme/widgets.h"
 
-#include <QClipboard>
-#include <QGuiApplication>
 #include <QHBoxLayout>
 #include <QHostAddress>
 #include <QItemSelectionModel>
@@ -71,8 +69,6 @@ RelayPage::RelayPage(Relaying& relaying, QWidget* parent)
     layOut();
     setFocusProxy(m_target);
     connect(m_model, &RelayModel::switched, this, &RelayPage::switchTarget, Qt::QueuedConnection);
-    connect(m_table, &TableView::copyRequested, this,
-            [](const QString& text) { QGuiApplication::clipboard()->setText(text); });
     connect(m_add, &QPushButton::clicked, this, &RelayPage::submit);
     connect(m_remove, &QPushButton::clicked, this, &RelayPage::removeSelected);
     connect(m_target, &QLineEdit::textChanged, this, [this] { setProblem({}); });

@@ -67,6 +67,24 @@ QString comparisonText(const ComparisonState& state) {
     return offset.isEmpty() ? text : text + QStringLiteral(", ") + offset;
 }
 
+QStringList comparedText(const ComparisonState& state) {
+    QStringList parts;
+    if (!state.atCursor && state.alignment) {
+        parts += tr("No partner at this moment");
+    }
+    if (state.range != nullptr) {
+        parts += tr("%1 pairs").arg(grouped(state.range->pairs));
+        const auto add = [&parts](std::uint64_t count, const QString& text) {
+            parts += count != 0 ? QStringList(text.arg(grouped(count))) : QStringList();
+        };
+        add(state.range->alone, tr("%1 without a partner"));
+        add(state.range->outside, tr("%1 outside the common time"));
+        add(state.range->apart, tr("%1 without a common segment"));
+        add(state.range->passedOver, tr("%1 packets not looked at in time"));
+    }
+    return parts + state.notes;
+}
+
 QColor DifferenceScale::colourOf(double millimetres) const {
     const double share = std::clamp(millimetres / full, 0.0, 1.0);
     const Theme& colours = theme();

@@ -19,6 +19,9 @@ namespace posewire::gui {
 /// "compared with take-2.pcapng by time code, +12.5 ms"; empty where nothing is compared.
 [[nodiscard]] QString comparisonText(const ComparisonState& state);
 
+/// How much of the range was compared, and what the operator must know of that; a few words each.
+[[nodiscard]] QStringList comparedText(const ComparisonState& state);
+
 /// How differences are coloured, in the viewport and in tables: from good over warning to error.
 struct DifferenceScale {
     double full = 10; ///< mm, from here on it is an error's colour

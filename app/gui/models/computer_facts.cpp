@@ -28,7 +28,8 @@ constexpr log::Duration kLongDelay = std::chrono::milliseconds(100);
 
 struct Source {
     model::SessionView& view;
-    const ProgramView& program;
+    const ReceivingState& receiving;
+    const MonitorHealth& monitor;
 };
 
 QString percent(const std::optional<double>& share, int decimals = 0) {
@@ -90,7 +91,7 @@ PropertyValue longestGap(const Source& from) {
 }
 
 PropertyValue computer(const Source& from) {
-    const MonitorHealth health = from.program.monitorHealth();
+    const MonitorHealth& health = from.monitor;
     const std::uint64_t dropped = from.view.allSenders().kernelDrops;
     Health state = health.bufferFill.value_or(0) >= kFullBuffer ? Health::Warning : Health::Good;
     if (dropped != 0) {
@@ -104,7 +105,7 @@ PropertyValue computer(const Source& from) {
 }
 
 PropertyValue picture(const Source& from) {
-    const MonitorHealth health = from.program.monitorHealth();
+    const MonitorHealth& health = from.monitor;
     if (health.picture.state.isEmpty()) {
         return {dash(), Health::Unknown, tr("How the pictures of the viewport are drawn")};
     }
@@ -112,14 +113,14 @@ PropertyValue picture(const Source& from) {
 }
 
 PropertyValue processor(const Source& from) {
-    const MonitorHealth health = from.program.monitorHealth();
+    const MonitorHealth& health = from.monitor;
     return {
         tr("receiving %1 · program %2").arg(percent(health.receiverShare, 1), percent(health.processShare)),
         Health::Unknown, tr("Share of one core that the receiving thread takes, and all threads together")};
 }
 
 PropertyValue accounting(const Source& from) {
-    const MonitorHealth health = from.program.monitorHealth();
+    const MonitorHealth& health = from.monitor;
     const QString each =
         health.followUsPerPacket > 0 ? tr("%1 µs a packet").arg(fixed(health.followUsPerPacket, 2)) : dash();
     const log::Duration behind = from.view.behind();
@@ -135,13 +136,13 @@ PropertyValue accounting(const Source& from) {
 /// What the session keeps, and the viewport.
 model::MemoryFigures memoryFigures(const Source& from) {
     model::MemoryFigures figures = from.view.memory();
-    const MonitorHealth health = from.program.monitorHealth();
+    const MonitorHealth& health = from.monitor;
     figures.parts.push_back({"meshes", "bodies drawn", health.meshBytes, health.mostMeshBytes});
     return figures;
 }
 
 PropertyValue memory(const Source& from) {
-    const MonitorHealth health = from.program.monitorHealth();
+    const MonitorHealth& health = from.monitor;
     const model::MemoryFigures figures = memoryFigures(from);
     const QString own = health.memoryBytes ? megabytes(*health.memoryBytes) : dash();
     return {
@@ -167,7 +168,7 @@ PropertyValue memoryParts(const Source& from) {
 }
 
 PropertyValue buffer(const Source& from) {
-    const std::int64_t bytes = from.program.receivingState().receiveBufferBytes;
+    const std::int64_t bytes = from.receiving.receiveBufferBytes;
     if (bytes == 0) {
         return {tr("no UDP port"), Health::Unknown, {}};
     }
@@ -181,7 +182,7 @@ PropertyValue buffer(const Source& from) {
 }
 
 PropertyValue delay(const Source& from) {
-    const log::Duration longest = from.program.receivingState().longestDelay;
+    const log::Duration longest = from.receiving.longestDelay;
     const double milliseconds = log::millisecondsOf(longest);
     return {tr("%1 ms").arg(fixed(milliseconds, 1)), longest < kLongDelay ? Health::Good : Health::Warning,
             tr("The longest time the receiving thread took between two looks at its ports; the buffer has to "
@@ -227,8 +228,9 @@ PropertyValue retired(const Source& from) {
 
 } // namespace
 
-std::vector<Property> computerFacts(model::SessionView& view, const ProgramView& program) {
-    const Source from{view, program};
+std::vector<Property> computerFacts(model::SessionView& view, const ReceivingState& receiving,
+                                    const MonitorHealth& monitor) {
+    const Source from{view, receiving, monitor};
     const auto row = [from](const QString& label, PropertyValue (*read)(const Source&)) {
         return Property{label, [from, read] { return read(from); }};
     };
@@ -259,8 +261,7 @@ std::vector<Property> computerFacts(model::SessionView& view, const ProgramView&
         row(tr("Not looked at"), overtaken),
         Property{tr("Not listened to"),
                  [from] {
-                     return PropertyValue{grouped(from.program.receivingState().refusedDatagrams),
-                                          Health::Good,
+                     return PropertyValue{grouped(from.receiving.refusedDatagrams), Health::Good,
                                           tr("Datagrams from hosts that are not among those to listen "
                                              "to; they are not recorded")};
                  }},

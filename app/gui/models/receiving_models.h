@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/base/program_view.h"
+#include "app/gui/base/program_state.h"
 #include "app/gui/models/column.h"
 
 #include <optional>

@@ -85,10 +85,10 @@ std::span<const ActionInfo> CharactersPanel::actionTable() {
     return kCharacterActions;
 }
 
-CharactersPanel::CharactersPanel(model::SessionView& view, Commands& commands, const ProgramView& program,
-                                 QWidget* parent)
+CharactersPanel::CharactersPanel(model::SessionView& view, Commands& commands,
+                                 const ReceivingState& receiving, QWidget* parent)
     : Panel(view, commands, parent),
-      m_program(program),
+      m_receiving(receiving),
       m_model(view, commands),
       m_detailModel(view),
       m_endedModel(view),
@@ -97,14 +97,14 @@ CharactersPanel::CharactersPanel(model::SessionView& view, Commands& commands, c
       m_detailToggle(toggle(QStringLiteral("detail"), tr("Detail"),
                             tr("The streams of the selected character, and where they come from"), this)),
       m_span(new ElidedLabel(Qt::AlignRight | Qt::AlignVCenter, this)),
-      m_table(new TableView(tr("Characters"), commands, this)),
+      m_table(new TableView(tr("Characters"), this)),
       m_rows(new BoardDelegate(m_table)),
       m_detail(new QWidget(this)),
       m_history(dimText({}, m_detail)),
-      m_streams(new TableView(tr("Streams of the selected character"), commands, m_detail)),
+      m_streams(new TableView(tr("Streams of the selected character"), m_detail)),
       m_ended(new QWidget(this)),
       m_endedToggle(flatButton({}, tr("Senders that others have taken over from"), m_ended)),
-      m_endedTable(new TableView(tr("Ended senders"), commands, m_ended)),
+      m_endedTable(new TableView(tr("Ended senders"), m_ended)),
       m_message(footMessage(this)) {
     auto* column = tightColumn(this);
     addBar();
@@ -193,7 +193,7 @@ void CharactersPanel::showEmptyState() {
         m_table->setEmptyText(tr("No character in this recording."));
         return;
     }
-    const std::vector<PortState> ports = m_program.receivingState().ports;
+    const std::vector<PortState>& ports = m_receiving.ports;
     if (ports.empty()) {
         m_table->setEmptyText(tr("No character on the air.\nThere is nothing to listen to: add an input "
                                  "(Input > Inputs)."));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/gui/base/panel.h"
+#include "app/gui/base/program_state.h"
 #include "app/gui/models/character_model.h"
 #include "app/gui/panels/table_view.h"
 
@@ -20,7 +21,7 @@ class CharactersPanel : public Panel {
     Q_OBJECT
 
 public:
-    CharactersPanel(model::SessionView& view, Commands& commands, const ProgramView& program,
+    CharactersPanel(model::SessionView& view, Commands& commands, const ReceivingState& receiving,
                     QWidget* parent);
 
     [[nodiscard]] static std::span<const ActionInfo> actionTable();
@@ -69,7 +70,7 @@ private:
     [[nodiscard]] std::optional<model::CharacterKey> selectedOrSay() const;
     [[nodiscard]] bool isSolo(const model::CharacterKey& key) const;
 
-    const ProgramView& m_program;
+    const ReceivingState& m_receiving;
     CharacterModel m_model;
     CharacterDetailModel m_detailModel;
     EndedSenderModel m_endedModel;

@@ -78,15 +78,15 @@ std::span<const ActionInfo> ComparePanel::actionTable() {
 }
 
 void ComparePanel::save() {
-    const auto& range = m_program.comparison().range;
+    const auto& range = comparison().range;
     if (range == nullptr || range->segments.empty()) {
-        m_commands.saveComparison({}); // says why not
+        m_comparing.save({}); // says why not
         return;
     }
     const QString path = askWhereToSave(this, tr("Save differences"), QStringLiteral("differences.csv"),
                                         tr("Comma-separated values (*.csv)"));
     if (!path.isEmpty()) {
-        m_commands.saveComparison(path);
+        m_comparing.save(path);
     }
 }
 

@@ -56,10 +56,11 @@ std::vector<TimePlot::Gap> gapsOf(const std::vector<float>& parts, double length
 
 } // namespace
 
-ComparePanel::ComparePanel(model::SessionView& view, Commands& commands, const ProgramView& program,
-                           QWidget* parent)
+ComparePanel::ComparePanel(model::SessionView& view, Commands& commands, Playback& playback,
+                           Comparing& comparing, QWidget* parent)
     : Panel(view, commands, parent),
-      m_program(program),
+      m_playback(playback),
+      m_comparing(comparing),
       m_empty(new QWidget(this)),
       m_emptyText(dimText({}, m_empty)),
       m_begin(framedButton(tr("Compare with a recording…"), tr("Open a second recording (Ctrl+Shift+O)"),
@@ -71,7 +72,7 @@ ComparePanel::ComparePanel(model::SessionView& view, Commands& commands, const P
       m_legend(new DifferenceLegend(m_content)),
       m_stop(framedButton({}, {}, m_content)),
       m_splitter(new QSplitter(Qt::Vertical, m_content)),
-      m_table(new TableView(tr("Differences by segment"), commands, m_content)),
+      m_table(new TableView(tr("Differences by segment"), m_content)),
       m_plot(makePlot(m_content)) {
     setBackgroundRole(QPalette::Base);
     setAutoFillBackground(true);
@@ -130,8 +131,9 @@ void ComparePanel::layOut() {
 }
 
 void ComparePanel::connectParts() {
-    connect(m_begin, &QToolButton::clicked, this, [this] { m_commands.askForComparison(); });
-    connect(m_stop, &QToolButton::clicked, this, [this] { m_commands.setComparing(comparison().isStopped); });
+    connect(m_begin, &QToolButton::clicked, &m_comparing, &Comparing::askForRecording);
+    connect(m_stop, &QToolButton::clicked, this,
+            [this] { comparison().isStopped ? workAgain() : stopWork(); });
     connect(m_bar, &CompareBar::partnerChosen, this, [this](const model::CharacterKey& second) {
         if (const auto pair = comparison().pair) {
             change([&](ComparisonChoice& choice) { choice.pair.emplace(pair->first, second); });
@@ -147,7 +149,7 @@ void ComparePanel::connectParts() {
     connect(m_table->selectionModel(), &QItemSelectionModel::currentRowChanged, this, &ComparePanel::select);
     connect(m_plot, &TimePlot::momentPicked, this, [this](double time) {
         if (m_plotted != nullptr) {
-            m_commands.showMoment(m_plotted->course.begin + log::durationOf(time));
+            m_playback.showMoment(m_plotted->course.begin + log::durationOf(time));
         }
     });
 }
@@ -156,7 +158,7 @@ template <class Change>
 void ComparePanel::change(Change change) {
     ComparisonChoice chosen = choice();
     change(chosen);
-    m_commands.setComparison(chosen);
+    m_comparing.choose(chosen);
     refresh();
 }
 
@@ -241,27 +243,7 @@ void ComparePanel::showFigures() {
     }
     m_figures->setText(text, more);
     m_legend->setScale(scaleOf(state));
-    QStringList counts;
-    if (!state.atCursor && state.alignment) {
-        counts += tr("No partner at this moment");
-    }
-    if (state.range != nullptr) {
-        counts += tr("%1 pairs").arg(grouped(state.range->pairs));
-        if (state.range->alone != 0) {
-            counts += tr("%1 without a partner").arg(grouped(state.range->alone));
-        }
-        if (state.range->outside != 0) {
-            counts += tr("%1 outside the common time").arg(grouped(state.range->outside));
-        }
-        if (state.range->apart != 0) {
-            counts += tr("%1 without a common segment").arg(grouped(state.range->apart));
-        }
-        if (state.range->passedOver != 0) {
-            counts += tr("%1 packets not looked at in time").arg(grouped(state.range->passedOver));
-        }
-    }
-    counts += state.notes;
-    m_counts->setText({}, counts.join(QStringLiteral(" · ")));
+    m_counts->setText({}, comparedText(state).join(QStringLiteral(" · ")));
     for (ElidedLabel* label : {m_figures, m_counts}) {
         label->setToolTip(toolTipText(label->text()));
         label->setAccessibleName(label->text());

@@ -3,6 +3,8 @@
 
 #include "app/gui/base/comparison.h"
 #include "app/gui/base/panel.h"
+#include "app/gui/base/playback.h"
+#include "app/gui/driver/comparing.h"
 #include "app/gui/models/difference_model.h"
 #include "app/gui/panels/compare_bar.h"
 #include "app/gui/panels/table_view.h"
@@ -19,7 +21,8 @@ class ComparePanel : public Panel {
     Q_OBJECT
 
 public:
-    ComparePanel(model::SessionView& view, Commands& commands, const ProgramView& program, QWidget* parent);
+    ComparePanel(model::SessionView& view, Commands& commands, Playback& playback, Comparing& comparing,
+                 QWidget* parent);
 
     [[nodiscard]] static std::span<const ActionInfo> actionTable();
     void refresh() override;
@@ -38,15 +41,15 @@ public:
     [[nodiscard]] model::DifferenceFrame frame() const { return choice().frame; }
     void toggleBeside();
     [[nodiscard]] bool isBeside() const { return choice().isBeside; }
-    void workAgain() { m_commands.setComparing(true); }
-    void stopWork() { m_commands.setComparing(false); }
+    void workAgain() { m_comparing.workAgain(); }
+    void stopWork() { m_comparing.stop(); }
     void save();
 
 protected:
     void resizeEvent(QResizeEvent* event) override;
 
 private:
-    [[nodiscard]] const ComparisonState& comparison() const { return m_program.comparison(); }
+    [[nodiscard]] const ComparisonState& comparison() const { return m_comparing.state(); }
     [[nodiscard]] const ComparisonChoice& choice() const { return comparison().choice; }
     /// Changes one thing of the choice.
     template <class Change>
@@ -60,7 +63,8 @@ private:
     void select(const QModelIndex& index);
     [[nodiscard]] int shownSlot() const;
 
-    const ProgramView& m_program;
+    Playback& m_playback;
+    Comparing& m_comparing;
     DifferenceModel m_differences;
     QWidget* m_empty;
     QLabel* m_emptyText;

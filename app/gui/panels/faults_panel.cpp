@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/panels/faults_panel.h"
 
+#include "app/gui/base/saving.h"
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/span_text.h"
 #include "app/gui/models/text.h"
@@ -16,7 +17,7 @@ FaultsPanel::FaultsPanel(model::SessionView& view, Commands& commands, QWidget* 
       m_faults(view),
       m_span(new ElidedLabel(Qt::AlignLeft | Qt::AlignVCenter, this)),
       m_choice(new SpanBar(view, commands, this)),
-      m_table(new TableView(tr("Faults"), commands, this)),
+      m_table(new TableView(tr("Faults"), this)),
       m_message(footMessage(this)) {
     const int margin = CellDelegate::margin(fontMetrics());
     auto* head = spacedRow({margin, margin / 2, margin, margin / 2}, margin);
@@ -155,7 +156,7 @@ void FaultsPanel::addActions(QMenu& menu, const QModelIndex& index) {
                        [this, cell] { showPackets(cell, PacketLook::Alone); });
         menu.addSeparator();
     }
-    menu.addAction(tr("Copy all as CSV"), this, [this] { m_commands.copyText(m_faults.csv()); });
+    menu.addAction(tr("Copy all as CSV"), this, [this] { copyText(m_faults.csv()); });
 }
 
 void FaultsPanel::keepPlace() {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/panels/field_view.h"
 
+#include "app/gui/base/saving.h"
 #include "app/gui/models/display_filter.h"
 #include "app/gui/models/field_text.h"
 #include "app/gui/theme/plain_text.h"
@@ -29,7 +30,7 @@ QString bytesText(wire::Bytes bytes, const QString& prefix, const QString& separ
 } // namespace
 
 FieldView::FieldView(FieldModel& model, Commands& commands, QWidget* parent)
-    : TableView(tr("Fields of the packet"), commands, parent), m_fields(model), m_commands(commands) {
+    : TableView(tr("Fields of the packet"), parent), m_fields(model), m_commands(commands) {
     setModel(&model);
     setRootIsDecorated(true);
     setExpandsOnDoubleClick(true);
@@ -204,8 +205,7 @@ void FieldView::showMenu(const QPoint& at, const QString& displayFilter) {
     addFilters(menu, displayFilter);
     menu.addSeparator();
     const auto addCopy = [&](const QString& text, const QString& copied) {
-        menu.addAction(text, this, [this, copied] { m_commands.copyText(copied); })
-            ->setEnabled(!copied.isEmpty());
+        menu.addAction(text, this, [this, copied] { copyText(copied); })->setEnabled(!copied.isEmpty());
     };
     const FieldDocument& document = m_fields.document();
     const wire::FieldNode& field = document.node(node);

@@ -99,7 +99,7 @@ IncidentsPanel::IncidentsPanel(model::SessionView& view, Commands& commands, QWi
     : Panel(view, commands, parent),
       m_incidents(view),
       m_bar(new IncidentBar(this)),
-      m_table(new TableView(tr("Incidents"), commands, this)),
+      m_table(new TableView(tr("Incidents"), this)),
       m_chip(new QPushButton(m_table)),
       m_message(footMessage(this)) {
     auto* column = tightColumn(this);
@@ -343,7 +343,7 @@ void IncidentsPanel::addActions(QMenu& menu, const QModelIndex& index) {
     for (const auto& format : exporting::formats<exporting::EventSheet>()) {
         const QString text = tr("Copy all as %1").arg(QLatin1String(format.title));
         menu.addAction(text, this, [this, write = format.write] {
-            m_commands.copyText(QString::fromStdString(write({m_view, m_incidents.listed()})));
+            copyText(QString::fromStdString(write({m_view, m_incidents.listed()})));
         });
     }
 }

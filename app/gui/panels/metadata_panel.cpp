@@ -168,7 +168,7 @@ void DetectionBar::showContradictions(const model::Sender& sender) {
 MetadataPanel::MetadataPanel(model::SessionView& view, Commands& commands, QWidget* parent)
     : Panel(view, commands, parent),
       m_model(view),
-      m_table(new TableView(tr("Metadata"), commands, this)),
+      m_table(new TableView(tr("Metadata"), this)),
       m_detection(new DetectionBar(view, commands, this)) {
     auto* layout = tightColumn(this);
     layout->addWidget(m_table, 1);

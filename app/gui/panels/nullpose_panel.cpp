@@ -89,12 +89,12 @@ NullPosePanel::NullPosePanel(model::SessionView& view, Commands& commands, QWidg
       m_splitter(new QSplitter(Qt::Vertical, this)),
       m_overview(new QSplitter(Qt::Horizontal, this)),
       m_figure(new NullPoseFigure(m_reading, this)),
-      m_factTable(new TableView(tr("Scale messages"), commands, this)),
+      m_factTable(new TableView(tr("Scale messages"), this)),
       m_tabs(new QTabWidget(this)),
-      m_segmentTable(new TableView(tr("Segments of the null pose"), commands, this)),
-      m_pointTable(new TableView(tr("Points of the null pose"), commands, this)),
-      m_lengthTable(new TableView(tr("Lengths, left and right"), commands, this)),
-      m_scaleTable(new TableView(tr("Scale information, type 10"), commands, this)),
+      m_segmentTable(new TableView(tr("Segments of the null pose"), this)),
+      m_pointTable(new TableView(tr("Points of the null pose"), this)),
+      m_lengthTable(new TableView(tr("Lengths, left and right"), this)),
+      m_scaleTable(new TableView(tr("Scale information, type 10"), this)),
       m_ghost(framedButton(tr("Ghost"), tr("Show the null pose over the live figure (Shift+G)"), this)),
       m_export(framedButton(tr("Export ▾"), tr("Save or copy what was sent, as CSV or JSON"), this)),
       m_comparison(new ElidedLabel(Qt::AlignRight | Qt::AlignVCenter, this)),
@@ -375,11 +375,11 @@ void NullPosePanel::copyJson() {
 }
 
 void NullPosePanel::copyAs(const SheetFormat& format) {
-    m_commands.copyText(QString::fromStdString(format.write(sheet())));
+    copyText(QString::fromStdString(format.write(sheet())));
 }
 
 void NullPosePanel::copyContradictions() {
-    m_commands.copyText(findingsText(m_reading.findings()));
+    copyText(findingsText(m_reading.findings()));
 }
 
 void NullPosePanel::chooseFile(const SheetFormat& format, const QString& filters) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the operator can do in the list of packets, and the menus that offer it.
 #include "app/gui/models/packet_choice.h"
+
+#include "app/gui/base/saving.h"
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
 #include "app/gui/panels/filter_bar.h"
@@ -344,7 +346,7 @@ std::vector<std::uint64_t> PacketsPanel::selectedPackets() const {
 void PacketsPanel::copyRows(RowFormat format) {
     const std::vector<int> rows = m_list->selectedRows(kMostCopied);
     const bool isCsv = format == RowFormat::Csv;
-    m_commands.copyText(isCsv ? packetRowsCsv(m_packets, rows) : packetRowsText(m_packets, rows));
+    copyText(isCsv ? packetRowsCsv(m_packets, rows) : packetRowsText(m_packets, rows));
     const QString said = isCsv ? tr("Rows copied as CSV: %1") : tr("Rows copied: %1");
     say(rows.empty() ? tr("No packet is selected.") : said.arg(grouped(rows.size())));
 }
@@ -355,7 +357,7 @@ void PacketsPanel::copyCell() {
         say(tr("No packet is selected."));
         return;
     }
-    m_commands.copyText(cell.data(Qt::DisplayRole).toString());
+    copyText(cell.data(Qt::DisplayRole).toString());
     say(tr("Cell copied"));
 }
 
@@ -366,7 +368,7 @@ void PacketsPanel::copyBytes(ByteFormat format) {
         const bool isSpaced = format != ByteFormat::Json && !text.isEmpty();
         text += (isSpaced ? QStringLiteral("\n") : QString()) + packetBytesText(m_view, number, format);
     }
-    m_commands.copyText(text);
+    copyText(text);
     say(packets.empty() ? tr("No packet is selected.")
                         : tr("Packets copied: %1").arg(grouped(packets.size())));
 }

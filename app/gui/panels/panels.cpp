@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/base/panel.h"
+#include "app/gui/panels/panels.h"
 
 #include "app/gui/panels/characters_panel.h"
 #include "app/gui/panels/compare_panel.h"
@@ -20,12 +20,20 @@ namespace posewire::gui {
 
 namespace {
 
+using Parts = const PanelParts&;
+
 template <class T>
-Panel* make(model::SessionView& view, Commands& commands, const ProgramView& program, QWidget* parent) {
-    if constexpr (std::is_constructible_v<T, model::SessionView&, Commands&, const ProgramView&, QWidget*>) {
-        return new T(view, commands, program, parent);
+Panel* make(Parts parts, QWidget* parent) {
+    if constexpr (std::is_same_v<T, CharactersPanel>) {
+        return new T(parts.view, parts.commands, parts.receiving, parent);
+    } else if constexpr (std::is_same_v<T, StatisticsPanel>) {
+        return new T(parts.view, parts.commands, parts.receiving, parts.health, parent);
+    } else if constexpr (std::is_same_v<T, ComparePanel>) {
+        return new T(parts.view, parts.commands, parts.playback, parts.comparing, parent);
+    } else if constexpr (std::is_same_v<T, TimelinePanel>) {
+        return new T(parts.view, parts.commands, parts.playback, parent);
     } else {
-        return new T(view, commands, parent);
+        return new T(parts.view, parts.commands, parent);
     }
 }
 

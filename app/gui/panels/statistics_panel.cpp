@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/panels/statistics_panel.h"
 
+#include "app/gui/base/saving.h"
 #include "app/gui/models/computer_facts.h"
 #include "app/gui/models/display_filter.h"
 #include "app/gui/models/shown_character.h"
@@ -19,14 +20,15 @@ constexpr int kFactsShown = 4;
 
 } // namespace
 
-StatisticsPanel::StatisticsPanel(model::SessionView& view, Commands& commands, const ProgramView& program,
+StatisticsPanel::StatisticsPanel(model::SessionView& view, Commands& commands,
+                                 const ReceivingState& receiving, const MonitorHealth& health,
                                  QWidget* parent)
     : Panel(view, commands, parent),
       m_streams(view),
-      m_computer(computerFacts(view, program)),
+      m_computer(computerFacts(view, receiving, health)),
       m_range(new RangeBar(view, commands, this)),
-      m_table(new TableView(tr("Statistics of streams"), commands, this)),
-      m_facts(new TableView(tr("This computer"), commands, this)),
+      m_table(new TableView(tr("Statistics of streams"), this)),
+      m_facts(new TableView(tr("This computer"), this)),
       m_filterToRange(new QAction(tr("Show only the packets of this range"), this)),
       m_parts(new QSplitter(Qt::Vertical, this)),
       m_message(footMessage(this)) {
@@ -149,7 +151,7 @@ void StatisticsPanel::addActions(QMenu& menu, const QModelIndex& index) {
         menu.addAction(m_filterToRange);
         menu.addSeparator();
     }
-    menu.addAction(tr("Copy all as CSV"), this, [this] { m_commands.copyText(m_streams.csv()); });
+    menu.addAction(tr("Copy all as CSV"), this, [this] { copyText(m_streams.csv()); });
 }
 
 } // namespace posewire::gui

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/gui/base/panel.h"
+#include "app/gui/base/program_state.h"
 #include "app/gui/models/column.h"
 #include "app/gui/models/packet_jump.h"
 #include "app/gui/models/statistics_model.h"
@@ -21,8 +22,8 @@ class StatisticsPanel : public Panel {
     Q_OBJECT
 
 public:
-    StatisticsPanel(model::SessionView& view, Commands& commands, const ProgramView& program,
-                    QWidget* parent);
+    StatisticsPanel(model::SessionView& view, Commands& commands, const ReceivingState& receiving,
+                    const MonitorHealth& health, QWidget* parent);
 
     void refresh() override;
     [[nodiscard]] QString summary() const override;

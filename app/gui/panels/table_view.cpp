@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/panels/table_view.h"
 
+#include "app/gui/base/saving.h"
 #include "app/gui/models/column.h"
 #include "app/gui/panels/cell_delegate.h"
 #include "app/gui/theme/theme.h"
@@ -55,11 +56,6 @@ TableView::TableView(const QString& name, QWidget* parent)
     setExpandsOnDoubleClick(false);
     setHeader(m_columns);
     setCornerWidget(new QWidget(this)); // else the style draws a box between the scroll bars
-}
-
-TableView::TableView(const QString& name, Commands& commands, QWidget* parent) : TableView(name, parent) {
-    connect(this, &TableView::copyRequested, this,
-            [&commands](const QString& text) { commands.copyText(text); });
 }
 
 void TableView::setColumnSamples(std::vector<QString> samples, const QString& leastOpen) {
@@ -180,7 +176,7 @@ void TableView::addCopying(QMenu& menu, const QModelIndex& index) {
 /// A row may be gone by the time that it is asked for.
 void TableView::copy(const QString& text) {
     if (!text.isEmpty()) {
-        emit copyRequested(text);
+        copyText(text);
     }
 }
 
@@ -200,7 +196,7 @@ void TableView::contextMenuEvent(QContextMenuEvent* event) {
 void TableView::keyPressEvent(QKeyEvent* event) {
     if (event->matches(QKeySequence::Copy)) {
         if (currentIndex().isValid()) {
-            emit copyRequested(rowText(currentIndex()));
+            copyText(rowText(currentIndex()));
         }
         event->accept();
         return;

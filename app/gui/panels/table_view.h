@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/base/commands.h"
 #include "app/gui/panels/fitting_header.h"
 
 #include <QTreeView>
@@ -24,8 +23,6 @@ class TableView : public QTreeView {
 public:
     /// `name` is what screen readers call the table.
     explicit TableView(const QString& name, QWidget* parent = nullptr);
-    /// What is copied goes to `commands`.
-    TableView(const QString& name, Commands& commands, QWidget* parent);
 
     [[nodiscard]] FittingHeader& columns() const { return *m_columns; }
     void setModel(QAbstractItemModel* model) override;
@@ -56,7 +53,6 @@ public:
     [[nodiscard]] QString allText() const;
 
 signals:
-    void copyRequested(const QString& text);
     /// The menu of a row, or of none, is about to be shown; what is added to it comes first.
     void menuRequested(QMenu& menu, const QModelIndex& index);
 

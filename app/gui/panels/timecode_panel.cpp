@@ -87,7 +87,7 @@ TimecodePanel::TimecodePanel(model::SessionView& view, Commands& commands, QWidg
     : Panel(view, commands, parent),
       m_facts(clockFacts(m_clock)),
       m_large(new ClockWidget(this)),
-      m_table(new TableView(tr("Clocks of the sender"), commands, this)) {
+      m_table(new TableView(tr("Clocks of the sender"), this)) {
     setBackgroundRole(QPalette::Base);
     setAutoFillBackground(true);
     auto* layout = tightColumn(this);

@@ -13,9 +13,10 @@
 
 namespace posewire::gui {
 
-TimelinePanel::TimelinePanel(model::SessionView& view, Commands& commands, QWidget* parent)
+TimelinePanel::TimelinePanel(model::SessionView& view, Commands& commands, Playback& playback,
+                             QWidget* parent)
     : Panel(view, commands, parent),
-      m_timeline(new TimelineView(view, commands, this)),
+      m_timeline(new TimelineView(view, commands, playback, this)),
       m_thumbnail(new TimelineThumbnail(view, *m_timeline, this)),
       m_commandBar(new CommandBar(this)),
       m_moment(new ElidedLabel(Qt::AlignRight | Qt::AlignVCenter, this)) {
@@ -43,7 +44,7 @@ TimelinePanel::TimelinePanel(model::SessionView& view, Commands& commands, QWidg
            "time code of the selected character"));
     m_moment->setObjectName(QStringLiteral("moment"));
     m_timeline->setObjectName(QStringLiteral("timelineView"));
-    connect(m_live, &QAction::triggered, this, [this] { m_commands.goLive(); });
+    connect(m_live, &QAction::triggered, this, [&playback] { playback.goLive(); });
     connect(all, &QAction::triggered, this, &TimelinePanel::showAll);
     connect(m_range, &QAction::triggered, this, &TimelinePanel::showRange);
     m_thumbnail->hide();

@@ -17,7 +17,7 @@ class TimelinePanel : public Panel {
     Q_OBJECT
 
 public:
-    TimelinePanel(model::SessionView& view, Commands& commands, QWidget* parent);
+    TimelinePanel(model::SessionView& view, Commands& commands, Playback& playback, QWidget* parent);
 
     [[nodiscard]] static std::span<const ActionInfo> actionTable();
 

@@ -28,8 +28,8 @@ using Nanoseconds = std::chrono::duration<double, std::nano>;
 
 } // namespace
 
-TimelineView::TimelineView(model::SessionView& view, Commands& commands, QWidget* parent)
-    : QAbstractScrollArea(parent), m_view(view), m_commands(commands), m_model(view) {
+TimelineView::TimelineView(model::SessionView& view, Commands& commands, Playback& playback, QWidget* parent)
+    : QAbstractScrollArea(parent), m_view(view), m_commands(commands), m_playback(playback), m_model(view) {
     setFrameShape(QFrame::NoFrame);
     setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     setFocusPolicy(Qt::StrongFocus);
@@ -193,7 +193,7 @@ void TimelineView::drag(const QPoint& place) {
     const auto span = m_model.span();
     const log::Stamp moment = std::clamp(stampAt(place.x()), span->from, span->to);
     if (m_drag == Drag::Cursor) {
-        m_commands.showMoment(moment);
+        m_playback.showMoment(moment);
     } else {
         chooseRange(moment);
     }
@@ -207,7 +207,7 @@ void TimelineView::chooseRange(log::Stamp to) {
 
 void TimelineView::mouseReleaseEvent(QMouseEvent* event) {
     if (m_drag == Drag::Range && !m_isMoved) { // a click shows that moment
-        m_commands.showMoment(stampAt(event->position().x()));
+        m_playback.showMoment(stampAt(event->position().x()));
         viewport()->update();
     }
     m_drag = Drag::None;

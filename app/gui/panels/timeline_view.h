@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/base/commands.h"
+#include "app/gui/base/playback.h"
 #include "app/gui/models/timeline_model.h"
 
 #include <QAbstractScrollArea>
@@ -17,7 +17,7 @@ class TimelineView final : public QAbstractScrollArea {
     Q_OBJECT
 
 public:
-    TimelineView(model::SessionView& view, Commands& commands, QWidget* parent);
+    TimelineView(model::SessionView& view, Commands& commands, Playback& playback, QWidget* parent);
 
     void refresh();
 
@@ -82,6 +82,7 @@ private:
 
     model::SessionView& m_view;
     Commands& m_commands;
+    Playback& m_playback;
     TimelineModel m_model;
     model::TimeRange m_window{};
     bool m_isAll = true;   ///< the window is all there is, and grows

@@ -63,9 +63,9 @@ TrackersPanel::TrackersPanel(model::SessionView& view, Commands& commands, QWidg
       m_trackers(view),
       m_facts(trackerFacts(m_trackers)),
       m_splitter(new QSplitter(Qt::Vertical, this)),
-      m_table(new TableView(tr("Trackers"), commands, this)),
+      m_table(new TableView(tr("Trackers"), this)),
       m_detail(new QWidget(this)),
-      m_factTable(new TableView(tr("Selected tracker"), commands, this)),
+      m_factTable(new TableView(tr("Selected tracker"), this)),
       m_plots(makeTrackerPlot(this)) {
     tightColumn(this)->addWidget(m_splitter);
     auto* detail = tightColumn(m_detail);

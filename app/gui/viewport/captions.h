@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/gui/base/help_topics.h"
-#include "app/gui/base/program_view.h"
+#include "app/gui/base/program_state.h"
 #include "app/gui/models/column.h"
 #include "app/gui/theme/theme.h"
 #include "core/model/session/session_view.h"

@@ -34,10 +34,10 @@ QString PictureRequest::pathOf(int number) const {
     return QStringLiteral("%1_%2.png").arg(stem).arg(number + 1, digits, 10, QLatin1Char('0'));
 }
 
-PictureSeries::PictureSeries(model::SessionView& session, Commands& commands, const ViewLook& look,
+PictureSeries::PictureSeries(model::SessionView& session, Playback& playback, const ViewLook& look,
                              PictureRequest request)
     : m_session(session),
-      m_commands(commands),
+      m_playback(playback),
       m_look(look),
       m_request(std::move(request)),
       m_builder(session, render::Detail::High),
@@ -57,14 +57,14 @@ PictureSeries::~PictureSeries() {
         return;
     }
     if (m_wasLive) {
-        m_commands.goLive();
+        m_playback.goLive();
     } else {
-        m_commands.showMoment(m_shownBefore);
+        m_playback.showMoment(m_shownBefore);
     }
 }
 
 void PictureSeries::showNext() {
-    m_commands.showMoment(m_request.first + m_shown * m_request.every);
+    m_playback.showMoment(m_request.first + m_shown * m_request.every);
     draw(m_shown == 0 ? 0 : log::secondsOf(m_request.every));
 }
 

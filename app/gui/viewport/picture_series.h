@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/base/commands.h"
+#include "app/gui/base/playback.h"
 #include "app/gui/viewport/view_look.h"
 #include "core/log/time.h"
 #include "core/model/session/session_view.h"
@@ -41,8 +41,8 @@ class PictureSeries final : public QObject {
     Q_OBJECT
 
 public:
-    /// Session and commands must outlive it.
-    PictureSeries(model::SessionView& session, Commands& commands, const ViewLook& look,
+    /// Session and playback must outlive it.
+    PictureSeries(model::SessionView& session, Playback& playback, const ViewLook& look,
                   PictureRequest request);
     /// What has been written stays.
     ~PictureSeries() override;
@@ -71,7 +71,7 @@ private:
     void end(const QString& problem);
 
     model::SessionView& m_session;
-    Commands& m_commands;
+    Playback& m_playback;
     ViewLook m_look;
     PictureRequest m_request;
     SceneBuilder m_builder;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/gui/base/commands.h"
-#include "app/gui/base/program_view.h"
+#include "app/gui/base/program_state.h"
 #include "app/gui/viewport/camera_state.h"
 #include "app/gui/viewport/own_characters.h"
 #include "app/gui/viewport/picking.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/base/alert_choices.h"
+#include "app/gui/base/settings.h"
 #include "core/model/session/verdict.h"
 
 #include <QDialog>

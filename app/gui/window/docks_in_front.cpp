@@ -69,8 +69,8 @@ void MainWindow::showDock(const QString& dock) {
 }
 
 void MainWindow::showEvidence(std::optional<std::uint64_t> incident) {
-    m_driver.showLive();
-    m_driver.showIncident(incident, {});
+    m_driver.commands().showLive();
+    m_driver.commands().showIncident(incident);
     mainStop(findDock(QStringLiteral("events"))->panel)->setFocus();
 }
 

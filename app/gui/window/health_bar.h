@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/gui/base/commands.h"
-#include "app/gui/base/program_view.h"
+#include "app/gui/base/program_state.h"
 #include "app/gui/theme/widgets.h"
 #include "core/model/session/session_view.h"
 

@@ -2,7 +2,7 @@
 #include "app/gui/window/history_dialog.h"
 
 #include "app/gui/base/help_topics.h"
-#include "app/gui/driver/session_driver.h"
+#include "app/gui/driver/history.h"
 #include "app/gui/models/text.h"
 #include "app/gui/theme/help_link.h"
 #include "app/gui/theme/widgets.h"
@@ -15,13 +15,12 @@
 
 namespace posewire::gui {
 
-QString historyText(SessionDriver& driver) {
-    const model::SessionView& live = driver.live();
-    const auto first = driver.live().packet(live.begin());
+QString historyText(const model::SessionView& live, const History& history) {
+    const auto first = live.packet(live.begin());
     const QString inMemory =
         HistoryDialog::tr("In memory: %1 of at most %2.")
             .arg(megabytes(live.log().figures().memoryInUse), megabytes(live.log().figures().memoryCap));
-    const log::DiskHistory* disk = driver.diskHistory();
+    const log::DiskHistory* disk = history.onDisk();
     const auto failure = disk != nullptr ? disk->failure() : std::nullopt;
     QString onDisk = disk != nullptr ? HistoryDialog::tr("On disk: %1.").arg(megabytes(disk->figures().bytes))
                                      : HistoryDialog::tr("On disk: nothing.");
@@ -35,7 +34,8 @@ QString historyText(SessionDriver& driver) {
     return inMemory + u' ' + onDisk + u' ' + since;
 }
 
-HistoryDialog::HistoryDialog(SessionDriver& driver, const HistoryChoice& choice, QWidget* parent)
+HistoryDialog::HistoryDialog(const model::SessionView& live, const History& history,
+                             const HistoryChoice& choice, QWidget* parent)
     : QDialog(parent),
       m_isOnDisk(new QCheckBox(tr("Keep on &disk what memory has no room for"), this)),
       m_gigabytes(new QSpinBox(this)) {
@@ -60,10 +60,10 @@ HistoryDialog::HistoryDialog(SessionDriver& driver, const HistoryChoice& choice,
     column->addWidget(dimText(tr("What was received can be looked back at as long as it is in memory or on "
                                  "disk; the oldest goes first. On disk it takes at most a tenth of what is "
                                  "free, in %1, and goes when Posewire ends. To keep a take, record it.")
-                                  .arg(driver.cacheFolder()),
+                                  .arg(history.folder()),
                               this));
     column->addLayout(form);
-    column->addWidget(dimText(historyText(driver), this));
+    column->addWidget(dimText(historyText(live, history), this));
     column->addWidget(buttons);
     setMinimumWidth(fontMetrics().averageCharWidth() * 62);
 }

@@ -8,19 +8,24 @@
 class QCheckBox;
 class QSpinBox;
 
+namespace posewire::model {
+class SessionView;
+} // namespace posewire::model
+
 namespace posewire::gui {
 
-class SessionDriver;
+class History;
 
 /// "512 MB in memory; on disk 1.2 GB of at most 8.0 GB, since 10:42:17": how far one can look back now.
-[[nodiscard]] QString historyText(SessionDriver& driver);
+[[nodiscard]] QString historyText(const model::SessionView& live, const History& history);
 
 /// What is kept of what is received when memory is full.
 class HistoryDialog final : public QDialog {
     Q_OBJECT
 
 public:
-    HistoryDialog(SessionDriver& driver, const HistoryChoice& choice, QWidget* parent);
+    HistoryDialog(const model::SessionView& live, const History& history, const HistoryChoice& choice,
+                  QWidget* parent);
 
     [[nodiscard]] HistoryChoice choice() const;
 

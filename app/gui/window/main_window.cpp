@@ -59,7 +59,7 @@ MainWindow::MainWindow(SessionDriver& driver, const SettingsFile& file, const Se
     : m_driver(driver),
       m_file(file),
       m_settings(settings),
-      m_viewport(new ViewportWidget(driver.session(), driver, this)),
+      m_viewport(new ViewportWidget(driver.commands().session(), driver.commands(), this)),
       m_menus(*this, *menuBar()) {
     setWindowTitle(QStringLiteral("Posewire"));
     setDockOptions(AllowNestedDocks | AllowTabbedDocks | AnimatedDocks);
@@ -73,11 +73,11 @@ MainWindow::MainWindow(SessionDriver& driver, const SettingsFile& file, const Se
     makeDocks();
     connectDriver();
     connectHelp();
-    m_driver.setThresholds(m_settings.alerts.thresholds);
-    m_driver.setDisplayFilter(m_settings.filter);
+    m_driver.commands().setThresholds(m_settings.alerts.thresholds);
+    m_driver.commands().setDisplayFilter(m_settings.filter);
     connect(&m_viewport->ownCharacters(), &OwnCharacters::failed, this, &MainWindow::sayAlsoAfterOpening);
     m_viewport->restoreState(m_settings.viewport);
-    m_viewport->setComparison(m_driver.comparison());
+    m_viewport->setComparison(m_driver.files().comparing().state());
     new PressingKeys(this);
     new EventWatch(this, QEvent::ThemeChange, [this] { useTheme(m_settings.theme); }); // of the desktop
     keepHistory();
@@ -102,7 +102,7 @@ void MainWindow::makeBars() {
         m_menus.action("sampleBack"), m_menus.action("sampleOn"),
         m_menus.action("playBack"),   m_menus.action("play"),
         m_menus.action("loop"),       menuAt(*menuBar(), QStringLiteral("&Time/Sp&eed"))};
-    m_transport = new TransportBar(m_driver.session(),
+    m_transport = new TransportBar(m_driver.commands().session(),
                                    TransportBar::Actions{m_menus.action("record"), m_menus.action("pause"),
                                                          m_menus.action("live"), m_menus.action("inputs"),
                                                          m_menus.action("relay"), time},
@@ -115,7 +115,7 @@ void MainWindow::makeBars() {
     addToolBar(Qt::TopToolBarArea, fixedBar(tr("Transport"), QStringLiteral("transportBar"), m_transport));
 
     m_verdict =
-        new VerdictBar(m_driver.live(),
+        new VerdictBar(m_driver.commands().live(),
                        {m_menus.action("resetForTake"), m_menus.action("live"), m_menus.action("showFile"),
                         m_menus.action("closeFile"), m_menus.action("endComparison")},
                        this);
@@ -124,7 +124,7 @@ void MainWindow::makeBars() {
     addToolBar(Qt::TopToolBarArea, fixedBar(tr("Verdict"), QStringLiteral("verdict"), m_verdict));
     connect(m_verdict, &VerdictBar::evidenceRequested, this, &MainWindow::showEvidence);
 
-    m_health = m_liveHealth = new HealthBar(m_driver.live(), m_driver, this);
+    m_health = m_liveHealth = new HealthBar(m_driver.commands().live(), m_driver.commands(), this);
     statusBar()->setSizeGripEnabled(false);
     statusBar()->addWidget(m_health, 1);
     m_stopOpening =
@@ -136,21 +136,25 @@ void MainWindow::makeBars() {
 }
 
 void MainWindow::connectDriver() {
-    connect(&m_driver, &SessionDriver::shownChanged, this, &MainWindow::showSession);
-    connect(&m_driver, &SessionDriver::fileClosing, this, &MainWindow::forgetFile);
+    const auto showStates = [this] { m_menus.showStates(); };
+    const auto showTake = [this] { m_transport->showTake(m_driver.takes().state()); };
+    const Commands& commands = m_driver.commands();
+    connect(&commands, &Commands::changed, this, showStates);
+    connect(&commands, &Commands::switched, this, &MainWindow::showSession);
+    connect(&commands, &Commands::frameCharacter, m_viewport, &ViewportWidget::frameCharacter);
+    connect(&commands, &Commands::showDock, this, &MainWindow::coverBy);
+    connect(&commands, &Commands::wentBack, this, &MainWindow::uncover);
     connect(&m_driver, &SessionDriver::moved, m_viewport, &ViewportWidget::refresh);
     connect(&m_driver, &SessionDriver::moved, m_transport, &TransportBar::refresh);
     connect(&m_driver, &SessionDriver::tableTick, this, &MainWindow::refreshPanels);
     connect(&m_driver, &SessionDriver::tableTick, this, &MainWindow::showReceiving);
     connect(&m_driver, &SessionDriver::tableTick, this, &MainWindow::alert);
-    connect(&m_driver, &SessionDriver::frameRequested, m_viewport, &ViewportWidget::frameCharacter);
-    connect(&m_driver, &SessionDriver::dockRequested, this, &MainWindow::coverBy);
-    connect(&m_driver, &SessionDriver::wentBack, this, &MainWindow::uncover);
-    const auto showStates = [this] { m_menus.showStates(); };
-    connect(&m_driver, &SessionDriver::ghostChanged, this, showStates);
-    connect(&m_driver, &SessionDriver::pausedChanged, this, showStates);
     connect(&m_driver, &SessionDriver::tableTick, this, &MainWindow::showOpening);
-    connect(&m_driver, &SessionDriver::fileOpened, this, [this](bool isRead, const QString& text) {
+    connect(&m_driver, &SessionDriver::tableTick, m_transport, showTake);
+    connect(&m_driver, &SessionDriver::relayStopped, this, &MainWindow::keepRelays);
+    const Files& files = m_driver.files();
+    connect(&files, &Files::closing, this, &MainWindow::forgetFile);
+    connect(&files, &Files::opened, this, [this](bool isRead, const QString& text) {
         showOpening();
         // What there is to know of one that was read is told as long as it shows.
         if (isRead) {
@@ -159,23 +163,21 @@ void MainWindow::connectDriver() {
             say(text, HelpTopic::OpeningFailed);
         }
     });
-    connect(&m_driver, &SessionDriver::comparisonRequested, this, &MainWindow::chooseComparison);
-    connect(&m_driver, &SessionDriver::comparisonChanged, this, [this](const QString& text) {
+    const Comparing& comparing = m_driver.files().comparing();
+    connect(&comparing, &Comparing::askForRecording, this, &MainWindow::chooseComparison);
+    connect(&comparing, &Comparing::changed, this, [this](const QString& text) {
         showOpening();
         showReceiving();
         if (!text.isEmpty()) {
             sayAlsoAfterOpening(text);
         }
     });
-    connect(&m_driver, &SessionDriver::relayStopped, this, &MainWindow::keepRelays);
-    connect(&m_driver, &SessionDriver::demoChanged, this, showStates);
-    connect(&m_driver, &SessionDriver::recordingChanged, this, [this](const QString& problem) {
+    connect(&m_driver.demo(), &Demo::changed, this, showStates);
+    connect(&m_driver.takes(), &Takes::changed, this, [this, showTake](const QString& problem) {
         m_menus.showStates();
-        m_transport->showTake(m_driver.take());
+        showTake();
         say(problem, HelpTopic::RecordingFailed);
     });
-    connect(&m_driver, &SessionDriver::tableTick, m_transport,
-            [this] { m_transport->showTake(m_driver.take()); });
     connect(m_viewport, &ViewportWidget::optionsChanged, this, showStates);
     showReceiving();
 }
@@ -263,14 +265,14 @@ Settings MainWindow::settings() const {
         }
     }
     settings.viewport = m_viewport->state();
-    settings.filter = QString::fromStdString(m_driver.live().ownFilter());
+    settings.filter = QString::fromStdString(m_driver.commands().live().ownFilter());
     const auto pathOf = [](const OpenedFile* file) {
         return file != nullptr ? QDir().absoluteFilePath(file->path()) : QString();
     };
-    settings.file = pathOf(m_driver.isFileShown() ? m_driver.file() : nullptr);
-    settings.fileFilter =
-        m_driver.isFileShown() ? QString::fromStdString(m_driver.file()->session().ownFilter()) : QString();
-    settings.comparedFile = pathOf(m_driver.compared());
+    OpenedFile* const file = m_driver.commands().isFileShown() ? m_driver.files().file() : nullptr;
+    settings.file = pathOf(file);
+    settings.fileFilter = file != nullptr ? QString::fromStdString(file->session().ownFilter()) : QString();
+    settings.comparedFile = pathOf(m_driver.files().comparing().file());
     return settings;
 }
 
@@ -290,25 +292,26 @@ void MainWindow::showReceiving() {
     if (m_inputs != nullptr) {
         m_inputs->refresh();
     }
-    m_driver.setPicturesShown(m_viewport->picturesShown());
-    m_driver.setPictureHealth(m_viewport->pictureHealth());
+    m_driver.health().setPictures(m_viewport->picturesShown(), m_viewport->pictureHealth());
     if (const SceneBuilder* builder = m_viewport->builder()) {
         const BodyFits& bodies = builder->bodies();
         const OwnFigures& own = builder->ownFigures();
-        m_driver.setMeshMemory(bodies.memoryBytes() + own.memoryBytes(),
-                               bodies.mostBytes() + own.mostBytes());
+        m_driver.health().setMeshMemory(bodies.memoryBytes() + own.memoryBytes(),
+                                        bodies.mostBytes() + own.mostBytes());
     }
 }
 
 void MainWindow::showVerdict() {
+    const ComparisonState& comparison = m_driver.files().comparing().state();
+    const bool hasPackets = m_driver.commands().live().end() != 0;
     ShownFile file;
-    if (OpenedFile* opened = m_driver.file(); opened != nullptr && opened->session().end() != 0) {
-        file = {opened->name(), m_driver.isFileShown(), QString::fromStdString(opened->verdict().text),
-                opened->notes()};
+    if (OpenedFile* opened = m_driver.files().file(); opened != nullptr && opened->session().end() != 0) {
+        file = {opened->name(), m_driver.commands().isFileShown(),
+                QString::fromStdString(opened->verdict().text), opened->notes()};
     }
-    file.comparison = comparisonText(m_driver.comparison());
+    file.comparison = comparisonText(comparison);
     const std::vector<PortState>& ports = m_driver.receiving().state().ports;
-    const bool hasInputs = !ports.empty() || m_driver.live().end() != 0;
+    const bool hasInputs = !ports.empty() || hasPackets;
     const bool isBlocked = !ports.empty() && std::ranges::none_of(ports, [](const PortState& port) {
         return port.problem.isEmpty();
     });
@@ -316,8 +319,8 @@ void MainWindow::showVerdict() {
     m_menus.action("live")->setEnabled(hasInputs || !file.isShown);
     m_menus.action("showFile")->setEnabled(!file.name.isEmpty() && !file.isShown);
     m_menus.action("closeFile")->setEnabled(!file.name.isEmpty());
-    m_menus.action("endComparison")->setEnabled(m_driver.comparison().isOpen);
-    m_menus.action("resetForTake")->setEnabled(m_driver.live().end() != 0);
+    m_menus.action("endComparison")->setEnabled(comparison.isOpen);
+    m_menus.action("resetForTake")->setEnabled(hasPackets);
     m_verdict->refresh(file, hasInputs, isBlocked ? ports.front().problem : QString());
 }
 
@@ -345,12 +348,12 @@ void MainWindow::editThresholds() {
     ThresholdsDialog dialog(m_settings.alerts, this);
     if (dialog.exec() == QDialog::Accepted) {
         m_settings.alerts = dialog.choices();
-        m_driver.setThresholds(m_settings.alerts.thresholds);
+        m_driver.commands().setThresholds(m_settings.alerts.thresholds);
     }
 }
 
 void MainWindow::alert() {
-    if (m_sounds.isDue(m_driver.live().incidents(), m_settings.alerts)) {
+    if (m_sounds.isDue(m_driver.commands().live().incidents(), m_settings.alerts)) {
         QApplication::beep();
     }
     m_notifier.look(m_verdict->verdict(), m_settings.alerts.hasNotification);
@@ -398,7 +401,7 @@ void MainWindow::findCommand() {
 }
 
 void MainWindow::editHistory() {
-    HistoryDialog dialog(m_driver, m_settings.history, this);
+    HistoryDialog dialog(m_driver.commands().live(), m_driver.history(), m_settings.history, this);
     if (dialog.exec() == QDialog::Accepted && dialog.choice() != m_settings.history) {
         m_settings.history = dialog.choice();
         keepHistory();
@@ -409,7 +412,7 @@ void MainWindow::keepHistory() {
     constexpr std::uint64_t gigabyte = 1'000'000'000;
     const HistoryChoice& choice = m_settings.history;
     const std::uint64_t most = static_cast<std::uint64_t>(choice.gigabytes) * gigabyte;
-    if (const QString problem = m_driver.keepHistory(choice.isOnDisk ? most : 0); !problem.isEmpty()) {
+    if (const QString problem = m_driver.history().keep(choice.isOnDisk ? most : 0); !problem.isEmpty()) {
         say(problem, HelpTopic::HistoryOff);
     }
 }

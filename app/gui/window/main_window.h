@@ -2,10 +2,10 @@
 #pragma once
 
 #include "app/gui/base/help_topics.h"
-#include "app/gui/base/panel.h"
 #include "app/gui/base/settings.h"
 #include "app/gui/driver/session_driver.h"
 #include "app/gui/inputs/inputs_dialog.h"
+#include "app/gui/panels/panels.h"
 #include "app/gui/viewport/viewport_widget.h"
 #include "app/gui/window/alerts.h"
 #include "app/gui/window/menus.h"
@@ -55,7 +55,6 @@ public:
     void toggleRecording();
     void editRecording();
     void clearRecentFiles() { m_settings.recentFiles.clear(); }
-    void closeFile() { m_driver.closeFile(); }
     void editThresholds();
     void openInputs(InputsDialog::Page page);
     void useTheme(ThemeChoice choice);

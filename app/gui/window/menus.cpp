@@ -25,16 +25,35 @@ namespace {
 
 using Window = MainWindow;
 using Do = ActionsOf<MainWindow>;
-using Direction = SessionDriver::Direction;
+using Direction = Playback::Direction;
 
 constexpr int kDemoCharacters = 2;
 
+Commands& commands(const Window& window) {
+    return window.driver().commands();
+}
+Playback& playback(const Window& window) {
+    return window.driver().playback();
+}
+Files& files(const Window& window) {
+    return window.driver().files();
+}
+Comparing& comparing(const Window& window) {
+    return files(window).comparing();
+}
+Takes& takes(const Window& window) {
+    return window.driver().takes();
+}
+Demo& demo(const Window& window) {
+    return window.driver().demo();
+}
+
 void toggleDemo(Window& window) {
-    window.driver().setDemo(window.driver().isDemoRunning() ? 0 : kDemoCharacters);
+    demo(window).setCharacters(demo(window).isRunning() ? 0 : kDemoCharacters);
 }
 
 void togglePaused(Window& window) {
-    window.driver().setPaused(!window.driver().isPaused());
+    playback(window).setPaused(!playback(window).isPaused());
 }
 
 void saveScreenshot(Window& window) {
@@ -53,15 +72,14 @@ void saveScreenshot(Window& window) {
 }
 
 void saveReport(Window& window) {
-    if (const QString line = saveStreamReport(window.driver().session(), &window); !line.isEmpty()) {
+    if (const QString line = saveStreamReport(commands(window).session(), &window); !line.isEmpty()) {
         window.say(line);
     }
 }
 
 void copyDiagnostics(Window& window) {
-    SessionDriver& driver = window.driver();
-    driver.copyText(
-        diagnosticsText(driver.session(), driver.receiving().state(), window.viewport().rendererName()));
+    copyText(diagnosticsText(commands(window).session(), window.driver().receiving().state(),
+                             window.viewport().rendererName()));
     window.say(tr("Diagnostics copied"));
 }
 
@@ -86,56 +104,56 @@ void useShippedLayout(Window& window) {
 
 template <Direction direction>
 bool isPlaying(const Window& window) {
-    return window.driver().isPlaying(direction);
+    return playback(window).isPlaying(direction);
 }
 
 void toggleLoop(Window& window) {
-    window.driver().setLooping(!window.driver().isLooping());
+    playback(window).setLooping(!playback(window).isLooping());
 }
 
 template <int steps>
 void stepSamples(Window& window) {
-    if (const auto key = shownCharacter(window.driver().session())) {
-        window.driver().stepSamples(*key, steps);
+    if (const auto key = shownCharacter(commands(window).session())) {
+        playback(window).stepSamples(*key, steps);
     } else {
-        window.driver().stepPackets(steps);
+        playback(window).stepPackets(steps);
     }
 }
 
 template <int seconds>
 void stepSeconds(Window& window) {
-    window.driver().stepTime(std::chrono::seconds(seconds));
+    playback(window).stepTime(std::chrono::seconds(seconds));
 }
 
 template <int percent>
 void setSpeed(Window& window) {
-    window.driver().setPlaySpeed(percent / 100.0);
+    playback(window).setSpeed(percent / 100.0);
 }
 template <int percent>
 bool hasSpeed(const Window& window) {
-    return window.driver().playSpeed() == percent / 100.0;
+    return playback(window).speed() == percent / 100.0;
 }
 
 /// The evidence of the live verdict, as a click on it gives it.
 void showEvidence(Window& window) {
-    window.showEvidence(window.driver().live().verdicts().all.incident);
+    window.showEvidence(commands(window).live().verdicts().all.incident);
 }
 
 /// What figures are of: the newest seconds, or all.
 template <int seconds>
 void useNewest(Window& window) {
-    window.driver().selectRange({.last = std::chrono::seconds(seconds)});
+    commands(window).selectRange({.last = std::chrono::seconds(seconds)});
 }
 void useSinceReset(Window& window) {
-    window.driver().selectRange({.isSinceReset = true});
+    commands(window).selectRange({.isSinceReset = true});
 }
 template <int seconds>
 bool isNewestUsed(const Window& window) {
-    return window.driver().session().rangeChoice() ==
+    return commands(window).session().rangeChoice() ==
            model::RangeChoice{.last = std::chrono::seconds(seconds)};
 }
 bool isSinceResetUsed(const Window& window) {
-    return window.driver().session().rangeChoice().isSinceReset;
+    return commands(window).session().rangeChoice().isSinceReset;
 }
 
 /// Where the entries of panels go in a menu and in its submenus.
@@ -168,14 +186,14 @@ const ActionInfo kActions[] = {
     {"clearRecentFiles", "&File/Open rece&nt", QT_TRANSLATE_NOOP("Action", "&Clear list"), "",
      Do::call<&Window::clearRecentFiles>},
     {"closeFile", "&File", QT_TRANSLATE_NOOP("Action", "&Close recording"), "Ctrl+W",
-     Do::call<&Window::closeFile>},
+     Do::callIn<files, &Files::close>},
     {"stopOpening", "&File", QT_TRANSLATE_NOOP("Action", "S&top opening"), "Esc",
-     Do::callIn<&Window::driver, &SessionDriver::cancelOpening>},
+     Do::callIn<files, &Files::cancelOpening>},
     lineIn("&File"),
     {"compareWith", "&File", QT_TRANSLATE_NOOP("Action", "Compare &with a recording…"), "Ctrl+Shift+O",
-     Do::callIn<&Window::driver, &SessionDriver::askForComparison>},
+     Do::call<&Window::chooseComparison>},
     {"endComparison", "&File", QT_TRANSLATE_NOOP("Action", "&End comparison"), "",
-     Do::callIn<&Window::driver, &SessionDriver::endComparison>},
+     Do::callIn<comparing, &Comparing::close>},
     lineIn("&File"),
     {"saveScreenshot", "&File", QT_TRANSLATE_NOOP("Action", "&Save screenshot…"), "Ctrl+Shift+S",
      Do::call<saveScreenshot>},
@@ -187,7 +205,7 @@ const ActionInfo kActions[] = {
     panelsIn("&File"),
     lineIn("&File"),
     {"record", "&File", QT_TRANSLATE_NOOP("Action", "Reco&rd"), "R", Do::call<&Window::toggleRecording>,
-     Do::isIn<&Window::driver, &SessionDriver::isRecording>},
+     Do::isIn<takes, &Takes::isRecording>},
     {"recordingOptions", "&File", QT_TRANSLATE_NOOP("Action", "Recor&ding options…"), "",
      Do::call<&Window::editRecording>},
     lineIn("&File"),
@@ -204,7 +222,7 @@ const ActionInfo kActions[] = {
     {"inputs", QT_TRANSLATE_NOOP("Action", "&Input"), QT_TRANSLATE_NOOP("Action", "&Inputs…"), "Ctrl+U",
      Do::call<&Window::openInputs, InputsDialog::Page::Inputs>},
     {"demo", "&Input", QT_TRANSLATE_NOOP("Action", "&Demo stream"), "Ctrl+D", Do::call<toggleDemo>,
-     Do::isIn<&Window::driver, &SessionDriver::isDemoRunning>},
+     Do::isIn<demo, &Demo::isRunning>},
     panelsIn("&Input"),
 
     {"resetLayout", QT_TRANSLATE_NOOP("Action", "&View"), QT_TRANSLATE_NOOP("Action", "&Reset layout"), "",
@@ -236,15 +254,13 @@ const ActionInfo kActions[] = {
     panelsIn(QT_TRANSLATE_NOOP("Action", "&Go")),
 
     {"pause", QT_TRANSLATE_NOOP("Action", "&Time"), QT_TRANSLATE_NOOP("Action", "&Pause"), "Space",
-     Do::call<togglePaused>, Do::isIn<&Window::driver, &SessionDriver::isPaused>},
+     Do::call<togglePaused>, Do::isIn<playback, &Playback::isPaused>},
     {"live", "&Time", QT_TRANSLATE_NOOP("Action", "Back to &live"), "End",
-     Do::callIn<&Window::driver, &SessionDriver::goLive>},
+     Do::callIn<playback, &Playback::goLive>},
     {"play", "&Time", QT_TRANSLATE_NOOP("Action", "Pl&ay from here"), "Shift+Space",
-     Do::callIn<&Window::driver, &SessionDriver::play, Direction::Forwards>,
-     Do::is<isPlaying<Direction::Forwards>>},
+     Do::callIn<playback, &Playback::play, Direction::Forwards>, Do::is<isPlaying<Direction::Forwards>>},
     {"playBack", "&Time", QT_TRANSLATE_NOOP("Action", "Play bac&kwards"), "Ctrl+Shift+Space",
-     Do::callIn<&Window::driver, &SessionDriver::play, Direction::Backwards>,
-     Do::is<isPlaying<Direction::Backwards>>},
+     Do::callIn<playback, &Playback::play, Direction::Backwards>, Do::is<isPlaying<Direction::Backwards>>},
     speed<5>("speed005", "0.0&5 ×"),
     speed<10>("speed01", "0.&1 ×"),
     speed<25>("speed025", "0.&25 ×"),
@@ -255,7 +271,7 @@ const ActionInfo kActions[] = {
     speed<800>("speed8", "&8 ×"),
     speed<1600>("speed16", "1&6 ×"),
     {"loop", "&Time", QT_TRANSLATE_NOOP("Action", "L&oop"), "Ctrl+Alt+L", Do::call<toggleLoop>,
-     Do::isIn<&Window::driver, &SessionDriver::isLooping>},
+     Do::isIn<playback, &Playback::isLooping>},
     step<-1>("sampleBack", QT_TRANSLATE_NOOP("Action", "Previous sa&mple"), "Left"),
     step<1>("sampleOn", QT_TRANSLATE_NOOP("Action", "&Next sample"), "Right"),
     step<-10>("tenBack", QT_TRANSLATE_NOOP("Action", "Ten samples bac&k"), "Shift+Left"),
@@ -265,13 +281,13 @@ const ActionInfo kActions[] = {
     {"secondOn", kStep, QT_TRANSLATE_NOOP("Action", "One &second on"), "Ctrl+Right",
      Do::call<stepSeconds<1>>},
     {"packetBack", kStep, QT_TRANSLATE_NOOP("Action", "Previous pa&cket"), ",",
-     Do::callIn<&Window::driver, &SessionDriver::stepPackets, -1>},
+     Do::callIn<playback, &Playback::stepPackets, -1>},
     {"packetOn", kStep, QT_TRANSLATE_NOOP("Action", "Next &packet"), ".",
-     Do::callIn<&Window::driver, &SessionDriver::stepPackets, 1>},
+     Do::callIn<playback, &Playback::stepPackets, 1>},
     {"showFile", "&Time", QT_TRANSLATE_NOOP("Action", "Show the &recording"), "Shift+End",
-     Do::callIn<&Window::driver, &SessionDriver::showFile>},
+     Do::callIn<files, &Files::show>},
     {"resetForTake", "&Time", QT_TRANSLATE_NOOP("Action", "Reset &before take"), "Ctrl+Shift+R",
-     Do::callIn<&Window::driver, &SessionDriver::resetForTake>},
+     Do::callIn<commands, &Commands::resetForTake>},
     {"verdictEvidence", "&Time", QT_TRANSLATE_NOOP("Action", "E&vidence of the verdict"), "Ctrl+E",
      Do::call<showEvidence>},
     {"figures10s", kFigures, QT_TRANSLATE_NOOP("Action", "The last 10 &s"), "", Do::call<useNewest<10>>,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/base/panel.h"
+#include "app/gui/panels/panels.h"
 
 #include <QMap>
 #include <QString>

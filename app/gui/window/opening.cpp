@@ -50,7 +50,7 @@ void MainWindow::openFile() {
 
 void MainWindow::openPath(const QString& path) {
     noteRecent(path);
-    m_driver.openFile(path);
+    m_driver.files().open(path);
 }
 
 void MainWindow::noteRecent(const QString& path) {
@@ -77,7 +77,7 @@ void MainWindow::chooseComparison() {
 }
 
 void MainWindow::compareWith(const QString& path) {
-    m_driver.compareWith(path);
+    m_driver.files().comparing().open(path);
     showDock(QStringLiteral("compare"));
 }
 
@@ -107,12 +107,13 @@ void MainWindow::listRecentFiles(QMenu& menu) {
 }
 
 void MainWindow::toggleRecording() {
-    const std::optional<TakeState> take = m_driver.take();
-    if (const QString problem = m_driver.toggleRecording(m_settings.recording); !problem.isEmpty()) {
+    Takes& takes = m_driver.takes();
+    const std::optional<TakeState> take = takes.state();
+    if (const QString problem = takes.toggle(m_settings.recording); !problem.isEmpty()) {
         MessageBox box(tr("Record"), problem, QMessageBox::Ok, this);
         offerHelp(box, placeOf(HelpTopic::RecordingFailed));
         box.exec();
-    } else if (take && !m_driver.isRecording()) {
+    } else if (take && !takes.isRecording()) {
         noteRecent(take->path);
         const QFileInfo file(take->path);
         say(tr("Recorded %1, under File > Open recent: %2, in %3")
@@ -131,7 +132,7 @@ void MainWindow::editRecording() {
 void MainWindow::showReplay() {
     auto* dialog = findChild<ReplayDialog*>();
     if (dialog == nullptr) {
-        dialog = new ReplayDialog(m_driver, this);
+        dialog = new ReplayDialog(m_driver.replaying(), m_driver.commands(), this);
         dialog->setAttribute(Qt::WA_DeleteOnClose);
     }
     dialog->show();
@@ -140,23 +141,26 @@ void MainWindow::showReplay() {
 }
 
 void MainWindow::exportMotion() {
-    if (m_driver.session().atNow().currentCharacters().empty()) {
+    model::SessionView& session = m_driver.commands().session();
+    if (session.atNow().currentCharacters().empty()) {
         say(tr("There is no motion to export: no character has arrived yet."), HelpTopic::NothingToExport);
         return;
     }
-    MotionExportDialog(m_driver.session(), this).exec(); // the file stays open meanwhile
+    MotionExportDialog(session, this).exec(); // the file stays open meanwhile
 }
 
 void MainWindow::exportPictures() {
-    if (m_driver.session().atNow().currentCharacters().empty()) {
+    if (m_driver.commands().session().atNow().currentCharacters().empty()) {
         say(tr("There is nothing to draw: no character has arrived yet."), HelpTopic::NothingToExport);
         return;
     }
-    PicturesDialog(m_driver, *m_viewport, this).exec();
+    PicturesDialog(m_driver.commands(), m_driver.playback(), m_driver.files().comparing().state(),
+                   *m_viewport, this)
+        .exec();
 }
 
 void MainWindow::editOwnCharacter() {
-    model::SessionView& session = m_driver.session();
+    model::SessionView& session = m_driver.commands().session();
     QStringList names;
     for (const model::Character* character : session.currentCharacters()) {
         names += shown(session.displayName(character->key));
@@ -168,9 +172,9 @@ void MainWindow::editOwnCharacter() {
 }
 
 void MainWindow::showRecovered() {
-    auto* dialog = new RecoveryDialog(m_driver, this);
+    auto* dialog = new RecoveryDialog(m_driver.history(), this);
     connect(dialog, &RecoveryDialog::openRequested, this,
-            [this](const QString& path) { m_driver.openFile(path); }); // it goes: no recent file
+            [this](const QString& path) { m_driver.files().open(path); }); // it goes: no recent file
     connect(dialog, &RecoveryDialog::over, this, [this, dialog](const QString& text) {
         if (!text.isEmpty()) {
             say(text);
@@ -181,18 +185,18 @@ void MainWindow::showRecovered() {
 }
 
 void MainWindow::offerRecovered() {
-    if (!m_driver.lostHistories().empty()) {
+    if (!m_driver.history().lost().empty()) {
         showRecovered();
     }
 }
 
 void MainWindow::showOpening() {
-    const bool isOpening = m_driver.isOpening();
+    const bool isOpening = m_driver.files().isOpening();
     if (!m_saysOpening && m_health->said() != m_sayAgain) {
         m_sayAgain.clear(); // it has passed
     }
     if (isOpening) {
-        say(m_driver.openingText());
+        say(m_driver.files().openingText());
     } else if (m_saysOpening) {
         say(m_sayAgain);
     }

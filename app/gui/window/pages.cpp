@@ -39,13 +39,17 @@ void MainWindow::makeDocks() {
 }
 
 MainWindow::Page MainWindow::makePage(const PanelInfo& info, QDockWidget* dock) {
-    Panel* panel = info.make(m_driver.session(), m_driver, m_driver, dock);
+    Panel* panel =
+        info.make({m_driver.commands().session(), m_driver.commands(), m_driver.playback(),
+                   m_driver.files().comparing(), m_driver.receiving().state(), m_driver.health().health()},
+                  dock);
     return {scrolling(panel, dock), panel};
 }
 
 /// What the operator set in a dock is of the dock: it goes along from page to page.
 void MainWindow::showSession() {
-    const bool isFile = m_driver.isFileShown();
+    Commands& commands = m_driver.commands();
+    const bool isFile = commands.isFileShown();
     for (Dock& dock : m_docks) {
         if (isFile && dock.file.panel == nullptr) {
             dock.file = makePage(*dock.info, dock.dock);
@@ -59,7 +63,7 @@ void MainWindow::showSession() {
         dock.panel = page.panel;
     }
     if (isFile && m_fileHealth == nullptr) {
-        m_fileHealth = new HealthBar(m_driver.session(), m_driver, this);
+        m_fileHealth = new HealthBar(commands.session(), commands, this);
         statusBar()->insertWidget(0, m_fileHealth, 1);
     }
     HealthBar* const before = std::exchange(m_health, isFile ? m_fileHealth : m_liveHealth);
@@ -68,8 +72,8 @@ void MainWindow::showSession() {
     if (before != m_health) {
         m_health->takeMessage(*before);
     }
-    m_transport->showSession(m_driver.session(), !isFile);
-    m_viewport->showSession(m_driver.session(), isFile ? m_driver.file()->name() : QString());
+    m_transport->showSession(commands.session(), !isFile);
+    m_viewport->showSession(commands.session(), isFile ? m_driver.files().file()->name() : QString());
     m_menus.showStates();
     showReceiving();
     refreshPanels();

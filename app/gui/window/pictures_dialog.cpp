@@ -36,9 +36,13 @@ QString textOf(const QSize& size) {
 
 } // namespace
 
-PicturesDialog::PicturesDialog(SessionDriver& driver, const ViewportWidget& viewport, QWidget* parent)
+PicturesDialog::PicturesDialog(const Commands& commands, Playback& playback,
+                               const ComparisonState& comparison, const ViewportWidget& viewport,
+                               QWidget* parent)
     : QDialog(parent),
-      m_driver(driver),
+      m_commands(commands),
+      m_playback(playback),
+      m_comparison(comparison),
       m_viewport(viewport),
       m_what(new ComboBox(this)),
       m_rate(new QSpinBox(this)),
@@ -82,7 +86,7 @@ PicturesDialog::PicturesDialog(SessionDriver& driver, const ViewportWidget& view
     connect(m_button, &QPushButton::clicked, this, &PicturesDialog::toggle);
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
     offerHelp(*this, *buttons, placeOf(HelpTopic::PicturesExport));
-    connect(&driver, &SessionDriver::shownChanged, this, [this] {
+    connect(&commands, &Commands::switched, this, [this] {
         if (m_series != nullptr) {
             m_series->leave();
             end(tr("Stopped after %1 pictures: another session is shown now.").arg(m_series->written()));
@@ -98,7 +102,7 @@ QString PicturesDialog::stateText() const {
 }
 
 model::TimeRange PicturesDialog::time() const {
-    const model::SessionView& view = m_driver.session();
+    const model::SessionView& view = m_commands.session();
     const auto oldest = view.packet(view.begin());
     const auto newest = view.end() > 0 ? view.packet(view.end() - 1) : std::nullopt;
     model::TimeRange time{view.cursorStamp(), view.cursorStamp()};
@@ -176,8 +180,8 @@ void PicturesDialog::askWhereToSave() {
 
 void PicturesDialog::save(const QString& path) {
     m_series =
-        std::make_unique<PictureSeries>(m_driver.session(), m_driver, m_viewport.look(), request(path));
-    m_series->setComparison(&m_driver.comparison());
+        std::make_unique<PictureSeries>(m_commands.session(), m_playback, m_viewport.look(), request(path));
+    m_series->setComparison(&m_comparison);
     const auto showState = [this] {
         m_state->setText(tr("Writing: %1 of %2").arg(m_series->written()).arg(m_series->request().count));
     };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/driver/session_driver.h"
+#include "app/gui/base/playback.h"
 #include "app/gui/viewport/picture_series.h"
 #include "app/gui/viewport/viewport_widget.h"
 
@@ -22,7 +22,8 @@ class PicturesDialog final : public QDialog {
     Q_OBJECT
 
 public:
-    PicturesDialog(SessionDriver& driver, const ViewportWidget& viewport, QWidget* parent);
+    PicturesDialog(const Commands& commands, Playback& playback, const ComparisonState& comparison,
+                   const ViewportWidget& viewport, QWidget* parent);
     /// What has been written stays.
     ~PicturesDialog() override;
 
@@ -42,7 +43,9 @@ private:
     void askWhereToSave();
     void end(const QString& text);
 
-    SessionDriver& m_driver;
+    const Commands& m_commands; ///< what is shown
+    Playback& m_playback;
+    const ComparisonState& m_comparison;
     const ViewportWidget& m_viewport;
     QComboBox* m_what;
     QSpinBox* m_rate;

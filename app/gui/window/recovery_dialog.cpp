@@ -3,7 +3,7 @@
 
 #include "app/gui/base/help_topics.h"
 #include "app/gui/base/saving.h"
-#include "app/gui/driver/session_driver.h"
+#include "app/gui/driver/history.h"
 #include "app/gui/models/text.h"
 #include "app/gui/theme/help_link.h"
 #include "app/gui/theme/widgets.h"
@@ -34,9 +34,9 @@ QString day(log::WallTime time) {
 
 } // namespace
 
-RecoveryDialog::RecoveryDialog(SessionDriver& driver, QWidget* parent)
+RecoveryDialog::RecoveryDialog(History& history, QWidget* parent)
     : QDialog(parent),
-      m_driver(driver),
+      m_history(history),
       m_list(new QTreeWidget(this)),
       m_message(dimText({}, this)),
       m_watch(new QTimer(this)) {
@@ -83,7 +83,7 @@ bool RecoveryDialog::isEmpty() const {
 
 void RecoveryDialog::fill() {
     m_list->clear();
-    for (const log::LostHistory& one : m_driver.lostHistories()) {
+    for (const log::LostHistory& one : m_history.lost()) {
         const log::WallTime begin = log::beginOf(one.path).value_or(one.end);
         auto* item = new QTreeWidgetItem(
             m_list, {day(begin), timeOfDay(begin), timeOfDay(one.end), megabytes(one.bytes)});
@@ -143,7 +143,7 @@ void RecoveryDialog::discard() {
     MessageBox question(tr("Discard"), tr("Discard all recovered packets? They cannot be brought back."),
                         QMessageBox::Discard | QMessageBox::Cancel, this);
     if (question.exec() == QMessageBox::Discard) {
-        m_driver.discardLostHistories();
+        m_history.discardLost();
         fill();
         showState({});
     }

@@ -12,7 +12,7 @@ class QTreeWidget;
 
 namespace posewire::gui {
 
-class SessionDriver;
+class History;
 
 /// What was received until Posewire was killed, the power failed or the like: files of the history on disk
 /// that nobody has saved, to be opened, saved or discarded.
@@ -20,7 +20,7 @@ class RecoveryDialog final : public QDialog {
     Q_OBJECT
 
 public:
-    RecoveryDialog(SessionDriver& driver, QWidget* parent);
+    RecoveryDialog(History& history, QWidget* parent);
 
     [[nodiscard]] bool isEmpty() const;
     /// Copies the selected file, on a thread of its own.
@@ -42,7 +42,7 @@ private:
     void watchSaving();
     void showState(const QString& message);
 
-    SessionDriver& m_driver;
+    History& m_history;
     QTreeWidget* m_list;
     QPushButton* m_open;
     QPushButton* m_save;

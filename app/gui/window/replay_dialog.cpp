@@ -28,8 +28,8 @@ namespace {
 constexpr std::chrono::milliseconds kReplayLook{200};
 constexpr int kOverTcp = 1; // of the transports
 
-bool isRunning(const SessionDriver& driver) {
-    return driver.replay() != nullptr && !driver.replay()->figures().isOver;
+bool isRunning(const Replaying& replaying) {
+    return replaying.current() != nullptr && !replaying.current()->figures().isOver;
 }
 
 } // namespace
@@ -59,9 +59,10 @@ QString replayText(const net::Replay& replay) {
     return parts.join(QStringLiteral(" · "));
 }
 
-ReplayDialog::ReplayDialog(SessionDriver& driver, QWidget* parent)
+ReplayDialog::ReplayDialog(Replaying& replaying, const Commands& commands, QWidget* parent)
     : QDialog(parent),
-      m_driver(driver),
+      m_replaying(replaying),
+      m_commands(commands),
       m_target(new QLineEdit(QStringLiteral("127.0.0.1:9763"), this)),
       m_transport(new ComboBox(this)),
       m_range(new RangeBox(this)),
@@ -106,8 +107,8 @@ ReplayDialog::ReplayDialog(SessionDriver& driver, QWidget* parent)
 }
 
 void ReplayDialog::toggle() {
-    if (isRunning(m_driver)) {
-        m_driver.stopReplay();
+    if (isRunning(m_replaying)) {
+        m_replaying.stop();
     } else {
         begin();
     }
@@ -127,12 +128,12 @@ void ReplayDialog::begin() {
     request.speed = m_speed->value();
     request.isLooping = m_loop->isChecked();
     request.isRangeOnly = m_range->isRangeOnly();
-    m_problem = m_driver.startReplay(request);
+    m_problem = m_replaying.start(request, m_commands.session());
 }
 
 void ReplayDialog::refresh() {
-    const net::Replay* replay = m_driver.replay();
-    m_button->setText(isRunning(m_driver) ? tr("&Stop sending") : tr("&Send"));
+    const net::Replay* replay = m_replaying.current();
+    m_button->setText(isRunning(m_replaying) ? tr("&Stop sending") : tr("&Send"));
     m_state->setText(!m_problem.isEmpty() ? m_problem
                      : replay != nullptr  ? replayText(*replay)
                                           : tr("Nothing is being sent."));

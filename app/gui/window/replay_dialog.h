@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/driver/session_driver.h"
+#include "app/gui/base/commands.h"
+#include "app/gui/driver/replaying.h"
 
 #include <QDialog>
 
@@ -21,7 +22,7 @@ class ReplayDialog final : public QDialog {
     Q_OBJECT
 
 public:
-    ReplayDialog(SessionDriver& driver, QWidget* parent);
+    ReplayDialog(Replaying& replaying, const Commands& commands, QWidget* parent);
 
     /// What the button does: begins, or ends what runs.
     void toggle();
@@ -30,7 +31,8 @@ private:
     void begin();
     void refresh();
 
-    SessionDriver& m_driver;
+    Replaying& m_replaying;
+    const Commands& m_commands; ///< what is shown
     QLineEdit* m_target;
     QComboBox* m_transport;
     RangeBox* m_range;

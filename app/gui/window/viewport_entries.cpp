@@ -21,15 +21,15 @@ void nextAxes(Window& window) {
 }
 
 bool isGhostOn(const Window& window) {
-    return window.driver().session().isGhostShown();
+    return window.driver().commands().session().isGhostShown();
 }
 
 void toggleGhost(Window& window) {
-    window.driver().setGhostVisible(!isGhostOn(window));
+    window.driver().commands().setGhostVisible(!isGhostOn(window));
 }
 
 bool isAnyLifted(const Window& window) {
-    const model::SessionView& session = window.driver().session();
+    const model::SessionView& session = window.driver().commands().session();
     return std::ranges::any_of(session.currentCharacters(), [&session](const model::Character* character) {
         return session.isLifted(character->key);
     });
@@ -37,17 +37,17 @@ bool isAnyLifted(const Window& window) {
 
 void toggleLifted(Window& window) {
     const bool isOn = !isAnyLifted(window);
-    for (const model::Character* character : window.driver().session().currentCharacters()) {
-        window.driver().setLifted(character->key, isOn);
+    for (const model::Character* character : window.driver().commands().session().currentCharacters()) {
+        window.driver().commands().setLifted(character->key, isOn);
     }
 }
 
 template <int index>
 void selectCharacter(Window& window) {
-    const auto characters = window.driver().session().currentCharacters();
+    const auto characters = window.driver().commands().session().currentCharacters();
     if (index < static_cast<int>(characters.size())) {
         const model::CharacterKey& key = characters[index]->key;
-        window.driver().select({key.sender, key, -1});
+        window.driver().commands().select({key.sender, key, -1});
     }
 }
 

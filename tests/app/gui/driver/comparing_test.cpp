@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/driver/session_driver.h"
-#include "core/log/output_file.h"
-#include "core/log/pcapng_writer.h"
-#include "tests/app/gui/models/stage.h"
+#include "tests/app/gui/models/recording_files.h"
 #include "tests/support/manual_clock.h"
 
 #include <QFile>
@@ -23,32 +21,16 @@ protected:
     /// Frames from one to before another of a performer at 60 Hz.
     QString record(const QString& name, std::uint64_t from, std::uint64_t to, std::uint32_t firstSample = 1,
                    float higher = 0, std::uint32_t timeOfDay = 36'000'000) {
-        const std::string path = m_folder.filePath(name).toStdString();
-        auto sink = log::createFile(path).value();
-        log::PcapngWriter writer(*sink);
-        EXPECT_TRUE(writer.begin({}));
         performer::PerformerSettings settings = sending(1, {2, 12, 13}, 60);
         settings.firstSample = firstSample;
         settings.startTimeOfDayMs = timeOfDay;
         performer::Performer performer(settings);
-        for (std::uint64_t frame = from; frame < to; ++frame) {
-            const log::Stamp at = Stage::kStart + (frame - from) * log::Duration(1s) / 60;
-            for (wire::Datagram& datagram : performer.frame(frame)) {
-                if (auto* pose = std::get_if<wire::PoseQuaternion>(&datagram.body)) {
-                    pose->segments[model::segment::kHead].position[2] += higher;
-                }
-                const auto bytes = wire::encode(datagram).value();
-                EXPECT_TRUE(
-                    writer.add({0, at, {}, 0, {}, bytes}, {"10.0.0.2:4000", log::Transport::Udp, 9763}));
-            }
-        }
-        EXPECT_TRUE(writer.addStatistics());
-        EXPECT_TRUE(sink->flush());
-        return QString::fromStdString(path);
+        return recordFrames(m_folder.filePath(name), performer, from, to,
+                            [=](auto& datagram) { raise(datagram, model::segment::kHead, higher); });
     }
     bool isSettled() {
-        const ComparisonState& state = m_driver.comparison();
-        return !m_driver.isOpening() && (!state.isOpen || !state.isWorking) &&
+        const ComparisonState& state = m_driver.files().comparing().state();
+        return !m_driver.files().isOpening() && (!state.isOpen || !state.isWorking) &&
                (!state.isOpen || state.range != nullptr || !state.problem.isEmpty());
     }
     void settle() {
@@ -62,8 +44,8 @@ protected:
         }
         FAIL() << "it goes on and on";
     }
-    const ComparisonState& state() { return m_driver.comparison(); }
-    model::CharacterKey key() { return m_driver.session().characters()[0].key; }
+    const ComparisonState& state() { return m_driver.files().comparing().state(); }
+    model::CharacterKey key() { return m_driver.commands().session().characters()[0].key; }
     std::uint32_t sampleOf(model::SessionView& session) {
         return session.pose(session.characters()[0].key)->sample;
     }
@@ -74,17 +56,17 @@ protected:
 };
 
 TEST_F(ComparingTest, BothRecordingsShowTheSameMomentByTimeCode) {
-    m_driver.openFile(record("a.pcapng", 0, 300));
-    m_driver.compareWith(record("b.pcapng", 20, 280, 5000, 0.010F));
+    m_driver.files().open(record("a.pcapng", 0, 300));
+    m_driver.files().comparing().open(record("b.pcapng", 20, 280, 5000, 0.010F));
     settle();
     ASSERT_TRUE(state().alignment);
     EXPECT_EQ(state().alignment->by, AlignBy::TimeCode);
     EXPECT_FALSE(state().atCursor) << "the second one ends before the end of the first";
     for (const double seconds : {1.0, 3.5, 0.5}) {
-        m_driver.seek(seconds);
+        m_driver.playback().seek(seconds);
         m_driver.tick();
         ASSERT_TRUE(state().atCursor) << seconds;
-        EXPECT_EQ(sampleOf(*state().second), sampleOf(m_driver.session()) + 4999);
+        EXPECT_EQ(sampleOf(*state().second), sampleOf(m_driver.commands().session()) + 4999);
         EXPECT_NEAR(state().atCursor->find(model::segment::kHead)->millimetres, 10, 0.05);
         EXPECT_NEAR(state().atCursor->meanMillimetres(), 10.0 / 23, 0.01);
     }
@@ -95,40 +77,41 @@ TEST_F(ComparingTest, BothRecordingsShowTheSameMomentByTimeCode) {
 }
 
 TEST_F(ComparingTest, AMomentThatIsAskedForIsThatOfBothAtOnce) {
-    m_driver.openFile(record("a.pcapng", 0, 300));
-    m_driver.compareWith(record("b.pcapng", 20, 280, 5000));
+    m_driver.files().open(record("a.pcapng", 0, 300));
+    m_driver.files().comparing().open(record("b.pcapng", 20, 280, 5000));
     settle();
     for (const auto moment : {1s, 3s, 2s}) {
-        m_driver.showMoment(Stage::kStart + moment); // no tick between, as a series of pictures does it
+        m_driver.playback().showMoment(Stage::kStart +
+                                       moment); // no tick between, as a series of pictures does it
         ASSERT_TRUE(state().atCursor);
-        EXPECT_EQ(sampleOf(*state().second), sampleOf(m_driver.session()) + 4999);
+        EXPECT_EQ(sampleOf(*state().second), sampleOf(m_driver.commands().session()) + 4999);
     }
 }
 
 TEST_F(ComparingTest, TheOperatorMovesTheSecondOneByHand) {
-    m_driver.openFile(record("a.pcapng", 0, 200));
-    m_driver.compareWith(record("b.pcapng", 0, 200, 301));
+    m_driver.files().open(record("a.pcapng", 0, 200));
+    m_driver.files().comparing().open(record("b.pcapng", 0, 200, 301));
     settle();
-    m_driver.seek(1);
-    m_driver.setComparison({.by = AlignBy::Sample, .offset = 310});
+    m_driver.playback().seek(1);
+    m_driver.files().comparing().choose({.by = AlignBy::Sample, .offset = 310});
     settle();
     ASSERT_TRUE(state().atCursor);
-    EXPECT_EQ(sampleOf(*state().second), sampleOf(m_driver.session()) + 310);
+    EXPECT_EQ(sampleOf(*state().second), sampleOf(m_driver.commands().session()) + 310);
     EXPECT_EQ(state().range->pairs, 190U);
-    m_driver.setComparison({.by = AlignBy::Sample, .offset = 300});
+    m_driver.files().comparing().choose({.by = AlignBy::Sample, .offset = 300});
     m_driver.tick();
-    EXPECT_EQ(sampleOf(*state().second), sampleOf(m_driver.session()) + 300) << "at once";
+    EXPECT_EQ(sampleOf(*state().second), sampleOf(m_driver.commands().session()) + 300) << "at once";
     settle();
     EXPECT_EQ(state().range->pairs, 200U);
     EXPECT_EQ(state().range->all.millimetres.most, 0);
 }
 
 TEST_F(ComparingTest, FiguresAreOfTheRangeThatWasChosen) {
-    m_driver.openFile(record("a.pcapng", 0, 200));
-    m_driver.compareWith(record("b.pcapng", 0, 200));
+    m_driver.files().open(record("a.pcapng", 0, 200));
+    m_driver.files().comparing().open(record("b.pcapng", 0, 200));
     settle();
     EXPECT_EQ(state().range->pairs, 200U);
-    m_driver.selectRange({.fixed = model::TimeRange{Stage::kStart + 1s, Stage::kStart + 2s}});
+    m_driver.commands().selectRange({.fixed = model::TimeRange{Stage::kStart + 1s, Stage::kStart + 2s}});
     m_clock.advance(1min);
     m_driver.tick();
     settle();
@@ -136,24 +119,24 @@ TEST_F(ComparingTest, FiguresAreOfTheRangeThatWasChosen) {
 }
 
 TEST_F(ComparingTest, WhatHasNothingInCommonIsAlignedByBeginnings) {
-    m_driver.openFile(record("a.pcapng", 0, 60));
-    m_driver.compareWith(record("b.pcapng", 0, 60, 9000, 0, 1'000));
+    m_driver.files().open(record("a.pcapng", 0, 60));
+    m_driver.files().comparing().open(record("b.pcapng", 0, 60, 9000, 0, 1'000));
     settle();
     EXPECT_EQ(state().alignment->by, AlignBy::Begin);
     EXPECT_EQ(state().range->pairs, 60U);
 }
 
 TEST_F(ComparingTest, ClosingEitherRecordingEndsIt) {
-    m_driver.openFile(record("a.pcapng", 0, 60));
-    m_driver.compareWith(record("b.pcapng", 0, 60));
+    m_driver.files().open(record("a.pcapng", 0, 60));
+    m_driver.files().comparing().open(record("b.pcapng", 0, 60));
     settle();
-    m_driver.closeFile();
+    m_driver.files().close();
     m_driver.tick();
     EXPECT_TRUE(state().isOpen) << "what is received is compared from now on";
     EXPECT_FALSE(state().pair);
     EXPECT_EQ(state().range, nullptr);
     EXPECT_FALSE(state().problem.isEmpty());
-    m_driver.endComparison();
+    m_driver.files().comparing().close();
     m_driver.tick();
     EXPECT_FALSE(state().isOpen);
     EXPECT_EQ(state().second, nullptr);
@@ -161,52 +144,52 @@ TEST_F(ComparingTest, ClosingEitherRecordingEndsIt) {
 
 TEST_F(ComparingTest, ClosingWhileItIsWorkedOutWaitsForNobody) {
     const QString a = record("a.pcapng", 0, 2000);
-    m_driver.openFile(a);
-    m_driver.compareWith(record("b.pcapng", 0, 2000));
+    m_driver.files().open(a);
+    m_driver.files().comparing().open(record("b.pcapng", 0, 2000));
     while (state().range == nullptr && !state().isWorking) {
         m_driver.tick();
     }
-    m_driver.closeFile();
-    m_driver.openFile(a);
+    m_driver.files().close();
+    m_driver.files().open(a);
     settle();
     EXPECT_EQ(state().range->pairs, 2000U);
-    m_driver.setComparison({.frame = model::DifferenceFrame::Pelvis});
+    m_driver.files().comparing().choose({.frame = model::DifferenceFrame::Pelvis});
     m_driver.tick();
-    m_driver.setComparing(false);
+    m_driver.files().comparing().stop();
     EXPECT_TRUE(state().isStopped);
     m_driver.tick();
     EXPECT_FALSE(state().isWorking);
-    m_driver.setComparing(true);
+    m_driver.files().comparing().workAgain();
     settle();
     EXPECT_FALSE(state().isStopped);
-    m_driver.endComparison();
+    m_driver.files().comparing().close();
 }
 
 TEST_F(ComparingTest, WhatWasStoppedStaysSoWhereOnlyTheBodyMovesAside) {
-    m_driver.openFile(record("a.pcapng", 0, 2000));
-    m_driver.compareWith(record("b.pcapng", 0, 2000));
+    m_driver.files().open(record("a.pcapng", 0, 2000));
+    m_driver.files().comparing().open(record("b.pcapng", 0, 2000));
     settle();
     ComparisonChoice choice = state().choice;
     choice.frame = model::DifferenceFrame::Pelvis;
-    m_driver.setComparison(choice);
+    m_driver.files().comparing().choose(choice);
     m_driver.tick(); // begins to work it out
-    m_driver.setComparing(false);
+    m_driver.files().comparing().stop();
     ASSERT_TRUE(state().isStopped);
     choice.isBeside = true;
-    m_driver.setComparison(choice);
+    m_driver.files().comparing().choose(choice);
     m_driver.tick();
     EXPECT_TRUE(state().isStopped);
     EXPECT_TRUE(state().choice.isBeside);
     choice.frame = model::DifferenceFrame::World;
-    m_driver.setComparison(choice);
+    m_driver.files().comparing().choose(choice);
     EXPECT_FALSE(state().isStopped) << "other figures are wanted";
 }
 
 TEST_F(ComparingTest, SaysWhatIsWrongWithTheSecondRecording) {
-    m_driver.openFile(record("a.pcapng", 0, 60));
+    m_driver.files().open(record("a.pcapng", 0, 60));
     settle();
-    QSignalSpy spy(&m_driver, &SessionDriver::comparisonChanged);
-    m_driver.compareWith(m_folder.filePath("missing.pcapng"));
+    QSignalSpy spy(&m_driver.files().comparing(), &Comparing::changed);
+    m_driver.files().comparing().open(m_folder.filePath("missing.pcapng"));
     settle();
     EXPECT_FALSE(state().isOpen);
     EXPECT_TRUE(spy.back()[0].toString().contains("missing.pcapng"));
@@ -215,46 +198,32 @@ TEST_F(ComparingTest, SaysWhatIsWrongWithTheSecondRecording) {
     ASSERT_TRUE(noise.open(QIODevice::WriteOnly));
     noise.write(QByteArray(2000, 'x'));
     noise.close();
-    m_driver.compareWith(noise.fileName());
+    m_driver.files().comparing().open(noise.fileName());
     settle();
     EXPECT_TRUE(!state().isOpen || !state().problem.isEmpty());
     EXPECT_EQ(state().range, nullptr);
 }
 
 TEST_F(ComparingTest, SaysWhereThereIsNoPose) {
-    const std::string path = m_folder.filePath("names.pcapng").toStdString();
-    {
-        auto sink = log::createFile(path).value();
-        log::PcapngWriter writer(*sink);
-        ASSERT_TRUE(writer.begin({}));
-        performer::Performer performer(sending(1, {12, 23}, 60));
-        for (std::uint64_t frame = 0; frame < 30; ++frame) {
-            for (const wire::Datagram& datagram : performer.frame(frame)) {
-                const auto bytes = wire::encode(datagram).value();
-                ASSERT_TRUE(writer.add({0, Stage::kStart + frame * 16ms, {}, 0, {}, bytes},
-                                       {"10.0.0.2:4000", log::Transport::Udp, 9763}));
-            }
-        }
-        ASSERT_TRUE(writer.addStatistics());
-        ASSERT_TRUE(sink->flush());
-    }
-    m_driver.openFile(record("a.pcapng", 0, 60));
-    m_driver.compareWith(QString::fromStdString(path));
+    performer::Performer performer(sending(1, {12, 23}, 60));
+    const QString path = recordFrames(m_folder.filePath("names.pcapng"), performer, 0, 30);
+    m_driver.files().open(record("a.pcapng", 0, 60));
+    m_driver.files().comparing().open(path);
     settle();
     EXPECT_TRUE(state().problem.contains("types 01, 02 or 05")) << state().problem.toStdString();
     EXPECT_TRUE(state().problem.contains("names.pcapng"));
 }
 
 TEST_F(ComparingTest, SavesTheDifferences) {
-    QSignalSpy spy(&m_driver, &SessionDriver::comparisonChanged);
-    m_driver.saveComparison(m_folder.filePath("none.csv"));
+    QSignalSpy spy(&m_driver.files().comparing(), &Comparing::changed);
+    m_driver.files().comparing().save(m_folder.filePath("none.csv"));
     EXPECT_FALSE(spy.back()[0].toString().isEmpty()) << "there is nothing to save";
-    m_driver.openFile(record("a.pcapng", 0, 60));
-    m_driver.compareWith(record("b.pcapng", 0, 60, 1, 0.010F));
+    m_driver.files().open(record("a.pcapng", 0, 60));
+    m_driver.files().comparing().open(record("b.pcapng", 0, 60, 1, 0.010F));
     settle();
     const QString path = m_folder.filePath("difference.csv");
     spy.clear();
-    m_driver.saveComparison(path);
+    m_driver.files().comparing().save(path);
     for (int i = 0; i < 5000 && spy.isEmpty(); ++i) {
         m_driver.tick();
         std::this_thread::sleep_for(1ms);
@@ -267,10 +236,11 @@ TEST_F(ComparingTest, SavesTheDifferences) {
 }
 
 TEST_F(ComparingTest, KeepsHowItIsLaidOverFromOneRecordingToTheNext) {
-    m_driver.setComparison({.frame = model::DifferenceFrame::Heading, .isBeside = true});
-    m_driver.compareWith(record("b.pcapng", 0, 60));
-    m_driver.setComparison({.by = AlignBy::Sample, .offset = 3, .frame = model::DifferenceFrame::Heading});
-    m_driver.compareWith(record("c.pcapng", 0, 60));
+    m_driver.files().comparing().choose({.frame = model::DifferenceFrame::Heading, .isBeside = true});
+    m_driver.files().comparing().open(record("b.pcapng", 0, 60));
+    m_driver.files().comparing().choose(
+        {.by = AlignBy::Sample, .offset = 3, .frame = model::DifferenceFrame::Heading});
+    m_driver.files().comparing().open(record("c.pcapng", 0, 60));
     EXPECT_EQ(state().choice, (ComparisonChoice{.frame = model::DifferenceFrame::Heading}));
 }
 

@@ -36,9 +36,9 @@ bool tickUntil(SessionDriver& driver, const Condition& condition) {
 
 /// What is said once the file is open.
 QString openFile(SessionDriver& driver, const QString& path) {
-    QSignalSpy opened(&driver, &SessionDriver::fileOpened);
-    driver.openFile(path);
-    EXPECT_TRUE(tickUntil(driver, [&] { return !driver.isOpening(); }));
+    QSignalSpy opened(&driver.files(), &Files::opened);
+    driver.files().open(path);
+    EXPECT_TRUE(tickUntil(driver, [&] { return !driver.files().isOpening(); }));
     return opened.count() == 1 ? opened[0][1].toString() : QStringLiteral("not opened once");
 }
 
@@ -73,46 +73,44 @@ private:
 
 TEST_F(SessionDriverTest, WhatArrivesAtThePortIsInTheSessionAtTheNextTick) {
     listenAndSend(10);
-    ASSERT_TRUE(tickUntil(driver, [&] { return driver.session().end() >= 10; }));
-    ASSERT_EQ(driver.session().characters().size(), 1U);
-    EXPECT_NE(driver.session().pose(driver.session().characters()[0].key), nullptr);
+    ASSERT_TRUE(tickUntil(driver, [&] { return driver.commands().session().end() >= 10; }));
+    ASSERT_EQ(driver.commands().session().characters().size(), 1U);
+    EXPECT_NE(driver.commands().session().pose(driver.commands().session().characters()[0].key), nullptr);
 }
 
 TEST_F(SessionDriverTest, TheDemoSendsToTheAddressThatIsListenedAt) {
     driver.receiving().addPort({"127.0.0.2", 0});
     ASSERT_NE(driver.receiving().openPort(), 0);
-    driver.setDemo(1);
-    EXPECT_TRUE(tickUntil(driver, [&] { return driver.live().end() != 0; }));
-    driver.setDemo(0);
+    driver.demo().setCharacters(1);
+    EXPECT_TRUE(tickUntil(driver, [&] { return driver.commands().live().end() != 0; }));
+    driver.demo().setCharacters(0);
 }
 
 TEST_F(SessionDriverTest, WhatIsHiddenIsOfTheSessionAndTheViewMoves) {
     const model::CharacterKey key{log::SenderId{0}, 1};
     driver.tick();
     QSignalSpy moved(&driver, &SessionDriver::moved);
-    QSignalSpy ghost(&driver, &SessionDriver::ghostChanged);
-    driver.setCharacterVisible(key, false);
-    driver.setGhostVisible(true);
+    driver.commands().setCharacterVisible(key, false);
+    driver.commands().setGhostVisible(true);
     driver.tick();
-    EXPECT_TRUE(driver.session().isHidden(key));
-    EXPECT_TRUE(driver.session().isGhostShown());
+    EXPECT_TRUE(driver.commands().session().isHidden(key));
+    EXPECT_TRUE(driver.commands().session().isGhostShown());
     EXPECT_EQ(moved.count(), 1);
-    EXPECT_EQ(ghost.count(), 1);
-    driver.setCharacterVisible(key, true);
-    EXPECT_FALSE(driver.session().isHidden(key));
+    driver.commands().setCharacterVisible(key, true);
+    EXPECT_FALSE(driver.commands().session().isHidden(key));
 }
 
 TEST_F(SessionDriverTest, PausingFreezesTheDisplayWhileTheLogGoesOn) {
     listenAndSend(10);
-    ASSERT_TRUE(tickUntil(driver, [&] { return driver.session().end() >= 10; }));
-    const model::CharacterKey key = driver.session().characters()[0].key;
-    driver.setPaused(true);
-    const std::uint32_t sample = driver.session().pose(key)->sample;
+    ASSERT_TRUE(tickUntil(driver, [&] { return driver.commands().session().end() >= 10; }));
+    const model::CharacterKey key = driver.commands().session().characters()[0].key;
+    driver.playback().setPaused(true);
+    const std::uint32_t sample = driver.commands().session().pose(key)->sample;
     listenAndSend(20);
-    ASSERT_TRUE(tickUntil(driver, [&] { return driver.session().end() >= 30; }));
-    EXPECT_EQ(driver.session().pose(key)->sample, sample);
-    driver.setPaused(false);
-    EXPECT_GT(driver.session().pose(key)->sample, sample);
+    ASSERT_TRUE(tickUntil(driver, [&] { return driver.commands().session().end() >= 30; }));
+    EXPECT_EQ(driver.commands().session().pose(key)->sample, sample);
+    driver.playback().setPaused(false);
+    EXPECT_GT(driver.commands().session().pose(key)->sample, sample);
 }
 
 TEST_F(SessionDriverTest, ATakeHasThePreRollAndWhatComesWhateverIsShown) {
@@ -120,28 +118,28 @@ TEST_F(SessionDriverTest, ATakeHasThePreRollAndWhatComesWhateverIsShown) {
     const RecordingChoice choice{
         .folder = folder.path(), .pattern = "take", .preRollSeconds = 60, .freeMegabytes = 0};
     listenAndSend(50);
-    ASSERT_TRUE(tickUntil(driver, [&] { return driver.live().end() == 50; }));
-    driver.setMarked(20, true);
-    driver.setComment(30, QStringLiteral("left hand jumps: look"));
-    driver.setPaused(true);
-    ASSERT_EQ(driver.toggleRecording(choice), "");
-    ASSERT_TRUE(driver.isRecording());
-    driver.setMarked(35, true);
-    driver.setMarked(20, false);
+    ASSERT_TRUE(tickUntil(driver, [&] { return driver.commands().live().end() == 50; }));
+    driver.commands().setMarked(20, true);
+    driver.commands().setComment(30, QStringLiteral("left hand jumps: look"));
+    driver.playback().setPaused(true);
+    ASSERT_EQ(driver.takes().toggle(choice), "");
+    ASSERT_TRUE(driver.takes().isRecording());
+    driver.commands().setMarked(35, true);
+    driver.commands().setMarked(20, false);
     listenAndSend(50);
-    ASSERT_TRUE(tickUntil(driver, [&] { return driver.take()->figures.packets == 100; }));
-    driver.setMarked(20, true);
-    driver.setMarked(35, false);
-    EXPECT_EQ(driver.take()->path, folder.filePath("take.pcapng"));
-    EXPECT_EQ(driver.toggleRecording(choice), "");
-    EXPECT_FALSE(driver.isRecording());
+    ASSERT_TRUE(tickUntil(driver, [&] { return driver.takes().state()->figures.packets == 100; }));
+    driver.commands().setMarked(20, true);
+    driver.commands().setMarked(35, false);
+    EXPECT_EQ(driver.takes().state()->path, folder.filePath("take.pcapng"));
+    EXPECT_EQ(driver.takes().toggle(choice), "");
+    EXPECT_FALSE(driver.takes().isRecording());
     ASSERT_TRUE(tickUntil(driver, [&] {
         QFile file(folder.filePath("take.pcapng"));
         return file.open(QIODevice::ReadOnly) && file.readAll().contains("Mark on packet 20 at ");
     }));
     ASSERT_EQ(openFile(driver, folder.filePath("take.pcapng")), "");
-    EXPECT_EQ(driver.session().end(), 100U);
-    const model::Annotations& read = driver.session().annotations();
+    EXPECT_EQ(driver.commands().session().end(), 100U);
+    const model::Annotations& read = driver.commands().session().annotations();
     EXPECT_EQ(read.marks, (std::set<std::uint64_t>{20, 30}));
     ASSERT_EQ(read.comments.size(), 1U);
     EXPECT_EQ(read.comments.at(30), "left hand jumps: look");
@@ -151,24 +149,23 @@ TEST_F(SessionDriverTest, ATakeTellsOfTheSilenceAtItsEnd) {
     const QTemporaryDir folder;
     const RecordingChoice choice{.folder = folder.path(), .pattern = "take", .freeMegabytes = 0};
     listenAndSend(1);
-    ASSERT_EQ(driver.toggleRecording(choice), "");
-    for (int i = 0; i < 30; ++i) {
+    ASSERT_EQ(driver.takes().toggle(choice), "");
+    for (std::uint64_t sent = 2; sent <= 31; ++sent) {
         listenAndSend(1);
-        driver.tick();
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        ASSERT_TRUE(tickUntil(driver, [&] { return driver.commands().live().end() == sent; }));
     }
     const auto isBad = [](const model::TakeVerdict& one) {
         return one.state == model::TakeVerdict::State::Bad;
     };
-    ASSERT_TRUE(tickUntil(driver, [&] { return isBad(driver.live().verdicts().all); }));
-    EXPECT_EQ(driver.toggleRecording(choice), "");
+    ASSERT_TRUE(tickUntil(driver, [&] { return isBad(driver.commands().live().verdicts().all); }));
+    EXPECT_EQ(driver.takes().toggle(choice), "");
     ASSERT_TRUE(tickUntil(driver, [&] {
         QFile file(folder.filePath("take.pcapng"));
         return file.open(QIODevice::ReadOnly) && file.readAll().contains("Posewire: received for ");
     }));
     ASSERT_EQ(openFile(driver, folder.filePath("take.pcapng")), "");
-    EXPECT_TRUE(tickUntil(driver, [&] { return isBad(driver.session().verdicts().all); }))
-        << driver.session().verdicts().all.text;
+    EXPECT_TRUE(tickUntil(driver, [&] { return isBad(driver.commands().session().verdicts().all); }))
+        << driver.commands().session().verdicts().all.text;
 }
 
 TEST_F(SessionDriverTest, CommentsOfACaptureAreThoseOfItsPackets) {
@@ -191,7 +188,7 @@ TEST_F(SessionDriverTest, CommentsOfACaptureAreThoseOfItsPackets) {
         ASSERT_TRUE(writer.addStatistics());
     }
     ASSERT_EQ(openFile(driver, path), "");
-    const auto& comments = driver.session().annotations().comments;
+    const auto& comments = driver.commands().session().annotations().comments;
     ASSERT_EQ(comments.size(), 1U);
     EXPECT_EQ(comments.begin()->first, 7U);
     EXPECT_EQ(comments.begin()->second, "a stumble\nask Mira");
@@ -200,16 +197,16 @@ TEST_F(SessionDriverTest, CommentsOfACaptureAreThoseOfItsPackets) {
 TEST_F(SessionDriverTest, ATakeThatCannotBeginSaysWhy) {
     const QTemporaryDir folder;
     const RecordingChoice full{.folder = folder.path(), .freeMegabytes = INT_MAX};
-    EXPECT_TRUE(driver.toggleRecording(full).contains("MB are free"));
-    EXPECT_FALSE(driver.isRecording());
-    EXPECT_TRUE(driver.toggleRecording({.folder = "/proc/none"}).contains("/proc/none"));
+    EXPECT_TRUE(driver.takes().toggle(full).contains("MB are free"));
+    EXPECT_FALSE(driver.takes().isRecording());
+    EXPECT_TRUE(driver.takes().toggle({.folder = "/proc/none"}).contains("/proc/none"));
 }
 
 TEST_F(SessionDriverTest, AnnouncesAPauseOnce) {
-    const QSignalSpy spy(&driver, &SessionDriver::pausedChanged);
-    driver.setPaused(true);
-    driver.setPaused(true);
-    driver.setPaused(false);
+    const QSignalSpy spy(&driver.commands(), &Commands::changed);
+    driver.playback().setPaused(true);
+    driver.playback().setPaused(true);
+    driver.playback().setPaused(false);
     EXPECT_EQ(spy.count(), 2);
 }
 
@@ -218,7 +215,7 @@ TEST_F(SessionDriverTest, ASelectionMovesTheViewAtTheNextTick) {
     const QSignalSpy spy(&driver, &SessionDriver::moved);
     driver.tick();
     EXPECT_EQ(spy.count(), 0);
-    driver.select({});
+    driver.commands().select({});
     driver.tick();
     EXPECT_EQ(spy.count(), 1);
 }
@@ -256,90 +253,95 @@ QString writeFile(const QTemporaryDir& folder, std::uint64_t frames) {
 TEST_F(SessionDriverTest, AFileTouchesNothingOfWhatIsReceived) {
     const QTemporaryDir folder;
     listenAndSend(50);
-    ASSERT_TRUE(tickUntil(driver, [&] { return driver.live().end() == 50; }));
-    const QSignalSpy shown(&driver, &SessionDriver::shownChanged);
+    ASSERT_TRUE(tickUntil(driver, [&] { return driver.commands().live().end() == 50; }));
+    const QSignalSpy shown(&driver.commands(), &Commands::switched);
     ASSERT_EQ(openFile(driver, writeFile(folder, 2000)), "");
     EXPECT_EQ(shown.count(), 1);
-    EXPECT_TRUE(driver.isFileShown());
-    EXPECT_TRUE(driver.isPaused()) << "by today's clock all of it would be old";
-    EXPECT_EQ(driver.session().end(), 2000U);
+    EXPECT_TRUE(driver.commands().isFileShown());
+    EXPECT_TRUE(driver.playback().isPaused()) << "by today's clock all of it would be old";
+    EXPECT_EQ(driver.commands().session().end(), 2000U);
     listenAndSend(50);
-    EXPECT_TRUE(tickUntil(driver, [&] { return driver.live().end() == 100; }));
-    EXPECT_EQ(driver.live().senders().size(), 1U);
-    EXPECT_EQ(driver.live().cursor().mode, model::Cursor::Mode::Following);
-    for (const model::Incident& incident : driver.live().incidents().all()) {
+    EXPECT_TRUE(tickUntil(driver, [&] { return driver.commands().live().end() == 100; }));
+    EXPECT_EQ(driver.commands().live().senders().size(), 1U);
+    EXPECT_EQ(driver.commands().live().cursor().mode, model::Cursor::Mode::Following);
+    for (const model::Incident& incident : driver.commands().live().incidents().all()) {
         EXPECT_NE(incident.kind, model::IncidentKind::Conflict) << incident.text();
     }
-    driver.goLive();
-    EXPECT_FALSE(driver.isPaused());
-    EXPECT_EQ(driver.session().end(), 100U);
-    driver.showFile();
-    EXPECT_EQ(driver.session().end(), 2000U) << "it is still open";
+    driver.playback().goLive();
+    EXPECT_FALSE(driver.playback().isPaused());
+    EXPECT_EQ(driver.commands().session().end(), 100U);
+    driver.files().show();
+    EXPECT_EQ(driver.commands().session().end(), 2000U) << "it is still open";
 }
 
 TEST_F(SessionDriverTest, GoingLiveLetsGoOfThePacketThatIsHeldAndPlayingOnDoesNot) {
     listenAndSend(50);
-    ASSERT_TRUE(tickUntil(driver, [&] { return driver.live().end() == 50; }));
-    driver.setPaused(true);
-    driver.selectPacket(42);
-    driver.setPaused(false);
-    EXPECT_EQ(driver.session().selection().packet, 42U);
-    driver.goLive();
-    EXPECT_FALSE(driver.session().selection().packet);
-    EXPECT_FALSE(driver.isPaused());
+    ASSERT_TRUE(tickUntil(driver, [&] { return driver.commands().live().end() == 50; }));
+    driver.playback().setPaused(true);
+    driver.commands().selectPacket(42);
+    driver.playback().setPaused(false);
+    EXPECT_EQ(driver.commands().session().selection().packet, 42U);
+    driver.playback().goLive();
+    EXPECT_FALSE(driver.commands().session().selection().packet);
+    EXPECT_FALSE(driver.playback().isPaused());
 }
 
 TEST_F(SessionDriverTest, WhatIsAskedForIsDoneInTheSessionThatIsShown) {
     const QTemporaryDir folder;
     listenAndSend(10);
-    ASSERT_TRUE(tickUntil(driver, [&] { return driver.live().end() == 10; }));
+    ASSERT_TRUE(tickUntil(driver, [&] { return driver.commands().live().end() == 10; }));
     ASSERT_EQ(openFile(driver, writeFile(folder, 20)), "");
-    driver.setMarked(15, true);
-    driver.setPaused(false); // a file stands still
-    EXPECT_TRUE(driver.isPaused());
-    EXPECT_TRUE(driver.session().annotations().marks.contains(15));
-    EXPECT_TRUE(driver.live().annotations().marks.empty());
+    driver.commands().setMarked(15, true);
+    driver.playback().setPaused(false); // a file stands still
+    EXPECT_TRUE(driver.playback().isPaused());
+    EXPECT_TRUE(driver.commands().session().annotations().marks.contains(15));
+    EXPECT_TRUE(driver.commands().live().annotations().marks.empty());
 }
 
 TEST_F(SessionDriverTest, ClosingAFileSaysSoBeforeItsSessionGoes) {
     const QTemporaryDir folder;
     ASSERT_EQ(openFile(driver, writeFile(folder, 20)), "");
     std::vector<std::string> order;
-    QObject::connect(&driver, &SessionDriver::shownChanged, &driver, [&] {
-        EXPECT_EQ(&driver.session(), &driver.live());
+    QObject::connect(&driver.commands(), &Commands::switched, &driver, [&] {
+        EXPECT_EQ(&driver.commands().session(), &driver.commands().live());
         order.emplace_back("shown");
     });
-    QObject::connect(&driver, &SessionDriver::fileClosing, &driver, [&] {
-        EXPECT_EQ(driver.file()->session().end(), 20U);
+    QObject::connect(&driver.files(), &Files::closing, &driver, [&] {
+        EXPECT_EQ(driver.files().file()->session().end(), 20U);
         order.emplace_back("closing");
     });
-    driver.closeFile();
+    driver.files().close();
     EXPECT_THAT(order, testing::ElementsAre("shown", "closing"));
-    EXPECT_EQ(driver.file(), nullptr);
-    driver.showFile();
-    EXPECT_FALSE(driver.isFileShown());
+    EXPECT_EQ(driver.files().file(), nullptr);
+    driver.files().show();
+    EXPECT_FALSE(driver.commands().isFileShown());
 }
 
 TEST_F(SessionDriverTest, AFileThatCannotBeReadIsNeverShown) {
     listenAndSend(10);
-    QSignalSpy opened(&driver, &SessionDriver::fileOpened);
-    const QSignalSpy shown(&driver, &SessionDriver::shownChanged);
-    driver.openFile("/no/such/file");
+    QSignalSpy opened(&driver.files(), &Files::opened);
+    const QSignalSpy shown(&driver.commands(), &Commands::switched);
+    driver.files().open("/no/such/file");
     ASSERT_TRUE(tickUntil(driver, [&] { return opened.count() == 1; }));
     EXPECT_FALSE(opened[0][0].toBool());
     EXPECT_TRUE(opened[0][1].toString().contains("no such file"));
     EXPECT_EQ(shown.count(), 0);
-    EXPECT_EQ(driver.file(), nullptr);
+    EXPECT_EQ(driver.files().file(), nullptr);
 }
 
 TEST_F(SessionDriverTest, AfterAResetOnlyWhatCameSinceCounts) {
     listenAndSend(10);
-    ASSERT_TRUE(tickUntil(driver, [&] { return driver.live().end() == 10; }));
-    driver.resetForTake();
-    EXPECT_EQ(driver.live().reset(), driver.live().now());
-    ASSERT_TRUE(driver.live().range());
-    EXPECT_EQ(driver.live().countsOf(driver.live().characters()[0].key, *driver.live().range()).samples, 0U);
-    EXPECT_EQ(driver.live().streams()[0].accounting.counts().samples, 10U) << "what was received stays";
+    ASSERT_TRUE(tickUntil(driver, [&] { return driver.commands().live().end() == 10; }));
+    driver.commands().resetForTake();
+    EXPECT_EQ(driver.commands().live().reset(), driver.commands().live().now());
+    ASSERT_TRUE(driver.commands().live().range());
+    EXPECT_EQ(driver.commands()
+                  .live()
+                  .countsOf(driver.commands().live().characters()[0].key, *driver.commands().live().range())
+                  .samples,
+              0U);
+    EXPECT_EQ(driver.commands().live().streams()[0].accounting.counts().samples, 10U)
+        << "what was received stays";
 }
 
 TEST_F(SessionDriverTest, AFinishedRecordingIsNoSenderThatStopped) {
@@ -356,10 +358,10 @@ TEST_F(SessionDriverTest, AFinishedRecordingIsNoSenderThatStopped) {
     log::ManualClock manual(log::WallTime(1'700'000'000s));
     SessionDriver opened{manual};
     ASSERT_EQ(openFile(opened, path), "");
-    ASSERT_EQ(opened.session().characters().size(), 1U);
+    ASSERT_EQ(opened.commands().session().characters().size(), 1U);
     manual.advance(5s);
     opened.tick();
-    for (const model::Incident& event : opened.session().incidents().all()) {
+    for (const model::Incident& event : opened.commands().session().incidents().all()) {
         EXPECT_NE(event.severity(), model::IncidentSeverity::Error) << event.text();
     }
 }
@@ -377,8 +379,8 @@ TEST_F(SessionDriverTest, InputsOfTcpAreToldAsTheyStand) {
     for (const wire::Datagram& datagram : performer.frame(0)) {
         ASSERT_TRUE(sender->send(*wire::encode(datagram)));
     }
-    ASSERT_TRUE(tickUntil(driver, [&] { return driver.session().characters().size() == 1; }));
-    EXPECT_EQ(driver.session().senders()[0].info.transport, log::Transport::Tcp);
+    ASSERT_TRUE(tickUntil(driver, [&] { return driver.commands().session().characters().size() == 1; }));
+    EXPECT_EQ(driver.commands().session().senders()[0].info.transport, log::Transport::Tcp);
     EXPECT_TRUE(driver.receiving().removePort(listening));
     EXPECT_FALSE(driver.receiving().removePort(listening));
     EXPECT_TRUE(driver.receiving().state().ports.empty());
@@ -386,11 +388,11 @@ TEST_F(SessionDriverTest, InputsOfTcpAreToldAsTheyStand) {
 
 TEST_F(SessionDriverTest, TheDemoGoesThroughARealSocket) {
     driver.receiving().addPort({"127.0.0.1", 0});
-    driver.setDemo(2);
-    EXPECT_TRUE(tickUntil(driver, [&] { return driver.session().characters().size() == 2; }));
-    EXPECT_EQ(driver.session().senders()[0].info.transport, log::Transport::Udp);
-    driver.setDemo(0);
-    EXPECT_FALSE(driver.isDemoRunning());
+    driver.demo().setCharacters(2);
+    EXPECT_TRUE(tickUntil(driver, [&] { return driver.commands().session().characters().size() == 2; }));
+    EXPECT_EQ(driver.commands().session().senders()[0].info.transport, log::Transport::Udp);
+    driver.demo().setCharacters(0);
+    EXPECT_FALSE(driver.demo().isRunning());
 }
 
 TEST_F(SessionDriverTest, OpeningAFileCanBeStoppedAndWhatWasReadStays) {
@@ -404,23 +406,24 @@ TEST_F(SessionDriverTest, OpeningAFileCanBeStoppedAndWhatWasReadStays) {
         }
     }
     file.close();
-    const QSignalSpy opened(&driver, &SessionDriver::fileOpened);
-    driver.openFile(file.fileName());
-    ASSERT_TRUE(tickUntil(driver, [&] { return driver.session().end() > 0; }));
-    ASSERT_TRUE(driver.isOpening());
-    driver.cancelOpening();
-    EXPECT_FALSE(driver.isOpening());
-    EXPECT_TRUE(driver.isPaused());
+    const QSignalSpy opened(&driver.files(), &Files::opened);
+    driver.files().open(file.fileName());
+    ASSERT_TRUE(tickUntil(driver, [&] { return driver.commands().session().end() > 0; }));
+    ASSERT_TRUE(driver.files().isOpening());
+    driver.files().cancelOpening();
+    EXPECT_FALSE(driver.files().isOpening());
+    EXPECT_TRUE(driver.playback().isPaused());
     ASSERT_EQ(opened.count(), 1);
     EXPECT_FALSE(opened[0][0].toBool());
-    const std::uint64_t read = driver.session().end();
+    const std::uint64_t read = driver.commands().session().end();
     EXPECT_LT(read, 20'000U);
     EXPECT_EQ(opened[0][1].toString(),
               QStringLiteral("Opening long.bin was stopped: %1 packets of it are here.").arg(read));
-    EXPECT_EQ(driver.file()->notes(), QStringList(opened[0][1].toString())) << "said as long as it is open";
+    EXPECT_EQ(driver.files().file()->notes(), QStringList(opened[0][1].toString()))
+        << "said as long as it is open";
     driver.tick();
-    EXPECT_EQ(driver.session().end(), read);
-    driver.cancelOpening();
+    EXPECT_EQ(driver.commands().session().end(), read);
+    driver.files().cancelOpening();
     EXPECT_EQ(opened.count(), 1) << "there is nothing to stop any more";
 }
 

@@ -35,19 +35,19 @@ protected:
         }
         ASSERT_TRUE(writer.addStatistics());
         ASSERT_TRUE(sink->flush());
-        m_driver.openFile(QString::fromStdString(path));
-        for (int i = 0; i < 5000 && m_driver.isOpening(); ++i) {
+        m_driver.files().open(QString::fromStdString(path));
+        for (int i = 0; i < 5000 && m_driver.files().isOpening(); ++i) {
             m_driver.tick();
             std::this_thread::sleep_for(1ms);
         }
-        ASSERT_EQ(m_driver.session().end(), kPackets);
+        ASSERT_EQ(m_driver.commands().session().end(), kPackets);
     }
 
     static log::Stamp momentOf(std::uint64_t packet) {
         return Stage::kStart + packet * log::Duration(1s) / 60;
     }
-    [[nodiscard]] std::uint64_t packet() { return m_driver.session().cursor().packet; }
-    [[nodiscard]] model::CharacterKey key() { return m_driver.session().characters()[0].key; }
+    [[nodiscard]] std::uint64_t packet() { return m_driver.commands().session().cursor().packet; }
+    [[nodiscard]] model::CharacterKey key() { return m_driver.commands().session().characters()[0].key; }
     void pass(log::Duration time) {
         m_clock.advance(time);
         m_driver.tick();
@@ -59,69 +59,69 @@ protected:
 };
 
 TEST_F(TimeTravelTest, StepsSamplesPacketsAndTime) {
-    m_driver.showMoment(momentOf(300));
+    m_driver.playback().showMoment(momentOf(300));
     EXPECT_EQ(packet(), 300U);
-    m_driver.stepSamples(key(), 1);
+    m_driver.playback().stepSamples(key(), 1);
     EXPECT_EQ(packet(), 301U);
-    m_driver.stepSamples(key(), -10);
+    m_driver.playback().stepSamples(key(), -10);
     EXPECT_EQ(packet(), 291U);
-    m_driver.stepTime(1s);
+    m_driver.playback().stepTime(1s);
     EXPECT_EQ(packet(), 351U);
-    m_driver.stepPackets(-1);
+    m_driver.playback().stepPackets(-1);
     EXPECT_EQ(packet(), 350U);
-    EXPECT_EQ(m_driver.session().selection().packet, 350U) << "that packet is what is looked at";
-    m_driver.stepTime(-1h);
+    EXPECT_EQ(m_driver.commands().session().selection().packet, 350U) << "that packet is what is looked at";
+    m_driver.playback().stepTime(-1h);
     EXPECT_EQ(packet(), 0U);
-    m_driver.stepSamples(key(), -1);
+    m_driver.playback().stepSamples(key(), -1);
     EXPECT_EQ(packet(), 0U);
-    m_driver.stepTime(1h);
+    m_driver.playback().stepTime(1h);
     EXPECT_EQ(packet(), kPackets - 1);
-    m_driver.stepPackets(1);
+    m_driver.playback().stepPackets(1);
     EXPECT_EQ(packet(), kPackets - 1);
 }
 
 TEST_F(TimeTravelTest, PlaysAtASpeedAndStopsAtTheEnd) {
-    using Direction = SessionDriver::Direction;
-    m_driver.showMoment(momentOf(300));
-    m_driver.setPlaySpeed(2);
-    m_driver.play(Direction::Forwards);
-    EXPECT_TRUE(m_driver.isPlaying(Direction::Forwards));
+    using Direction = Playback::Direction;
+    m_driver.playback().showMoment(momentOf(300));
+    m_driver.playback().setSpeed(2);
+    m_driver.playback().play(Direction::Forwards);
+    EXPECT_TRUE(m_driver.playback().isPlaying(Direction::Forwards));
     pass(1s);
     EXPECT_EQ(packet(), 420U);
-    m_driver.setPlaySpeed(0.5);
+    m_driver.playback().setSpeed(0.5);
     pass(1s);
     EXPECT_EQ(packet(), 450U) << "on from where it was";
     pass(1min);
     EXPECT_EQ(packet(), kPackets - 1);
-    EXPECT_FALSE(m_driver.isPlaying(Direction::Forwards));
-    m_driver.play(Direction::Forwards); // once more
+    EXPECT_FALSE(m_driver.playback().isPlaying(Direction::Forwards));
+    m_driver.playback().play(Direction::Forwards); // once more
     pass(2s);
     EXPECT_EQ(packet(), 60U);
-    m_driver.play(Direction::Forwards);
+    m_driver.playback().play(Direction::Forwards);
     pass(2s);
     EXPECT_EQ(packet(), 60U) << "stopped";
 }
 
 TEST_F(TimeTravelTest, PlaysBackwardsToTheBeginning) {
-    using Direction = SessionDriver::Direction;
-    m_driver.showMoment(momentOf(300));
-    m_driver.play(Direction::Backwards);
+    using Direction = Playback::Direction;
+    m_driver.playback().showMoment(momentOf(300));
+    m_driver.playback().play(Direction::Backwards);
     pass(1s);
     EXPECT_EQ(packet(), 240U);
     pass(1min);
     EXPECT_EQ(packet(), 0U);
-    EXPECT_FALSE(m_driver.isPlaying(Direction::Backwards));
+    EXPECT_FALSE(m_driver.playback().isPlaying(Direction::Backwards));
 }
 
 TEST_F(TimeTravelTest, LoopsTheRangeThatIsSelected) {
-    m_driver.selectRange({.fixed = model::TimeRange{momentOf(60), momentOf(120)}});
-    m_driver.setLooping(true);
-    m_driver.play(SessionDriver::Direction::Forwards);
+    m_driver.commands().selectRange({.fixed = model::TimeRange{momentOf(60), momentOf(120)}});
+    m_driver.playback().setLooping(true);
+    m_driver.playback().play(Playback::Direction::Forwards);
     pass(500ms);
     EXPECT_EQ(packet(), 90U);
     pass(1s);
     EXPECT_EQ(packet(), 90U) << "once around";
-    m_driver.setPlaySpeed(16);
+    m_driver.playback().setSpeed(16);
     for (int i = 0; i < 50; ++i) {
         pass(33ms);
         EXPECT_GE(packet(), 60U);
@@ -130,20 +130,20 @@ TEST_F(TimeTravelTest, LoopsTheRangeThatIsSelected) {
 }
 
 TEST_F(TimeTravelTest, AJumpStopsThereAndOneComesBackToTheMomentBefore) {
-    m_driver.showMoment(momentOf(300));
-    m_driver.jump(100, "type == 02");
+    m_driver.playback().showMoment(momentOf(300));
+    m_driver.commands().jump(100, "type == 02");
     EXPECT_EQ(packet(), 100U);
-    m_driver.goBack();
+    m_driver.commands().goBack();
     EXPECT_EQ(packet(), 300U);
-    m_driver.selectPacket(42);
+    m_driver.commands().selectPacket(42);
     EXPECT_EQ(packet(), 42U) << "what is looked at is what is shown";
 }
 
 TEST_F(TimeTravelTest, AStepLetsGoOfThePacketThatWasHeld) {
-    m_driver.selectPacket(42);
-    m_driver.stepSamples(key(), 1);
+    m_driver.commands().selectPacket(42);
+    m_driver.playback().stepSamples(key(), 1);
     EXPECT_EQ(packet(), 43U);
-    EXPECT_FALSE(m_driver.session().selection().packet);
+    EXPECT_FALSE(m_driver.commands().session().selection().packet);
 }
 
 } // namespace

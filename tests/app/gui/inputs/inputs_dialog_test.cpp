@@ -251,13 +251,14 @@ TEST_F(InputsDialogTest, ListensToThoseThatAreTypedAndCountsOthers) {
     const std::vector<std::byte> bytes(100);
     EXPECT_TRUE(tickUntil(
         [&] { return sender->send(bytes).has_value() && driver.receiving().state().refusedDatagrams > 0; }));
-    EXPECT_EQ(driver.session().end(), 0U);
+    EXPECT_EQ(driver.commands().session().end(), 0U);
     dialog.refresh();
     EXPECT_THAT(dialog.inputs().allowedNote().toStdString(), HasSubstr("datagrams of others so far"));
 
     dialog.inputs().allowedEdit().setText("127.0.0.1");
     dialog.inputs().applyAllowed();
-    EXPECT_TRUE(tickUntil([&] { return sender->send(bytes).has_value() && driver.session().end() > 0; }));
+    EXPECT_TRUE(
+        tickUntil([&] { return sender->send(bytes).has_value() && driver.commands().session().end() > 0; }));
 }
 
 TEST_F(InputsDialogTest, SaysWhoseNameIsNotKnownAndListensToTheRest) {
@@ -267,7 +268,8 @@ TEST_F(InputsDialogTest, SaysWhoseNameIsNotKnownAndListensToTheRest) {
     EXPECT_TRUE(tickUntil([&] { return dialog.inputs().allowedNote().contains("no-such-host.invalid"); }));
     auto sender = net::DatagramSender::connect({{"127.0.0.1", ports()[0].port.port}});
     const std::vector<std::byte> bytes(100);
-    EXPECT_TRUE(tickUntil([&] { return sender->send(bytes).has_value() && driver.session().end() > 0; }));
+    EXPECT_TRUE(
+        tickUntil([&] { return sender->send(bytes).has_value() && driver.commands().session().end() > 0; }));
 }
 
 TEST_F(InputsDialogTest, ExplainsWhatAnAddressToListenAtMeans) {
@@ -299,7 +301,7 @@ TEST_F(InputsDialogTest, ALoopSwitchesItsTargetOffAndIsAnEvent) {
     EXPECT_THAT(relay.problem.toStdString(), HasSubstr("sent back what was relayed there"));
     EXPECT_FALSE(driver.receiving().choices().relays[0].isOn);
     driver.tick();
-    const auto& events = driver.session().incidents().all();
+    const auto& events = driver.commands().session().incidents().all();
     const auto loop = std::ranges::find(events, model::IncidentKind::RelayLoop, &model::Incident::kind);
     ASSERT_NE(loop, events.end());
     EXPECT_EQ(loop->text(), relay.problem.toStdString());
@@ -317,7 +319,7 @@ TEST_F(InputsDialogTest, RelaysToTargetsAndRefusesThoseThatWouldComeBack) {
     const InputAddress input{"127.0.0.1", freePort()};
     const InputAddress away{"127.0.0.1", freePort()};
     type(input);
-    driver.receiving().measure(driver.session().log().timeline().now(clock));
+    driver.receiving().measure(driver.commands().session().log().timeline().now(clock));
     dialog.open(InputsDialog::Page::Relay);
     dialog.relay().targetEdit().setText(QStringLiteral("127.0.0.1:%1").arg(away.port));
     dialog.relay().submit();

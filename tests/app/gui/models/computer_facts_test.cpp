@@ -11,16 +11,6 @@
 namespace posewire::gui {
 namespace {
 
-/// A program that says of itself what a test wants.
-class StatedProgram : public IdleProgram {
-public:
-    [[nodiscard]] ReceivingState receivingState() const override { return receiving; }
-    [[nodiscard]] MonitorHealth monitorHealth() const override { return health; }
-
-    ReceivingState receiving;
-    MonitorHealth health;
-};
-
 class ComputerFactsTest : public testing::Test {
 protected:
     [[nodiscard]] PropertyValue fact(const QString& label) const {
@@ -38,8 +28,9 @@ protected:
     }
 
     Stage m_stage;
-    StatedProgram m_program;
-    PropertyModel m_facts{computerFacts(m_stage.session, m_program)};
+    ReceivingState m_receiving;
+    MonitorHealth m_health;
+    PropertyModel m_facts{computerFacts(m_stage.session, m_receiving, m_health)};
     QAbstractItemModelTester m_tester{&m_facts, QAbstractItemModelTester::FailureReportingMode::Fatal};
 };
 
@@ -108,7 +99,7 @@ TEST_F(ComputerFactsTest, TellFillProcessorAndMemoryAndNothingThatIsNotKnown) {
     hearSomething();
     EXPECT_EQ(text("This computer"), QStringLiteral("● buffer – · dropped 0 in all · 0 fps"));
     EXPECT_EQ(text("Processor"), QStringLiteral("receiving – · program –"));
-    m_program.health = {0.61, 0.021, 1.5, std::uint64_t{412} << 20, 0.92, 0.0123, 59.6};
+    m_health = {0.61, 0.021, 1.5, std::uint64_t{412} << 20, 0.92, 0.0123, 59.6};
     EXPECT_EQ(text("This computer"), QStringLiteral("▲ buffer 61 % · dropped 0 in all · 60 fps"));
     EXPECT_EQ(text("Processor"), QStringLiteral("receiving 2.1 % · program 150 %"));
     EXPECT_EQ(text("Accounting"), QStringLiteral("0.92 µs a packet · 1.2 %"));
@@ -118,19 +109,19 @@ TEST_F(ComputerFactsTest, TellFillProcessorAndMemoryAndNothingThatIsNotKnown) {
 TEST_F(ComputerFactsTest, TellHowPicturesAreDrawnAndWhy) {
     hearSomething();
     EXPECT_EQ(text("Picture"), QStringLiteral("–"));
-    m_program.health.picture = {"step 7 of 7: half rate · 31 ms", "a picture took 60 ms", true};
+    m_health.picture = {"step 7 of 7: half rate · 31 ms", "a picture took 60 ms", true};
     EXPECT_EQ(text("Picture"), QStringLiteral("▲ step 7 of 7: half rate · 31 ms"));
     EXPECT_EQ(fact("Picture").toolTip, QStringLiteral("a picture took 60 ms"));
 }
 
 TEST_F(ComputerFactsTest, TellTheMemoryByItsPartsAndItsBudget) {
-    m_program.health.meshBytes = std::size_t{37} << 20;
-    m_program.health.mostMeshBytes = std::size_t{64} << 20;
+    m_health.meshBytes = std::size_t{37} << 20;
+    m_health.mostMeshBytes = std::size_t{64} << 20;
     performer::Performer performer(sending(1, {2}, 100.0));
     m_stage.perform(performer, 0, 1000);
     m_stage.follow();
     const model::MemoryFigures kept = m_stage.session.memory();
-    const std::size_t budget = (kept.budget() + m_program.health.mostMeshBytes + (1U << 19)) >> 20;
+    const std::size_t budget = (kept.budget() + m_health.mostMeshBytes + (1U << 19)) >> 20;
     EXPECT_TRUE(text("Memory").endsWith(QString("of %1 MB").arg(budget))) << text("Memory").toStdString();
     EXPECT_TRUE(text("Memory by part").contains("bodies drawn 37")) << text("Memory by part").toStdString();
     EXPECT_TRUE(text("Memory by part").startsWith("packets "));
@@ -143,18 +134,18 @@ TEST_F(ComputerFactsTest, TellTheMemoryByItsPartsAndItsBudget) {
 TEST_F(ComputerFactsTest, FollowTheStateOfReceivingAndWarnOfASmallBuffer) {
     hearSomething();
     EXPECT_EQ(text("Receive buffer"), "no UDP port");
-    m_program.receiving.receiveBufferBytes = std::int64_t{4} << 20;
+    m_receiving.receiveBufferBytes = std::int64_t{4} << 20;
     EXPECT_EQ(text("Receive buffer"), QStringLiteral("● 4 MB"));
-    m_program.receiving.receiveBufferBytes = 212'992 / 2;
+    m_receiving.receiveBufferBytes = 212'992 / 2;
     EXPECT_EQ(text("Receive buffer"), QStringLiteral("▲ 104 KB"));
     EXPECT_TRUE(fact("Receive buffer").toolTip.contains("rmem_max"));
     const QLocale before;
     QLocale::setDefault(QLocale(QLocale::German));
-    m_program.receiving.longestDelay = 47'300us;
+    m_receiving.longestDelay = 47'300us;
     EXPECT_EQ(text("Longest delay"), QStringLiteral("● 47.3 ms")) << "as all numbers, in every country";
     QLocale::setDefault(before);
     EXPECT_EQ(fact("Longest delay").health, Health::Good);
-    m_program.receiving.longestDelay = 400ms;
+    m_receiving.longestDelay = 400ms;
     EXPECT_EQ(fact("Longest delay").health, Health::Warning);
 }
 

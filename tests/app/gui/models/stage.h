@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/base/commands.h"
-#include "app/gui/base/comparison.h"
-#include "app/gui/base/program_view.h"
+#include "app/gui/base/playback.h"
 #include "core/log/packet_log.h"
 #include "core/log/time.h"
 #include "core/model/body/character_pose.h"
@@ -19,82 +17,18 @@ namespace posewire::gui {
 
 using namespace std::chrono_literals;
 
-/// Carries out commands at once and remembers what was asked for.
-class ImmediateCommands : public Commands {
-public:
-    explicit ImmediateCommands(model::Session& session) : m_session(session) {}
+/// What was asked of the window.
+struct Asked {
+    explicit Asked(Commands& commands) {
+        QObject::connect(&commands, &Commands::changed, &commands, [this] { ++count; });
+        QObject::connect(&commands, &Commands::showDock, &commands, [this](auto& name) { dock = name; });
+        QObject::connect(&commands, &Commands::frameCharacter, &commands,
+                         [this](auto& key) { framed.push_back(key); });
+    }
 
-    void select(const model::Selection& selection) override {
-        m_session.setSelection(selection);
-        ++selections;
-    }
-    void selectRange(const model::RangeChoice& range) override { m_session.setRange(range); }
-    void selectPacket(std::uint64_t number) override {
-        model::Selection selection = m_session.selection();
-        selection.packet = number;
-        select(selection);
-    }
-    void goLive() override { m_session.setCursor({}); }
-    void showMoment(log::Stamp moment) override {
-        m_session.setCursor({model::Cursor::Mode::Paused, m_session.packetAt(moment)});
-    }
-    void setMarked(std::uint64_t packet, bool isMarked) override { m_session.setMarked(packet, isMarked); }
-    void setComment(std::uint64_t packet, const QString& comment) override {
-        m_session.setComment(packet, comment.toStdString());
-    }
-    void setOverride(log::SenderId sender, const model::SenderOverride& overrides) override {
-        m_session.setOverride(sender, overrides);
-    }
-    void setDisplayFilter(const QString& filter) override {
-        m_session.setDisplayFilter(filter.toStdString());
-    }
-    void jump(std::uint64_t packet, const QString& filter) override {
-        model::Selection selection = m_session.selection();
-        selection.packet = packet;
-        m_session.jump(selection, filter.toStdString());
-    }
-    void goBack() override { m_session.goBack(); }
-    void frameCharacter(const model::CharacterKey& key) override { framed.push_back(key); }
-    void setLifted(const model::CharacterKey& key, bool isLifted) override {
-        m_session.setLifted(key, isLifted);
-    }
-    void setCharacterVisible(const model::CharacterKey& key, bool isVisible) override {
-        m_session.setHidden(key, !isVisible);
-    }
-    void forgetSender(log::SenderId sender) override { m_session.forget(sender); }
-    void setGhostVisible(bool isVisible) override { m_session.setGhostShown(isVisible); }
-    void showDock(const QString& name) override { shownDock = name; }
-    void showIncident(std::optional<std::uint64_t> number, std::optional<model::CharacterKey> of) override {
-        m_session.askForIncident(number, of);
-    }
-    void copyText(const QString& text) override { copied = text; }
-    void askForComparison() override { ++comparisonsAskedFor; }
-    void endComparison() override { comparison = {}; }
-    void setComparison(const ComparisonChoice& choice) override { comparison = choice; }
-    void setComparing(bool isOn) override { isComparing = isOn; }
-    void saveComparison(const QString& path) override { comparisonFile = path; }
-
-    int selections = 0;
+    int count = 0; ///< commands that were carried out
+    QString dock;
     std::vector<model::CharacterKey> framed;
-    QString copied;
-    QString shownDock;
-    int comparisonsAskedFor = 0;
-    ComparisonChoice comparison;
-    bool isComparing = true;
-    QString comparisonFile;
-
-private:
-    model::Session& m_session;
-};
-
-/// A program that listens to nothing and costs nothing.
-class IdleProgram : public ProgramView {
-public:
-    [[nodiscard]] ReceivingState receivingState() const override { return {}; }
-    [[nodiscard]] MonitorHealth monitorHealth() const override { return {}; }
-    [[nodiscard]] const ComparisonState& comparison() const override { return compared; }
-
-    ComparisonState compared;
 };
 
 /// A log to which tests send datagrams at stamps of their choosing, and a session that follows it.
@@ -158,8 +92,10 @@ struct Stage {
 
     log::PacketLog log{{.memoryCap = std::size_t{64} << 20, .chunkSize = std::size_t{1} << 20}};
     model::Session session{log};
-    ImmediateCommands commands{session};
-    IdleProgram program;
+    Commands commands{session};
+    Asked asked{commands};
+    log::SystemClock clock;
+    Playback playback{commands, clock};
     log::Stamp now = kStart;
 };
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/base/panel.h"
 #include "app/gui/models/packet_model.h"
 #include "app/gui/models/packet_text.h"
 #include "app/gui/theme/plain_text.h"
-#include "tests/app/gui/models/stage.h"
+#include "tests/app/gui/panels/panel_stage.h"
 #include "tests/support/hostile_text.h"
 
 #include <QAbstractItemView>
@@ -59,7 +58,7 @@ protected:
     std::vector<std::unique_ptr<Panel>> panels() {
         std::vector<std::unique_ptr<Panel>> all;
         for (const PanelInfo& info : panelTable()) {
-            all.emplace_back(info.make(m_stage.session, m_stage.commands, m_stage.program, nullptr));
+            all.emplace_back(info.make(m_stage.parts, nullptr));
             all.back()->setObjectName(info.id);
             all.back()->resize(700, 500);
             all.back()->show();
@@ -137,7 +136,7 @@ protected:
         }
     }
 
-    Stage m_stage;
+    PanelStage m_stage;
     int m_steps = 0;
 };
 

@@ -55,9 +55,8 @@ protected:
     }
 
     Stage m_stage;
-    ImmediateCommands m_commands{m_stage.session};
     performer::Performer m_performer{sending(1, {2}, 60.0)};
-    IncidentsPanel m_panel{m_stage.session, m_commands, nullptr};
+    IncidentsPanel m_panel{m_stage.session, m_stage.commands, nullptr};
     TableView* m_table = m_panel.findChild<TableView*>();
     int m_sender = 0;
 };
@@ -67,7 +66,7 @@ TEST_F(IncidentsPanelTest, EnterOnAGapShowsItsPackets) {
     ASSERT_TRUE(gap.isValid());
     m_table->setCurrentIndex(gap);
     QTest::keyClick(m_table, Qt::Key_Return);
-    EXPECT_EQ(m_commands.shownDock, QStringLiteral("packets"));
+    EXPECT_EQ(m_stage.asked.dock, QStringLiteral("packets"));
     EXPECT_EQ(m_stage.session.displayFilter(), "") << "its packets in their context";
     ASSERT_TRUE(m_stage.session.selection().packet.has_value());
     EXPECT_EQ(m_stage.session.digests().find(*m_stage.session.selection().packet)->gap, 3U);
@@ -102,7 +101,7 @@ TEST_F(IncidentsPanelTest, ShowsOnlyItsPacketsWhereThatIsAskedFor) {
     m_panel.showOnlyCurrent();
     EXPECT_TRUE(m_stage.session.displayFilter().starts_with("gap > 0 && type == 02"));
     EXPECT_EQ(m_stage.session.ownFilter(), "type == 02");
-    EXPECT_EQ(m_commands.shownDock, QStringLiteral("packets"));
+    EXPECT_EQ(m_stage.asked.dock, QStringLiteral("packets"));
 }
 
 TEST_F(IncidentsPanelTest, AStreamOfAnIncidentLeadsToItsOwnPackets) {
@@ -139,7 +138,7 @@ TEST_F(IncidentsPanelTest, ListsTheIncidentsOfACharacterEachTimeTheyAreAskedFor)
     ASSERT_NE(loss, nullptr);
     const model::CharacterKey key{loss->sender, *loss->character()};
     for (int time = 0; time < 2; ++time) {
-        m_commands.showIncident(loss->number, key);
+        m_stage.commands.showIncident(loss->number, key);
         m_panel.refresh();
         EXPECT_TRUE(rowWith("lost").isValid()) << "its loss stays listed";
         EXPECT_FALSE(rowWith("MXTP").isValid()) << "foreign datagrams are of no character";
@@ -198,7 +197,7 @@ TEST_F(IncidentsPanelTest, ButtonsFilterAndAreRemembered) {
     button("notes")->click();
     EXPECT_FALSE(rowWith(QStringLiteral("A sender started")).isValid());
     EXPECT_TRUE(rowWith(QStringLiteral("samples lost")).isValid());
-    IncidentsPanel again(m_stage.session, m_commands, nullptr);
+    IncidentsPanel again(m_stage.session, m_stage.commands, nullptr);
     again.restoreState(m_panel.state());
     EXPECT_EQ(again.state(), m_panel.state());
     EXPECT_FALSE(again.state().isEmpty());

@@ -75,10 +75,10 @@ TEST_F(NullPosePanelTest, ARowSelectsItsSegmentEverywhereAndBack) {
     EXPECT_EQ(selectedSegment(), 9);
     EXPECT_EQ(figure()->accessibleDescription(), "10 Right Forearm");
     m_stage.session.setSelection({m_stage.sender(), m_stage.key(), 3, {}});
-    const int asked = m_stage.commands.selections;
+    const int asked = m_stage.asked.count;
     refresh();
     EXPECT_EQ(view->currentIndex().row(), 3);
-    EXPECT_EQ(m_stage.commands.selections, asked);
+    EXPECT_EQ(m_stage.asked.count, asked);
 }
 
 TEST_F(NullPosePanelTest, PickingInTheFigureSelectsSegmentsAndPoints) {

@@ -6,7 +6,7 @@
 #include "app/gui/panels/find_bar.h"
 #include "app/gui/panels/fitting_header.h"
 #include "app/gui/panels/packet_view.h"
-#include "tests/app/gui/models/stage.h"
+#include "tests/app/gui/panels/panel_stage.h"
 #include "tests/app/gui/panels/trigger.h"
 
 #include <QApplication>
@@ -96,11 +96,11 @@ TEST_F(PacketsPanelTest, SelectingARowSelectsThePacketAndBack) {
     EXPECT_FALSE(list().isFollowing());
     QTest::keyClick(&list(), Qt::Key_Down);
     EXPECT_EQ(selected(), 151U);
-    const int asked = m_stage.commands.selections;
+    const int asked = m_stage.asked.count;
     m_stage.commands.selectPacket(7);
     refresh();
     EXPECT_EQ(list().currentIndex().row(), 7);
-    EXPECT_EQ(m_stage.commands.selections, asked + 1);
+    EXPECT_EQ(m_stage.asked.count, asked + 1);
     QTest::keyClick(&list(), Qt::Key_End, Qt::ControlModifier);
     EXPECT_EQ(selected(), std::nullopt);
     EXPECT_TRUE(list().isFollowing());
@@ -149,7 +149,7 @@ TEST_F(PacketsPanelTest, CallsNewOnlyWhatCameAfterTheFilter) {
 TEST(PacketsPanelOfASmallLog, SaysWhatTheFilterWasTooLateFor) {
     log::PacketLog log({.memoryCap = 1, .chunkSize = std::size_t{256} << 10});
     model::Session session(log);
-    ImmediateCommands commands{session};
+    Commands commands{session};
     const auto sender = log.senders().intern({"10.0.0.2:40001", log::Transport::Udp, 9763});
     const auto append = [&](int count) {
         const std::vector<std::byte> bytes(700);
@@ -401,9 +401,9 @@ TEST_F(PacketsPanelTest, CopiesTheSelectedPacketInEachFormat) {
     poses(0, 10);
     list().setCurrentIndex(m_panel.packets().index(3, PacketModel::kSample));
     const auto copied = [&](std::string_view id) {
-        m_stage.commands.copied.clear();
+        QGuiApplication::clipboard()->clear();
         trigger(id);
-        return m_stage.commands.copied;
+        return copiedText();
     };
     EXPECT_EQ(copied("copyCell"), "3");
     EXPECT_TRUE(copied("copyRows").contains(QLatin1Char('\t')));

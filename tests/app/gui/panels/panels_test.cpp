@@ -5,7 +5,7 @@
 #include "app/gui/panels/statistics_panel.h"
 #include "app/gui/panels/timecode_panel.h"
 #include "app/gui/panels/trackers_panel.h"
-#include "tests/app/gui/models/stage.h"
+#include "tests/app/gui/panels/panel_stage.h"
 
 #include <gmock/gmock.h>
 
@@ -33,11 +33,14 @@ protected:
     }
     template <class T>
     std::unique_ptr<T> make() {
-        if constexpr (std::is_constructible_v<T, model::SessionView&, Commands&, QWidget*>) {
-            return std::make_unique<T>(m_stage.session, m_stage.commands, nullptr);
-        } else {
-            return std::make_unique<T>(m_stage.session, m_stage.commands, m_stage.program, nullptr);
+        for (const PanelInfo& info : panelTable()) {
+            std::unique_ptr<Panel> panel(info.make(m_stage.parts, nullptr));
+            if (auto* wanted = qobject_cast<T*>(panel.get())) {
+                static_cast<void>(panel.release());
+                return std::unique_ptr<T>(wanted);
+            }
         }
+        return nullptr;
     }
     void refresh(Panel& panel) {
         m_stage.follow();
@@ -45,7 +48,7 @@ protected:
     }
     static TableView* table(Panel& panel) { return panel.findChild<TableView*>(); }
 
-    Stage m_stage;
+    PanelStage m_stage;
 };
 
 TEST_F(PanelsTest, TableHasTheDocksThatScriptsKnowAndMakesEachOfThem) {
@@ -53,8 +56,7 @@ TEST_F(PanelsTest, TableHasTheDocksThatScriptsKnowAndMakesEachOfThem) {
     for (const PanelInfo& info : panelTable()) {
         EXPECT_TRUE(ids.insert(info.id).second) << info.id << " is there twice";
         EXPECT_NE(std::string(info.title), "") << info.id;
-        const std::unique_ptr<Panel> panel(
-            info.make(m_stage.session, m_stage.commands, m_stage.program, nullptr));
+        const std::unique_ptr<Panel> panel(info.make(m_stage.parts, nullptr));
         panel->refresh();
     }
     // Names of docks are for good; a new dock need not be here.
@@ -75,8 +77,7 @@ TEST_F(PanelsTest, EmptyPanelsSayWhatToDo) {
 
 TEST_F(PanelsTest, EveryTableHasANameForScreenReaders) {
     for (const PanelInfo& info : panelTable()) {
-        const std::unique_ptr<Panel> panel(
-            info.make(m_stage.session, m_stage.commands, m_stage.program, nullptr));
+        const std::unique_ptr<Panel> panel(info.make(m_stage.parts, nullptr));
         for (const TableView* view : panel->findChildren<TableView*>()) {
             EXPECT_FALSE(view->accessibleName().isEmpty()) << info.id;
         }
@@ -146,8 +147,8 @@ TEST_F(PanelsTest, ClickingACharacterSelectsItForAllPanels) {
     EXPECT_EQ(m_stage.session.selection().character, m_stage.key(1));
     EXPECT_EQ(m_stage.session.selection().sender, m_stage.sender());
     QTest::mouseDClick(view->viewport(), Qt::LeftButton, {}, view->visualRect(second).center());
-    ASSERT_EQ(m_stage.commands.framed.size(), 1U);
-    EXPECT_EQ(m_stage.commands.framed.front(), m_stage.key(1));
+    ASSERT_EQ(m_stage.asked.framed.size(), 1U);
+    EXPECT_EQ(m_stage.asked.framed.front(), m_stage.key(1));
 }
 
 TEST_F(PanelsTest, WhatIsOfTheSelectedCharacterSaysWhereNoneIs) {
@@ -173,7 +174,7 @@ TEST_F(PanelsTest, CharactersFollowASelectionMadeElsewhereWithoutAskingForIt) {
     m_stage.session.setSelection({m_stage.sender(), m_stage.key(1), 3});
     refresh(*panel);
     EXPECT_EQ(table(*panel)->currentIndex().row(), 1);
-    EXPECT_EQ(m_stage.commands.selections, 0);
+    EXPECT_EQ(m_stage.asked.count, 0);
     EXPECT_EQ(m_stage.session.selection().segment, 3);
 }
 
@@ -276,7 +277,7 @@ TEST_F(PanelsTest, PickingATrackerSelectsItsSegmentAndBack) {
     m_stage.session.setSelection({m_stage.sender(), m_stage.key(), 10});
     refresh(*panel);
     EXPECT_EQ(panel->summary(), QStringLiteral("Right Hand · 11"));
-    EXPECT_EQ(m_stage.commands.selections, 1);
+    EXPECT_EQ(m_stage.asked.count, 1);
 }
 
 TEST_F(PanelsTest, CopiesARowByKeyboard) {
@@ -285,7 +286,7 @@ TEST_F(PanelsTest, CopiesARowByKeyboard) {
     TableView* view = table(*panel);
     view->setCurrentIndex(view->model()->index(0, 0));
     QTest::keySequence(view, QKeySequence::Copy);
-    EXPECT_TRUE(m_stage.commands.copied.startsWith("name\tFactory"));
+    EXPECT_TRUE(copiedText().startsWith("name\tFactory"));
     EXPECT_TRUE(view->allText().contains("Revision"));
 }
 
@@ -304,7 +305,7 @@ TEST_F(PanelsTest, CopiesAllOfATableByItsMenu) {
     });
     QContextMenuEvent asked(QContextMenuEvent::Mouse, view->rect().center(), view->mapToGlobal(QPoint(5, 5)));
     QApplication::sendEvent(view->viewport(), &asked);
-    EXPECT_EQ(m_stage.commands.copied, view->allText());
+    EXPECT_EQ(copiedText(), view->allText());
 }
 
 TEST_F(PanelsTest, ClockFillsTheScreenAndLeavesItByEscape) {

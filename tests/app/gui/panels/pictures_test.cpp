@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Photographs every dock, empty and busy, in both themes and at two scales, into the folder `pictures` of the
 // build, for people to look at; checks what a machine can.
-#include "app/gui/base/panel.h"
 #include "app/gui/plots/time_plot.h"
 #include "app/gui/theme/theme.h"
-#include "tests/app/gui/models/stage.h"
+#include "tests/app/gui/panels/panel_stage.h"
 
 #include <QApplication>
 #include <QDir>
@@ -86,7 +85,7 @@ protected:
     void photographAll(const QString& occasion, const std::function<void(int tick)>& play, int ticks) {
         std::vector<std::unique_ptr<Panel>> panels;
         for (const PanelInfo& info : panelTable()) {
-            panels.emplace_back(info.make(m_stage.session, m_stage.commands, m_stage.program, nullptr));
+            panels.emplace_back(info.make(m_stage.parts, nullptr));
             const bool isTall = panels.back()->findChild<TimePlot*>() != nullptr;
             panels.back()->resize(info.area == Qt::LeftDockWidgetArea ? 330 : 390, isTall ? 640 : 300);
             panels.back()->show();
@@ -120,7 +119,7 @@ protected:
         EXPECT_TRUE(sideBySide(images).save(folder.filePath(name)));
     }
 
-    Stage m_stage;
+    PanelStage m_stage;
 };
 
 TEST_P(PicturesTest, Empty) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/panels/statistics_panel.h"
 
-#include "tests/app/gui/models/stage.h"
+#include "tests/app/gui/panels/panel_stage.h"
 
 #include <QContextMenuEvent>
 #include <QHeaderView>
@@ -20,7 +20,8 @@ using Column = model::Figure;
 class StatisticsPanelTest : public testing::Test {
 protected:
     void open(int width = 420) {
-        m_panel = std::make_unique<StatisticsPanel>(m_stage.session, m_commands, m_stage.program, nullptr);
+        m_panel = std::make_unique<StatisticsPanel>(m_stage.session, m_stage.commands, m_stage.receiving,
+                                                    m_stage.health, nullptr);
         m_panel->resize(width, 400);
         m_panel->show();
         refresh();
@@ -43,8 +44,7 @@ protected:
     QModelIndex stream(Column column) { return stream(columnOf(column)); }
     std::optional<model::TimeRange> range() const { return m_stage.session.range(); }
 
-    Stage m_stage;
-    ImmediateCommands m_commands{m_stage.session};
+    PanelStage m_stage;
     std::unique_ptr<StatisticsPanel> m_panel;
 };
 
@@ -107,7 +107,7 @@ TEST_F(StatisticsPanelTest, ACellJumpsToItsPacketsByDoubleClickAndByKey) {
     EXPECT_EQ(m_stage.session.displayFilter(), "") << "in their context";
     ASSERT_TRUE(m_stage.session.selection().packet.has_value());
     EXPECT_EQ(m_stage.session.digests().find(*m_stage.session.selection().packet)->gap, 1U);
-    EXPECT_EQ(m_commands.shownDock, "packets");
+    EXPECT_EQ(m_stage.asked.dock, "packets");
     table().setCurrentIndex(stream(kNameColumn));
     table().setFocus();
     QTest::keyClick(&table(), Qt::Key_Return);
@@ -181,11 +181,11 @@ TEST_F(StatisticsPanelTest, FiltersThePacketsToTheRange) {
     perform(6);
     open();
     m_panel->filterToRange();
-    EXPECT_EQ(m_commands.shownDock, "");
-    m_commands.selectRange({0s, model::TimeRange{Stage::kStart + 2s, Stage::kStart + 4s}});
+    EXPECT_EQ(m_stage.asked.dock, "");
+    m_stage.commands.selectRange({0s, model::TimeRange{Stage::kStart + 2s, Stage::kStart + 4s}});
     m_panel->filterToRange();
     EXPECT_EQ(m_stage.session.displayFilter(), "time >= 2.000 && time < 4.000");
-    EXPECT_EQ(m_commands.shownDock, "packets");
+    EXPECT_EQ(m_stage.asked.dock, "packets");
 }
 
 TEST_F(StatisticsPanelTest, EmptyStripTakesKeysAndMouseWithoutARange) {
@@ -207,7 +207,7 @@ TEST_F(StatisticsPanelTest, MenuOffersThePacketsAndCsv) {
     packets->actions()[1]->trigger();
     EXPECT_EQ(m_stage.session.displayFilter(), "type == 02 && character == 0 && gap > 0");
     menu.actions().back()->trigger();
-    EXPECT_TRUE(m_commands.copied.startsWith("Sender,Character"));
+    EXPECT_TRUE(copiedText().startsWith("Sender,Character"));
 }
 
 } // namespace

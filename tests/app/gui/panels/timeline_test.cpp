@@ -40,7 +40,7 @@ protected:
     }
 
     Stage m_stage;
-    TimelineView m_timeline{m_stage.session, m_stage.commands, nullptr};
+    TimelineView m_timeline{m_stage.session, m_stage.commands, m_stage.playback, nullptr};
 };
 
 TEST_F(TimelineTest, HasAStripForEachCharacterWithItsGaps) {
@@ -326,7 +326,7 @@ TEST(TimelinePanelTest, ButtonsWithoutRoomGoIntoAMenu) {
     performer::Performer performer(sending(1, {2}));
     stage.perform(performer, 0, 100);
     stage.follow();
-    TimelinePanel panel(stage.session, stage.commands, nullptr);
+    TimelinePanel panel(stage.session, stage.commands, stage.playback, nullptr);
     panel.show();
     EXPECT_LE(panel.minimumSizeHint().width(), 200);
     for (const int width : {220, 300, 420, 800}) {

@@ -29,7 +29,7 @@ protected:
     }
     /// What it said at the end.
     QString write() {
-        PictureSeries series(stage.session, stage.commands, ViewLook{}, request);
+        PictureSeries series(stage.session, stage.playback, ViewLook{}, request);
         QSignalSpy finished(&series, &PictureSeries::finished);
         series.start();
         EXPECT_TRUE(finished.count() > 0 || finished.wait(30'000));
@@ -65,7 +65,7 @@ TEST_F(PictureSeriesTest, MomentsWithoutAnythingNewArePicturesToo) {
 
 TEST_F(PictureSeriesTest, OneAloneHasTheNameThatWasChosen) {
     request.count = 1;
-    stage.commands.showMoment(Stage::kStart + 500ms);
+    stage.playback.showMoment(Stage::kStart + 500ms);
     const model::Cursor before = stage.session.cursor();
     EXPECT_EQ(write(), "");
     EXPECT_TRUE(QFile::exists(request.path));
@@ -91,7 +91,7 @@ TEST_F(PictureSeriesTest, SaysWhyAPictureCannotBeWritten) {
 TEST_F(PictureSeriesTest, WhatIsGivenUpLeavesWholePictures) {
     request.count = 500;
     {
-        PictureSeries series(stage.session, stage.commands, ViewLook{}, request);
+        PictureSeries series(stage.session, stage.playback, ViewLook{}, request);
         series.start();
         ASSERT_TRUE(QTest::qWaitFor([&] { return series.written() >= 2; }, 30'000));
         written = series.written();

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/base/comparison.h"
 #include "app/gui/viewport/scene.h"
 
 #include "app/gui/models/stream_state.h"

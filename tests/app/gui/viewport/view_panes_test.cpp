@@ -127,7 +127,7 @@ protected:
     }
 
     Stage m_stage;
-    ImmediateCommands& m_commands{m_stage.commands};
+    Commands& m_commands{m_stage.commands};
     ViewportWidget m_viewport{m_stage.session, m_commands};
 };
 

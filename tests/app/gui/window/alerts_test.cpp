@@ -150,7 +150,7 @@ protected:
 TEST(HealthBarHistory, SaysHowFarBackItGoesAlsoOnceMemoryIsFull) {
     log::PacketLog log({.memoryCap = std::size_t{1280} << 10, .chunkSize = std::size_t{256} << 10});
     model::Session session(log);
-    ImmediateCommands commands(session);
+    Commands commands(session);
     HealthBar bar(session, commands);
     const log::SenderId sender = log.senders().intern({Stage::kAddress, log::Transport::Udp, 9763});
     const std::vector<std::byte> bytes(700);
@@ -199,7 +199,7 @@ TEST_F(HealthBarTest, SaysThatAllCameWhereItIsGood) {
     ASSERT_NE(popup, nullptr);
     EXPECT_TRUE(popup->findChildren<QAbstractButton*>("trouble").empty());
     popup->findChild<QPushButton*>(QStringLiteral("frameCharacter"))->click();
-    EXPECT_EQ(m_stage.commands.framed.size(), 1U);
+    EXPECT_EQ(m_stage.asked.framed.size(), 1U);
 }
 
 TEST_F(HealthBarTest, ShowsTheWorstFirstAndAllInAList) {

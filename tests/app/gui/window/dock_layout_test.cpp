@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/base/dock_layout.h"
 
-#include "app/gui/base/panel.h"
+#include "app/gui/panels/panels.h"
 
 #include <gtest/gtest.h>
 

@@ -38,7 +38,7 @@ protected:
         m_window.show();
         QTest::qWait(1);
     }
-    [[nodiscard]] bool isPaused() const { return m_driver.isPaused(); }
+    [[nodiscard]] bool isPaused() { return m_driver.playback().isPaused(); }
     [[nodiscard]] const Command* command(const QString& name) {
         m_commands = commandsOf(*m_window.menuBar());
         const auto found = std::ranges::find(m_commands, name, &Command::name);

@@ -65,15 +65,15 @@ TEST_F(MainWindowTest, RestoresFilterCameraAndAxes) {
     Settings kept;
     {
         const auto window = makeWindow();
-        driver.setDisplayFilter("type == 02");
+        driver.commands().setDisplayFilter("type == 02");
         window->viewport().setAxes(AxesMode::Selected);
         window->viewport().toggleProjection();
         kept = window->settings();
         EXPECT_TRUE(kept.file.isEmpty()) << "what is live was shown";
     }
-    driver.setDisplayFilter({});
+    driver.commands().setDisplayFilter({});
     const auto window = makeWindow(kept);
-    EXPECT_EQ(driver.live().displayFilter(), "type == 02");
+    EXPECT_EQ(driver.commands().live().displayFilter(), "type == 02");
     EXPECT_EQ(window->viewport().axes(), AxesMode::Selected);
     EXPECT_EQ(window->viewport().projection(), render::Projection::Orthographic);
     EXPECT_EQ(window->settings().viewport, kept.viewport);
@@ -249,9 +249,9 @@ TEST_F(MainWindowTest, EntriesOfTheWindowDoWhatTheySay) {
 
 TEST_F(MainWindowTest, EntriesShowWhatElsewhereSwitchedOn) {
     const auto window = makeWindow();
-    driver.setPaused(true);
+    driver.playback().setPaused(true);
     EXPECT_TRUE(action(*window, "pause")->isChecked());
-    driver.setGhostVisible(true);
+    driver.commands().setGhostVisible(true);
     EXPECT_TRUE(action(*window, "ghost")->isChecked());
     window->viewport().toggleProjection();
     EXPECT_TRUE(action(*window, "orthographic")->isChecked());
@@ -372,11 +372,12 @@ TEST_F(MainWindowTest, EveryButtonOfADockIsInAMenu) {
 TEST_F(MainWindowTest, TheMenuOfFiguresChoosesTheirRange) {
     const auto window = makeWindow();
     action(*window, "figures10s")->trigger();
-    EXPECT_EQ(driver.session().rangeChoice(), (model::RangeChoice{.last = std::chrono::seconds(10)}));
+    EXPECT_EQ(driver.commands().session().rangeChoice(),
+              (model::RangeChoice{.last = std::chrono::seconds(10)}));
     EXPECT_TRUE(action(*window, "figures10s")->isChecked());
     EXPECT_FALSE(action(*window, "figuresOfAll")->isChecked());
     action(*window, "figuresOfAll")->trigger();
-    EXPECT_EQ(driver.session().rangeChoice(), model::RangeChoice());
+    EXPECT_EQ(driver.commands().session().rangeChoice(), model::RangeChoice());
     EXPECT_TRUE(action(*window, "figuresOfAll")->isChecked());
 }
 
@@ -410,9 +411,9 @@ TEST_F(MainWindowTest, NamesTheDocksOfALayoutThatDoNotExist) {
 TEST_F(MainWindowTest, SpacePausesAndEndGoesBackToLive) {
     const auto window = makeWindow();
     QTest::keyClick(window.get(), Qt::Key_Space);
-    EXPECT_TRUE(driver.isPaused());
+    EXPECT_TRUE(driver.playback().isPaused());
     QTest::keyClick(window.get(), Qt::Key_End);
-    EXPECT_FALSE(driver.isPaused());
+    EXPECT_FALSE(driver.playback().isPaused());
 }
 
 TEST_F(MainWindowTest, GivesTheKeyboardToTheViewportWhenALayoutTakesItFromADock) {
@@ -497,11 +498,11 @@ TEST_F(MainWindowTest, GoingBackFromPacketsBringsTheDockBeforeThemToTheFront) {
     const auto [packets, events] = tabbed(*window, "packets", "events");
     const auto isInFront = [&](QDockWidget* one) { return window->rect().intersects(one->geometry()); };
     ASSERT_TRUE(isInFront(events) && !isInFront(packets));
-    driver.jump(0, "type == 02");
-    driver.showDock("packets");
+    driver.commands().jump(0, "type == 02");
+    driver.commands().showDock("packets");
     QTest::qWait(1);
     ASSERT_TRUE(isInFront(packets) && !isInFront(events));
-    driver.goBack();
+    driver.commands().goBack();
     QTest::qWait(1);
     EXPECT_TRUE(isInFront(events) && !isInFront(packets));
     EXPECT_TRUE(events->isAncestorOf(QApplication::focusWidget()));
@@ -511,11 +512,11 @@ TEST_F(MainWindowTest, GoingBackFromPacketsThatTheLayoutDoesNotPlaceBringsTheDoc
     const auto window = makeWindow();
     window->useLayout(QStringLiteral("Check"));
     QTest::qWait(1);
-    driver.jump(0, "type == 02");
-    driver.showDock("packets");
+    driver.commands().jump(0, "type == 02");
+    driver.commands().showDock("packets");
     QTest::qWait(1);
     EXPECT_FALSE(window->rect().intersects(dock(*window, "events")->geometry()));
-    driver.goBack();
+    driver.commands().goBack();
     QTest::qWait(1);
     EXPECT_TRUE(window->rect().intersects(dock(*window, "events")->geometry()));
 }

@@ -31,11 +31,11 @@ TEST_F(MainWindowTest, EscapeStopsOpeningAFileAndIsForOthersElse) {
     EXPECT_FALSE(action(*window, "stopOpening")->isEnabled());
     const QString endless = folder.filePath("endless");
     ASSERT_EQ(::mkfifo(QFile::encodeName(endless).constData(), 0600), 0);
-    driver.openFile(endless);
+    driver.files().open(endless);
     emit driver.tableTick();
     EXPECT_FALSE(stop->isHidden());
     QTest::keyClick(window.get(), Qt::Key_Escape);
-    EXPECT_FALSE(driver.isOpening());
+    EXPECT_FALSE(driver.files().isOpening());
     EXPECT_TRUE(stop->isHidden());
     EXPECT_TRUE(window->findChild<HealthBar*>("healthBar")
                     ->findChild<QLabel*>("message")
@@ -48,29 +48,29 @@ TEST_F(MainWindowTest, SaysWhatIsWrongWithACharacterAlsoWhereAFileIsOpenedMeanwh
     const auto* message = window->findChild<HealthBar*>("healthBar")->findChild<QLabel*>("message");
     const QString problem = "The mannequin stays";
     emit window->viewport().ownCharacters().failed(problem);
-    emit driver.fileOpened(true, "");
+    emit driver.files().opened(true, "");
     EXPECT_EQ(message->text(), problem);
     const QString endless = folder.filePath("endless");
     ASSERT_EQ(::mkfifo(QFile::encodeName(endless).constData(), 0600), 0);
-    driver.openFile(endless);
+    driver.files().open(endless);
     emit driver.tableTick();
     EXPECT_TRUE(message->text().startsWith("Opening endless"));
-    driver.cancelOpening();
+    driver.files().cancelOpening();
     window->say("Saved");
     emit driver.tableTick();
     emit driver.tableTick();
-    emit driver.fileOpened(true, "");
+    emit driver.files().opened(true, "");
     EXPECT_EQ(message->text(), "") << "it has been said";
 }
 
 TEST_F(MainWindowTest, SaysWhyNothingIsComparedAlsoWhenARecordingIsShownThen) {
     const auto window = makeWindow();
-    emit driver.comparisonChanged("Nothing to compare with: it is empty");
-    emit driver.fileOpened(true, {});
+    emit driver.files().comparing().changed("Nothing to compare with: it is empty");
+    emit driver.files().opened(true, {});
     const auto* message = window->findChild<HealthBar*>("healthBar")->findChild<QLabel*>("message");
     EXPECT_FALSE(message->isHidden());
     EXPECT_EQ(message->text(), "Nothing to compare with: it is empty");
-    HealthBar other(driver.session(), driver);
+    HealthBar other(driver.commands().session(), driver.commands());
     other.takeMessage(*window->findChild<HealthBar*>("healthBar"));
     EXPECT_EQ(other.findChild<QLabel*>("message")->text(), "Nothing to compare with: it is empty");
     EXPECT_TRUE(message->isHidden());
@@ -84,12 +84,12 @@ TEST_F(MainWindowTest, SaysWhyNothingIsComparedOnceARecordingIsOpen) {
         made.write(reinterpret_cast<const char*>(bytes.data()), static_cast<qint64>(bytes.size()));
         return made.fileName();
     };
-    driver.openFile(fileWith("take.mxtp", posewire::test::golden("02_quaternion_counted").bytes));
-    driver.compareWith(fileWith("empty.mxtp", {}));
+    driver.files().open(fileWith("take.mxtp", posewire::test::golden("02_quaternion_counted").bytes));
+    driver.files().comparing().open(fileWith("empty.mxtp", {}));
     EXPECT_TRUE(QTest::qWaitFor([this] {
         driver.tick();
         emit driver.tableTick();
-        return !driver.isOpening() && driver.isFileShown();
+        return !driver.files().isOpening() && driver.commands().isFileShown();
     }));
     emit driver.tableTick();
     const QString said = shownMessage(*window);
@@ -101,8 +101,8 @@ TEST_F(MainWindowTest, SaysWhereATakeIsAndOffersToOpenIt) {
     settings.recording.folder = folder.path();
     const auto window = makeWindow(settings);
     action(*window, "record")->trigger();
-    ASSERT_TRUE(driver.isRecording());
-    const QString path = driver.take()->path;
+    ASSERT_TRUE(driver.takes().isRecording());
+    const QString path = driver.takes().state()->path;
     action(*window, "record")->trigger();
     const QString said = window->findChild<HealthBar*>("healthBar")->findChild<QLabel*>("message")->text();
     EXPECT_TRUE(said.contains(QFileInfo(path).fileName()) && said.contains(folder.path()))

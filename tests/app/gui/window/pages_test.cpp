@@ -53,13 +53,13 @@ protected:
         auto sender = net::DatagramSender::connect(
             {{"127.0.0.1", m_driver.receiving().openPort()}, net::SendTarget::Transport::Udp});
         ASSERT_TRUE(sender);
-        const std::uint64_t end = m_driver.live().end() + last - first;
+        const std::uint64_t end = m_driver.commands().live().end() + last - first;
         for (std::uint64_t frame = first; frame < last; ++frame) {
             ASSERT_TRUE(sender->send(frames(frame, frame + 1)));
         }
         ASSERT_TRUE(QTest::qWaitFor([&] {
             m_driver.tick();
-            return m_driver.live().end() >= end;
+            return m_driver.commands().live().end() >= end;
         }));
     }
 
@@ -68,10 +68,10 @@ protected:
         const std::vector<std::byte> bytes = frames(0, 40);
         std::ofstream(path, std::ios::binary)
             .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-        m_driver.openFile(QString::fromStdString(path));
+        m_driver.files().open(QString::fromStdString(path));
         ASSERT_TRUE(QTest::qWaitFor([this] {
             m_driver.tick();
-            return !m_driver.isOpening() && m_driver.isFileShown();
+            return !m_driver.files().isOpening() && m_driver.commands().isFileShown();
         }));
     }
 
@@ -121,7 +121,7 @@ TEST_F(PagesTest, WhatIsSetWhileAFileIsShownStaysWhenItIsClosedAndOpenedAgain) {
     faults->columns().setChosen({faults->model()->headerData(2, Qt::Horizontal).toString()});
     const QJsonObject columns = faults->columns().state();
     ASSERT_FALSE(columns.isEmpty());
-    m_driver.closeFile();
+    m_driver.files().close();
     EXPECT_EQ(shownPart<FilterBar>("packets")->saved().size(), 1U);
     EXPECT_EQ(shownPart<TableView>("faults")->columns().state(), columns);
     openFile();
@@ -130,12 +130,12 @@ TEST_F(PagesTest, WhatIsSetWhileAFileIsShownStaysWhenItIsClosedAndOpenedAgain) {
 }
 
 TEST_F(PagesTest, KeepsTheFilterOfAFileApartFromThatOfWhatIsLive) {
-    m_driver.setDisplayFilter("type == 12");
+    m_driver.commands().setDisplayFilter("type == 12");
     openFile();
-    m_driver.setDisplayFilter("type == 02");
+    m_driver.commands().setDisplayFilter("type == 02");
     EXPECT_EQ(m_window.settings().filter, "type == 12");
     EXPECT_EQ(m_window.settings().fileFilter, "type == 02");
-    m_driver.closeFile();
+    m_driver.files().close();
     EXPECT_EQ(m_window.settings().fileFilter, "");
 }
 
@@ -146,7 +146,7 @@ TEST_F(PagesTest, TheHistoryOfFiltersGoesAlongOnceAndDefaultsComeBack) {
     openFile();
     EXPECT_EQ(shownPart<FilterBar>("packets")->history(), (QStringList{"type == 02", "size > 100"}));
     shownPart<FilterBar>("packets")->setSaved(defaultFilters());
-    m_driver.showLive();
+    m_driver.commands().showLive();
     EXPECT_EQ(live->history(), (QStringList{"type == 02", "size > 100"}));
     EXPECT_EQ(live->saved(), defaultFilters());
 }
@@ -160,9 +160,9 @@ TEST_F(PagesTest, EndGoesBackToLiveFromEveryList) {
           {"faults", shownPart<TableView>("faults")}}) {
         m_window.showDock(name);
         list->setFocus();
-        m_driver.setPaused(true);
+        m_driver.playback().setPaused(true);
         QTest::keyClick(list, Qt::Key_End);
-        EXPECT_FALSE(m_driver.isPaused()) << name;
+        EXPECT_FALSE(m_driver.playback().isPaused()) << name;
     }
 }
 
@@ -174,12 +174,13 @@ TEST_F(PagesTest, TheClockAndTheStripTellTheSameMomentOfThePast) {
     ASSERT_TRUE(sender && sender->send(std::vector(10, std::byte{7})));
     ASSERT_TRUE(QTest::qWaitFor([&] {
         m_driver.tick();
-        return m_driver.live().end() == 5;
+        return m_driver.commands().live().end() == 5;
     }));
-    m_driver.setPaused(true);
+    m_driver.playback().setPaused(true);
     m_driver.tick();
     emit m_driver.tableTick();
-    const QString moment = timeOfDay(m_driver.live().wallOf(m_driver.live().cursorStamp()));
+    const QString moment =
+        timeOfDay(m_driver.commands().live().wallOf(m_driver.commands().live().cursorStamp()));
     EXPECT_EQ(m_window.findChild<QLabel*>("transportTime")->text(), moment);
     EXPECT_TRUE(m_window.findChild<ElidedLabel*>("stripText")->text().contains(moment));
 }

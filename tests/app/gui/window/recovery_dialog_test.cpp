@@ -64,7 +64,7 @@ TEST_F(RecoveryDialogTest, ListsWhenEachFileWasReceivedTheNewestSelected) {
     leave("history-7-1.pcapng", 1'000'000'000s);
     const QString newest = leave("history-7-2.pcapng", 1'000'000'100s);
     leave("take.pcapng", 1'000'000'200s);
-    RecoveryDialog dialog(m_driver, nullptr);
+    RecoveryDialog dialog(m_driver.history(), nullptr);
     const auto* list = dialog.findChild<QTreeWidget*>();
     ASSERT_EQ(list->topLevelItemCount(), 2);
     const QString begin = QDateTime::fromSecsSinceEpoch(1'000'000'100).toString("HH:mm:ss.zzz");
@@ -78,7 +78,7 @@ TEST_F(RecoveryDialogTest, ListsWhenEachFileWasReceivedTheNewestSelected) {
 
 TEST_F(RecoveryDialogTest, SavesACopyAndSaysSo) {
     const QString lost = leave("history-7-1.pcapng", 1'000'000'000s);
-    RecoveryDialog dialog(m_driver, nullptr);
+    RecoveryDialog dialog(m_driver.history(), nullptr);
     const QString target = m_folder.filePath("kept.pcapng");
     dialog.save(target);
     EXPECT_FALSE(button(dialog, "Discard all")->isEnabled()) << "not while it is read";
@@ -97,7 +97,7 @@ TEST_F(RecoveryDialogTest, SavesACopyAndSaysSo) {
 
 TEST_F(RecoveryDialogTest, ClosedWhileItSavesItTellsLater) {
     leave("history-7-1.pcapng", 1'000'000'000s);
-    RecoveryDialog dialog(m_driver, nullptr);
+    RecoveryDialog dialog(m_driver.history(), nullptr);
     const QSignalSpy over(&dialog, &RecoveryDialog::over);
     dialog.show();
     dialog.save(m_folder.filePath("kept.pcapng"));
@@ -112,15 +112,15 @@ TEST_F(RecoveryDialogTest, ClosedWhileItSavesItTellsLater) {
 }
 
 TEST_F(RecoveryDialogTest, SaysWhereThereIsNothing) {
-    RecoveryDialog dialog(m_driver, nullptr);
+    RecoveryDialog dialog(m_driver.history(), nullptr);
     EXPECT_TRUE(dialog.isEmpty());
     EXPECT_FALSE(button(dialog, "Open")->isEnabled());
-    EXPECT_TRUE(m_driver.lostHistories().empty());
+    EXPECT_TRUE(m_driver.history().lost().empty());
 }
 
 TEST_F(RecoveryDialogTest, DiscardedFilesAreGone) {
     const QString lost = leave("history-7-1.pcapng", 1'000'000'000s);
-    m_driver.discardLostHistories();
+    m_driver.history().discardLost();
     EXPECT_FALSE(QFile::exists(lost));
 }
 

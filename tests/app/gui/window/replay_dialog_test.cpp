@@ -28,7 +28,7 @@ protected:
         }
         ASSERT_TRUE(net::eventually([&] {
             m_driver.tick();
-            return m_driver.live().end() == static_cast<std::uint64_t>(count);
+            return m_driver.commands().live().end() == static_cast<std::uint64_t>(count);
         }));
     }
     [[nodiscard]] bool says(const QString& text) const {
@@ -38,7 +38,7 @@ protected:
 
     log::SystemClock m_clock;
     SessionDriver m_driver{m_clock};
-    ReplayDialog m_dialog{m_driver, nullptr};
+    ReplayDialog m_dialog{m_driver.replaying(), m_driver.commands(), nullptr};
     QLineEdit* m_target = m_dialog.findChild<QLineEdit*>();
 };
 
@@ -59,7 +59,7 @@ TEST_F(ReplayDialogTest, AReplayWithoutEndIsStoppedByTheSameButton) {
     m_dialog.toggle();
     ASSERT_TRUE(net::eventually([&] { return consumer.packets() > 9; }));
     m_dialog.toggle();
-    EXPECT_EQ(m_driver.replay(), nullptr);
+    EXPECT_EQ(m_driver.replaying().current(), nullptr);
     EXPECT_TRUE(says("Nothing is being sent"));
 }
 
@@ -70,7 +70,7 @@ TEST_F(ReplayDialogTest, SaysWhatIsWrongWithATargetAndWhereThereIsNothingToSend)
     m_target->setText("127.0.0.1:9");
     m_dialog.toggle();
     EXPECT_TRUE(says("There is no packet to send."));
-    EXPECT_EQ(m_driver.replay(), nullptr);
+    EXPECT_EQ(m_driver.replaying().current(), nullptr);
 }
 
 } // namespace

@@ -60,10 +60,10 @@ protected:
         }
         ASSERT_TRUE(QTest::qWaitFor([this] {
             m_driver.tick();
-            return m_driver.live().atNow().currentCharacters().size() == kCharacters;
+            return m_driver.commands().live().atNow().currentCharacters().size() == kCharacters;
         }));
-        m_driver.select({m_driver.live().atNow().currentCharacters()[0]->key.sender,
-                         m_driver.live().atNow().currentCharacters()[0]->key, -1});
+        m_driver.commands().select({m_driver.commands().live().atNow().currentCharacters()[0]->key.sender,
+                                    m_driver.commands().live().atNow().currentCharacters()[0]->key, -1});
     }
 
     /// What the docks that show need, for a message.
@@ -132,10 +132,10 @@ TEST_F(RoomTest, EveryLayoutFitsWithARecordingOpen) {
         file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
     }
     file.close();
-    m_driver.openFile(QString::fromStdString(path));
+    m_driver.files().open(QString::fromStdString(path));
     ASSERT_TRUE(QTest::qWaitFor([this] {
         m_driver.tick();
-        return !m_driver.isOpening() && m_driver.isFileShown();
+        return !m_driver.files().isOpening() && m_driver.commands().isFileShown();
     }));
     expectRoomInEveryLayout();
 }

@@ -96,9 +96,9 @@ TEST_F(TourTest, GoesBack) {
 TEST_F(TourTest, KeysOfTheWindowMeanNothingMeanwhile) {
     window.showTour();
     press(Qt::Key_R);
-    EXPECT_FALSE(driver.isRecording());
+    EXPECT_FALSE(driver.takes().isRecording());
     press(Qt::Key_Space);
-    EXPECT_FALSE(driver.isPaused());
+    EXPECT_FALSE(driver.playback().isPaused());
     EXPECT_EQ(tour()->step(), 1U) << "it pressed the button instead";
 }
 

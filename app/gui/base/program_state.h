@@ -16,8 +16,6 @@
 
 namespace posewire::gui {
 
-struct ComparisonState;
-
 /// One input that the operator wants to hear.
 struct PortState {
     InputAddress port;
@@ -74,19 +72,6 @@ struct MonitorHealth {
     std::size_t meshBytes = 0;     ///< of the bodies in the viewport
     std::size_t mostMeshBytes = 0; ///< what that can become
     PictureHealth picture{};
-};
-
-/// What panels read that is not of the session.
-class ProgramView {
-public:
-    virtual ~ProgramView() = default;
-
-    /// How receiving goes: ports, buffers, what was dropped here.
-    [[nodiscard]] virtual ReceivingState receivingState() const = 0;
-    /// What this program itself costs.
-    [[nodiscard]] virtual MonitorHealth monitorHealth() const = 0;
-    /// What is shown against a second recording, where there is one.
-    [[nodiscard]] virtual const ComparisonState& comparison() const = 0;
 };
 
 } // namespace posewire::gui

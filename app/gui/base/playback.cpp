@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/base/playback.h"
+
+#include "core/model/body/character_pose.h"
+#include "core/wire/type_table.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace posewire::gui {
+
+namespace {
+
+model::Cursor stoppedAt(std::uint64_t packet) {
+    return {model::Cursor::Mode::Paused, packet};
+}
+
+std::uint64_t newestOf(const model::SessionView& session) {
+    return session.end() == 0 ? 0 : session.end() - 1;
+}
+
+log::Stamp newestMoment(const model::SessionView& session) {
+    const auto newest = session.packet(newestOf(session));
+    return newest ? newest->stamp : session.now();
+}
+
+std::uint64_t shownPacket(const model::SessionView& session) {
+    return session.cursor().mode == model::Cursor::Mode::Paused ? session.cursor().packet : newestOf(session);
+}
+
+/// The one whose samples are stepped: of its pose, or of anything that has samples.
+std::optional<log::StreamKey> steppedStream(const model::SessionView& session,
+                                            const model::CharacterKey& key) {
+    if (const model::CharacterPose* pose = session.pose(key)) {
+        return log::StreamKey{key.sender, key.character, pose->type};
+    }
+    const model::Character* character = session.find(key);
+    if (character != nullptr) {
+        const auto sampled = std::ranges::find_if(
+            character->streams, [](const model::Stream* one) { return wire::isSampled(one->key.type); });
+        if (sampled != character->streams.end()) {
+            return (*sampled)->key;
+        }
+    }
+    return std::nullopt;
+}
+
+} // namespace
+
+void Playback::stopAt(std::uint64_t packet) {
+    m_commands.unselectPacket();
+    m_commands.setCursor(stoppedAt(packet));
+}
+
+void Playback::goLive() {
+    m_commands.showLive();
+    m_commands.unselectPacket();
+    m_commands.setCursor({});
+}
+
+bool Playback::isPaused() const {
+    return m_commands.session().cursor().mode == model::Cursor::Mode::Paused;
+}
+
+void Playback::setPaused(bool isPaused) {
+    if (m_commands.isFileShown()) {
+        play(isPlaying(Direction::Backwards) ? Direction::Backwards : Direction::Forwards);
+    } else if (!isPaused) {
+        m_commands.setCursor({});
+    } else if (!this->isPaused()) {
+        m_commands.setCursor(stoppedAt(newestOf(m_commands.session())));
+    }
+}
+
+void Playback::seek(double seconds) {
+    showMoment(m_commands.session().firstStamp() + log::durationOf(seconds));
+}
+
+void Playback::showMoment(log::Stamp moment) {
+    stopAt(m_commands.session().packetAt(moment));
+}
+
+void Playback::stepSamples(const model::CharacterKey& of, int steps) {
+    const auto stream = steppedStream(m_commands.session(), of);
+    if (const auto packet = stream ? m_commands.session().packetOfSample(*stream, steps) : std::nullopt) {
+        stopAt(*packet);
+    }
+}
+
+void Playback::stepPackets(int steps) {
+    const model::SessionView& session = m_commands.session();
+    const auto last = static_cast<std::int64_t>(newestOf(session));
+    const auto first = std::min(static_cast<std::int64_t>(session.begin()), last);
+    const auto from = static_cast<std::int64_t>(shownPacket(session));
+    const auto packet = static_cast<std::uint64_t>(std::clamp(from + steps, first, last));
+    stopAt(packet);
+    m_commands.selectPacket(packet);
+}
+
+void Playback::stepTime(log::Duration by) {
+    showMoment(m_commands.session().cursorStamp() + by);
+}
+
+bool Playback::isPlaying(Direction direction) const {
+    return m_commands.session().cursor().speed * static_cast<int>(direction) > 0;
+}
+
+void Playback::play(Direction direction) {
+    if (isPlaying(direction)) {
+        end();
+    } else if (m_commands.session().end() != 0) {
+        begin(m_speed * static_cast<int>(direction));
+    }
+}
+
+void Playback::begin(double speed) {
+    const model::SessionView& session = m_commands.session();
+    const auto loop = m_isLooping ? loopRange() : std::nullopt;
+    log::Stamp from = session.cursorStamp();
+    const bool isAtEnd =
+        m_commands.isFileShown() && !loop && speed > 0 && shownPacket(session) == newestOf(session);
+    if (isAtEnd) { // it was played to its end: once more
+        from = session.firstStamp();
+    }
+    m_commands.unselectPacket();
+    m_playing.emplace(from, m_clock.monotonic(), speed, loop);
+    model::Cursor cursor = stoppedAt(shownPacket(session));
+    cursor.speed = m_playing->speed();
+    m_commands.setCursor(cursor);
+}
+
+void Playback::end() {
+    model::Cursor cursor = m_commands.session().cursor();
+    cursor.speed = 0;
+    m_commands.setCursor(cursor);
+}
+
+/// The range that figures are of, if it is fixed; else all there is.
+std::optional<model::TimeRange> Playback::loopRange() const {
+    const model::SessionView& session = m_commands.session();
+    if (session.rangeChoice().fixed) {
+        return session.rangeChoice().fixed;
+    }
+    return model::TimeRange{session.firstStamp(), newestMoment(session) + log::Duration(1)};
+}
+
+void Playback::setSpeed(double speed) {
+    m_speed = std::clamp(speed, model::Playback::kSlowest, model::Playback::kFastest);
+    if (const double before = m_commands.session().cursor().speed; before != 0) {
+        begin(std::copysign(m_speed, before));
+    }
+}
+
+void Playback::setLooping(bool isLooping) {
+    m_isLooping = isLooping;
+    if (const double before = m_commands.session().cursor().speed; before != 0) {
+        begin(before);
+    }
+}
+
+bool Playback::follow() {
+    const model::SessionView& session = m_commands.session();
+    if (session.cursor().speed == 0) {
+        return false;
+    }
+    const log::Stamp moment = m_playing->at(m_clock.monotonic());
+    const bool hasCaughtUp = m_playing->speed() > 0 && moment >= newestMoment(session) && !m_isLooping;
+    if (hasCaughtUp && !m_commands.isFileShown()) {
+        m_commands.setCursor({});
+        return true;
+    }
+    model::Cursor cursor = stoppedAt(session.packetAt(moment));
+    cursor.speed = m_playing->speed();
+    const bool hasMoved = cursor != session.cursor();
+    m_commands.playTo(cursor);
+    const bool isOver = hasCaughtUp || (m_playing->speed() < 0 && cursor.packet <= session.begin());
+    if (isOver && !m_isLooping) {
+        end();
+    }
+    return hasMoved;
+}
+
+} // namespace posewire::gui

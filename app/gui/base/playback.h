@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/gui/base/commands.h"
+#include "core/log/clock.h"
+#include "core/model/session/playback.h"
+
+#include <optional>
+
+namespace posewire::gui {
+
+/// Moves the moment that is shown: followed, stopped, stepped or played. Receiving goes on, whatever it is.
+class Playback {
+public:
+    /// Both must outlive it.
+    Playback(Commands& commands, const log::Clock& clock) : m_commands(commands), m_clock(clock) {}
+
+    /// What is received, as it comes; lets go of a packet that is selected.
+    void goLive();
+    /// Stops the display where it is, or follows the stream again. A file is played instead.
+    void setPaused(bool isPaused);
+    [[nodiscard]] bool isPaused() const;
+    /// Stops the display this many seconds after the first packet there was.
+    void seek(double seconds);
+    /// Stops the display at a moment.
+    void showMoment(log::Stamp moment);
+    /// Stops the display, and moves it by samples of a character, by packets or by time.
+    void stepSamples(const model::CharacterKey& of, int steps);
+    void stepPackets(int steps);
+    void stepTime(log::Duration by);
+    enum class Direction { Backwards = -1, Forwards = 1 };
+    /// Plays from the moment that is shown on, up to what is live or to the end of the file; stops if it
+    /// plays that way already.
+    void play(Direction direction);
+    [[nodiscard]] bool isPlaying(Direction direction) const;
+    /// Times as fast as it was, above 0; also of what plays.
+    void setSpeed(double speed);
+    [[nodiscard]] double speed() const { return m_speed; }
+    /// Plays the range that is selected, or all, again and again.
+    void setLooping(bool isLooping);
+    [[nodiscard]] bool isLooping() const { return m_isLooping; }
+
+    /// One display tick: moves what plays on; true if it moved.
+    bool follow();
+
+private:
+    void stopAt(std::uint64_t packet);
+    void begin(double speed);
+    void end();
+    [[nodiscard]] std::optional<model::TimeRange> loopRange() const;
+
+    Commands& m_commands;
+    const log::Clock& m_clock;
+    std::optional<model::Playback> m_playing; ///< means nothing while the cursor stands still
+    double m_speed = 1;
+    bool m_isLooping = false;
+};
+
+} // namespace posewire::gui
