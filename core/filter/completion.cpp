@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/filter/completion.h"
 
-#include "core/filter/field.h"
+#include "core/field/field.h"
 #include "core/filter/lexer.h"
 #include "core/model/body/segments.h"
 #include "core/wire/text.h"
@@ -10,6 +10,8 @@
 #include <algorithm>
 
 namespace posewire::filter {
+
+using namespace field;
 namespace {
 
 /// What may come next.

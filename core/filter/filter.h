@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/log/packet.h"
-#include "core/log/time.h"
-#include "core/model/accounting/packet_digest.h"
-#include "core/model/body/units.h"
-#include "core/wire/codec.h"
+#include "core/field/field.h"
 
 #include <cstddef>
 #include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
 
@@ -26,18 +21,7 @@ struct FilterError {
     friend bool operator==(const FilterError&, const FilterError&) = default;
 };
 
-/// One packet as a filter sees it.
-struct Candidate {
-    const log::Packet& packet;
-    const model::PacketDigest& digest;
-    const wire::Datagram* datagram = nullptr; ///< null if it cannot be read
-    const log::SenderInfo* sender = nullptr;  ///< null if not known
-    log::Stamp firstStamp{};                  ///< of the first packet: where `time` begins
-    const wire::WireError* fault = nullptr; ///< why it could not be decoded; null: decoded again to find out
-    log::Duration setBy{}; ///< what the wall clock was ahead of the packet's stamp: for `utc`
-    /// What positions of this type from this sender come in, where that is known; else what the layout says.
-    std::optional<model::LengthUnit> positionUnit{};
-};
+using field::Candidate;
 
 struct Program;
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "core/filter/field.h"
+#include "core/field/field.h"
 
 namespace posewire::filter {
+
+using namespace field;
 namespace {
 
 constexpr std::string_view kLanguage = R"(# Display filter

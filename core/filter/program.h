@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/filter/field.h"
+#include "core/filter/filter.h"
 #include "core/filter/lexer.h"
 
 #include <utility>
@@ -12,6 +12,8 @@ class RE2;
 
 /// A filter as it is written and as it is compiled: conditions, and the tree that joins them.
 namespace posewire::filter {
+
+using namespace field; // of which all conditions are made
 
 /// What a value is compared with.
 struct Test {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/core/filter/filter_fixture.h"
 
-#include "core/filter/field.h"
+#include "core/field/field.h"
 #include "core/wire/field_tree.h"
 
 #include <cmath>
@@ -44,7 +44,7 @@ struct EveryGolden : testing::TestWithParam<std::string> {
             const wire::FieldNode& node = tree.nodes[i];
             const bool isNumber = !std::isnan(node.number) &&
                                   (node.kind == wire::NodeKind::Field || node.kind == wire::NodeKind::Part);
-            const std::string asSent = std::string(kAsSent) + nameOf(i);
+            const std::string asSent = std::string(field::kAsSent) + nameOf(i);
             const std::string name = Filter::compile(asSent + " == 1") ? asSent : nameOf(i);
             if (isNumber && node.scalar != wire::Scalar::Text && Filter::compile(name + " == 1")) {
                 all[name].push_back(node.number);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "core/field/units.h"
 #include "core/filter/completion.h"
-#include "core/filter/units.h"
 #include "tests/core/filter/filter_fixture.h"
 
 #include <gmock/gmock.h>
@@ -161,8 +161,8 @@ TEST(FilterUnits, StandInTheReference) {
 }
 
 TEST(FilterUnits, OfAFieldAreThoseOfOneDimension) {
-    for (const UnitInfo& unit : unitTable()) {
-        EXPECT_EQ(findUnit(unit.symbol), &unit) << "written twice";
+    for (const field::UnitInfo& unit : field::unitTable()) {
+        EXPECT_EQ(field::findUnit(unit.symbol), &unit) << "written twice";
         EXPECT_NEAR(converted(converted(3, unit, unitsOf(unit.dimension).front()),
                               unitsOf(unit.dimension).front(), unit),
                     3, 1e-12)

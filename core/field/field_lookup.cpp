@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/filter/field.h"
+#include "core/field/field.h"
 
 #include "core/wire/text.h"
 #include "core/wire/type_table.h"
@@ -9,7 +9,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace posewire::filter {
+namespace posewire::field {
 namespace {
 
 /// The component of that name; of a quaternion also by the letters that mathematics has for it.
@@ -194,4 +194,4 @@ KindWords kindWords(Kind kind) {
     return kWords[static_cast<std::size_t>(kind)];
 }
 
-} // namespace posewire::filter
+} // namespace posewire::field

@@ -7,7 +7,7 @@
 #include <string_view>
 
 /// The units that a filter can be written in, and those that its fields are compared in.
-namespace posewire::filter {
+namespace posewire::field {
 
 /// What a number measures.
 enum class Dimension : std::uint8_t {
@@ -47,4 +47,4 @@ struct UnitInfo {
 /// "m, cm or mm": how its units are written.
 [[nodiscard]] std::string unitsText(Dimension dimension);
 
-} // namespace posewire::filter
+} // namespace posewire::field

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/filter/field.h"
+#include "core/field/field.h"
 #include "core/model/body/character_pose.h"
 #include "core/model/body/segments.h"
 #include "core/wire/layouts.h"
 
 /// Which segment an item of a message is about, by what its fields refer to.
-namespace posewire::filter {
+namespace posewire::field {
 
 /// The numbers of an item that have to do with segments.
 struct ItemIds {
@@ -80,4 +80,4 @@ double namedSegment(const wire::Header& header, const std::vector<Item>& items, 
     return namedSegment(ids, places, item);
 }
 
-} // namespace posewire::filter
+} // namespace posewire::field

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/filter/item_segment.h"
+#include "core/field/item_segment.h"
 
 #include "core/model/body/character_pose.h"
 #include "core/model/body/points.h"
@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-namespace posewire::filter {
+namespace posewire::field {
 namespace {
 
 constexpr model::SegmentLayout kAll{model::kBodySegmentCount, model::kMaxPropCount,
@@ -80,4 +80,4 @@ double namedSegment(const ItemIds& ids, const model::ItemPlaces& places, std::si
     return at ? numberAt(*at) : 0;
 }
 
-} // namespace posewire::filter
+} // namespace posewire::field

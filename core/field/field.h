@@ -1,16 +1,22 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/filter/filter.h"
-#include "core/filter/units.h"
+#include "core/field/units.h"
+#include "core/log/packet.h"
+#include "core/log/time.h"
+#include "core/model/accounting/packet_digest.h"
+#include "core/model/body/units.h"
+#include "core/wire/codec.h"
 
 #include <array>
 #include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
-/// The fields that a filter can ask for, and how each is read from a packet.
-namespace posewire::filter {
+/// The fields of packets by name, and how each is read: for filters, plots and whoever else asks for one.
+namespace posewire::field {
 
 enum class Kind : std::uint8_t {
     Number,
@@ -21,6 +27,19 @@ enum class Kind : std::uint8_t {
     Segment,   ///< a number that also has a name
     Transport, ///< a word
     Time,      ///< seconds since 1970 UTC, or a date and time
+};
+
+/// One packet and what is known about it.
+struct Candidate {
+    const log::Packet& packet;
+    const model::PacketDigest& digest;
+    const wire::Datagram* datagram = nullptr; ///< null if it cannot be read
+    const log::SenderInfo* sender = nullptr;  ///< null if not known
+    log::Stamp firstStamp{};                  ///< of the first packet: where `time` begins
+    const wire::WireError* fault = nullptr; ///< why it could not be decoded; null: decoded again to find out
+    log::Duration setBy{}; ///< what the wall clock was ahead of the packet's stamp: for `utc`
+    /// What positions of this type from this sender come in, where that is known; else what the layout says.
+    std::optional<model::LengthUnit> positionUnit{};
 };
 
 /// One value as read; text lives as long as the packet.
@@ -148,4 +167,4 @@ struct KindWords {
 /// The number that a word spells: decimal, 0x…, with a sign, inf; empty if it is not a number.
 [[nodiscard]] std::optional<double> numberOf(std::string_view word);
 
-} // namespace posewire::filter
+} // namespace posewire::field

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "core/filter/field.h"
+#include "core/field/field.h"
 
-#include "core/filter/item_segment.h"
+#include "core/field/item_segment.h"
 #include "core/wire/form.h"
 #include "core/wire/type_table.h"
 
 #include <algorithm>
 #include <utility>
 
-namespace posewire::filter {
+namespace posewire::field {
 namespace {
 
 using wire::Datagram;
@@ -296,4 +296,4 @@ std::vector<FieldInfo> wireFields() {
     return fields;
 }
 
-} // namespace posewire::filter
+} // namespace posewire::field

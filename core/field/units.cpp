@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "core/filter/units.h"
+#include "core/field/units.h"
 
 #include <algorithm>
 #include <array>
 #include <numbers>
 
-namespace posewire::filter {
+namespace posewire::field {
 namespace {
 
 using enum Dimension;
@@ -91,4 +91,4 @@ std::string unitsText(Dimension dimension) {
     return text;
 }
 
-} // namespace posewire::filter
+} // namespace posewire::field

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "core/filter/field.h"
+#include "core/field/field.h"
 
 #include <algorithm>
 
-namespace posewire::filter {
+namespace posewire::field {
 namespace {
 
 using model::PacketKind;
@@ -196,4 +196,4 @@ const std::vector<FieldInfo>& fieldTable() {
     return table;
 }
 
-} // namespace posewire::filter
+} // namespace posewire::field
