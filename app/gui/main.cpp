@@ -159,7 +159,7 @@ void begin(MainWindow& window, const Options& options, const Settings& settings)
     if (options.screenshotFile.isEmpty()) {
         window.offerRecovered();
         if (!options.skipsTour && window.driver().history().lost().empty()) {
-            window.offerTour();
+            window.offerFirstSteps();
         }
     } else {
         constexpr int kAttempts = 100;

@@ -42,8 +42,10 @@ enum class HelpTopic : std::uint8_t {
     TransportBar,
     VerdictBar,
     HealthBar,
+    FirstSteps,
     Causes,
     Shortcuts,
+    Protocol,
     Count
 };
 
@@ -82,8 +84,10 @@ inline constexpr std::array<HelpTopicRow, static_cast<std::size_t>(HelpTopic::Co
     {HelpTopic::TransportBar, "bars#transport-bar"},
     {HelpTopic::VerdictBar, "bars#verdict-bar"},
     {HelpTopic::HealthBar, "bars#health-bar"},
+    {HelpTopic::FirstSteps, "index#first-steps"},
     {HelpTopic::Causes, "causes"},
     {HelpTopic::Shortcuts, "shortcuts"},
+    {HelpTopic::Protocol, "protocol"},
 }};
 
 [[nodiscard]] inline QString placeOf(HelpTopic topic) {

@@ -154,7 +154,7 @@ struct Declared {
         arguments.read("--theme " + themeForms(), into(options.theme),
                        "colours; those of the system by default");
         arguments.read("--size WxH", into(options.size), "size of the window");
-        arguments.flag("--no-tour", options.skipsTour, "do not lead through the window at the first start");
+        arguments.flag("--no-tour", options.skipsTour, "do not offer the user guide at the first start");
         arguments.verbose(options.isVerbose, "inputs, files, settings and OpenGL");
         arguments.flag("--startup-time", options.printsStartupTime,
                        "print how long it took until the window was on screen");

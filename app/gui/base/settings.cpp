@@ -89,7 +89,7 @@ Settings settingsOf(const QJsonObject& object) {
     settings.file = object["file"].toString();
     settings.fileFilter = object["fileFilter"].toString().left(Settings::kLongestFilter);
     settings.comparedFile = object["comparedFile"].toString();
-    settings.tour = std::max(0, object["tour"].toInt());
+    settings.isGuideOffered = object["tour"].toInt() > 0;
     for (const auto& path : object["recentFiles"].toArray()) {
         if (path.isString() && settings.recentFiles.size() < Settings::kMostRecentFiles) {
             settings.recentFiles += path.toString();
@@ -164,7 +164,7 @@ QByteArray jsonOf(const Settings& settings) {
                              {"file", settings.file},
                              {"fileFilter", settings.fileFilter},
                              {"comparedFile", settings.comparedFile},
-                             {"tour", settings.tour},
+                             {"tour", settings.isGuideOffered ? 1 : 0},
                              {"recentFiles", QJsonArray::fromStringList(settings.recentFiles)}};
     return QJsonDocument(object).toJson();
 }

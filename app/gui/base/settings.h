@@ -49,13 +49,13 @@ struct Settings {
     InputChoices inputs;
     HistoryChoice history;
     RecordingChoice recording;
-    QJsonObject viewport;    ///< ViewportWidget::state()
-    QString filter;          ///< the display filter chosen for what is received; empty for none
-    QString file;            ///< the recording that was shown at the end; empty for none
-    QString fileFilter;      ///< the display filter chosen for that
-    QString comparedFile;    ///< what that, or what was received, was compared with; empty for none
-    int tour = 0;            ///< version of the tour that was seen or skipped; 0 for none
-    QStringList recentFiles; ///< paths, the newest first, at most kMostRecentFiles
+    QJsonObject viewport;        ///< ViewportWidget::state()
+    QString filter;              ///< the display filter chosen for what is received; empty for none
+    QString file;                ///< the recording that was shown at the end; empty for none
+    QString fileFilter;          ///< the display filter chosen for that
+    QString comparedFile;        ///< what that, or what was received, was compared with; empty for none
+    bool isGuideOffered = false; ///< at the first start
+    QStringList recentFiles;     ///< paths, the newest first, at most kMostRecentFiles
     static constexpr int kMostRecentFiles = 8;
     static constexpr qsizetype kLongestFilter = 10'000;
     friend bool operator==(const Settings&, const Settings&) = default;

@@ -37,14 +37,12 @@ QToolButton* barButton(const QString& sign, const QString& name, QWidget* parent
 HelpWindow::HelpWindow(const HelpPages& pages, QWidget* parent)
     : QWidget(parent, Qt::Window),
       m_pages(pages),
-      m_view(new MarkdownView(this, QStringLiteral(":/help/"))),
+      m_view(new MarkdownView(pages, this)),
       m_contents(new QTreeWidget(this)),
       m_hits(new QListWidget(this)),
       m_left(new QStackedWidget(this)),
       m_search(new QLineEdit(this)),
-      m_found(plainLabel(this)),
-      m_back(barButton(QStringLiteral("←"), tr("Back (Alt+Left)"), this)),
-      m_forward(barButton(QStringLiteral("→"), tr("Forward (Alt+Right)"), this)) {
+      m_found(plainLabel(this)) {
     setObjectName(QStringLiteral("helpWindow"));
     setWindowTitle(tr("Posewire user guide"));
     setAttribute(Qt::WA_StyledBackground);
@@ -78,20 +76,28 @@ HelpWindow::HelpWindow(const HelpPages& pages, QWidget* parent)
     connect(m_hits, &QListWidget::currentItemChanged, this, openRow);
     connect(m_hits, &QListWidget::itemClicked, this, openRow);
     connect(m_view, &QTextBrowser::anchorClicked, this, &HelpWindow::follow);
+    connect(m_view, &QTextBrowser::sourceChanged, this, &HelpWindow::followView);
     connect(m_search, &QLineEdit::textChanged, this, &HelpWindow::search);
     connect(m_search, &QLineEdit::returnPressed, this, &HelpWindow::openBest);
 }
 
 void HelpWindow::layOut() {
+    auto* back = barButton(QStringLiteral("←"), tr("Back (Alt+Left)"), this);
+    auto* forward = barButton(QStringLiteral("→"), tr("Forward (Alt+Right)"), this);
     auto* start = barButton(tr("Start"), tr("First page of the guide (Alt+Home)"), this);
-    connect(m_back, &QToolButton::clicked, this, &HelpWindow::back);
-    connect(m_forward, &QToolButton::clicked, this, &HelpWindow::forward);
+    for (QToolButton* button : {back, forward}) {
+        button->setEnabled(false);
+    }
+    connect(m_view, &QTextBrowser::backwardAvailable, back, &QWidget::setEnabled);
+    connect(m_view, &QTextBrowser::forwardAvailable, forward, &QWidget::setEnabled);
+    connect(back, &QToolButton::clicked, m_view, &QTextBrowser::backward);
+    connect(forward, &QToolButton::clicked, m_view, &QTextBrowser::forward);
     connect(start, &QToolButton::clicked, this, [this] { visit(QLatin1String(HelpPages::kStart)); });
     const QFontMetrics metrics = fontMetrics();
     m_search->setMinimumWidth(metrics.averageCharWidth() * 20);
     m_search->setMaximumWidth(metrics.averageCharWidth() * 44);
     auto* bar = spacedRow({10, 8, 10, 8}, 6);
-    for (QWidget* part : std::initializer_list<QWidget*>{m_back, m_forward, start}) {
+    for (QWidget* part : std::initializer_list<QWidget*>{back, forward, start}) {
         bar->addWidget(part);
     }
     bar->addWidget(m_search, 1);
@@ -129,8 +135,8 @@ void HelpWindow::addKeys() {
     });
     onKey(QKeySequence(Qt::Key_F3), [this] { findInPage(false); });
     onKey(QKeySequence(Qt::SHIFT | Qt::Key_F3), [this] { findInPage(true); });
-    onKey(QKeySequence(Qt::ALT | Qt::Key_Left), [this] { back(); });
-    onKey(QKeySequence(Qt::ALT | Qt::Key_Right), [this] { forward(); });
+    onKey(QKeySequence(Qt::ALT | Qt::Key_Left), [this] { m_view->backward(); });
+    onKey(QKeySequence(Qt::ALT | Qt::Key_Right), [this] { m_view->forward(); });
     onKey(QKeySequence(Qt::ALT | Qt::Key_Home), [this] { visit(QLatin1String(HelpPages::kStart)); });
     onKey(QKeySequence::Close, [this] { close(); });
 }
@@ -170,63 +176,36 @@ void HelpWindow::open(const QString& place) {
 }
 
 QString HelpWindow::place() const {
-    return m_visits.empty() ? QString() : m_visits[m_current].place;
+    return m_view->source().toString();
+}
+
+const HelpPage& HelpWindow::page() const {
+    return *m_pages.find(m_view->source().path());
 }
 
 void HelpWindow::follow(const QUrl& link) {
-    if (const QString place = placeOfLink(link.toString(), m_page); !place.isEmpty()) {
+    const bool isResolved = link.path() == page().id; // the view resolves "#filter" to "packets#filter"
+    const QString place = isResolved ? link.toString() : placeOfLink(link.toString(), page().id);
+    if (!place.isEmpty()) {
         visit(place);
     }
 }
 
 void HelpWindow::visit(const QString& place) {
     const bool isKnown = m_pages.find(place.section(u'#', 0, 0)) != nullptr;
-    const QString known = isKnown ? place : QString::fromLatin1(HelpPages::kStart);
-    if (!m_visits.empty()) {
-        m_visits[m_current].scroll = m_view->verticalScrollBar()->value();
-        if (m_visits[m_current].place != known) {
-            m_visits.resize(++m_current);
-        }
-    }
-    m_visits.resize(m_current + 1);
-    m_visits[m_current] = {known, -1};
-    show(m_visits[m_current]);
+    m_view->setSource(isKnown ? place : QString::fromLatin1(HelpPages::kStart),
+                      QTextDocument::MarkdownResource);
 }
 
-void HelpWindow::step(int by) {
-    const auto next = static_cast<std::ptrdiff_t>(m_current) + by;
-    if (next >= 0 && next < std::ssize(m_visits)) {
-        m_visits[m_current].scroll = m_view->verticalScrollBar()->value();
-        m_current = static_cast<std::size_t>(next);
-        show(m_visits[m_current]);
-    }
-}
-
-void HelpWindow::show(const Visit& visit) {
-    const HelpPage* page = m_pages.find(visit.place.section(u'#', 0, 0));
-    if (page->id != m_page) {
-        m_page = page->id;
-        m_view->showText(page->markdown);
-        m_view->highlight(searchedWords(m_search->text()));
-        setWindowTitle(page->id == QLatin1String(HelpPages::kStart)
-                           ? page->title
-                           : tr("%1 – Posewire user guide").arg(page->title));
-    }
-    if (visit.scroll >= 0) {
-        m_view->verticalScrollBar()->setValue(visit.scroll);
-    } else if (!m_view->goTo(visit.place.section(u'#', 1))) {
-        m_view->showPlace(0);
-    }
-    showInContents(page->id);
-    m_back->setEnabled(m_current > 0);
-    m_forward->setEnabled(m_current + 1 < m_visits.size());
-}
-
-void HelpWindow::showInContents(const QString& page) {
+void HelpWindow::followView() {
+    m_view->highlight(searchedWords(m_search->text()));
+    setWindowTitle(page().id == QLatin1String(HelpPages::kStart)
+                       ? page().title
+                       : tr("%1 – Posewire user guide").arg(page().title));
     const QSignalBlocker quiet(m_contents);
     m_contents->setCurrentItem(nullptr);
     for (QTreeWidgetItemIterator at(m_contents); *at != nullptr; ++at) {
-        if ((*at)->data(0, kPageRole).toString() == page) {
+        if ((*at)->data(0, kPageRole).toString() == page().id) {
             m_contents->setCurrentItem(*at);
             m_contents->scrollToItem(*at);
         }
@@ -279,7 +258,7 @@ void HelpWindow::findInPage(bool isBackward) {
         return;
     }
     const bool isListed = std::ranges::any_of(m_pages.search(m_search->text()),
-                                              [&](const HelpHit& hit) { return hit.page->id == m_page; });
+                                              [&](const HelpHit& hit) { return hit.page == &page(); });
     if (!isListed) {
         if (m_hits->count() != 0) {
             m_hits->setCurrentRow(0); // which finds there

@@ -5,8 +5,6 @@
 
 #include <QWidget>
 
-#include <vector>
-
 class QLabel;
 class QLineEdit;
 class QListWidget;
@@ -27,12 +25,9 @@ public:
     /// The pages must outlive the window.
     HelpWindow(const HelpPages& pages, QWidget* parent);
 
-    /// Shows a place, "packets" or "packets#filter", and the window itself; the start page where there is no
+    /// Shows a place, "packets" or "packets#filter", and the window itself; the start page if there is no
     /// such page.
     void open(const QString& place);
-    void back() { step(-1); }
-    void forward() { step(1); }
-
     [[nodiscard]] QString place() const;
     [[nodiscard]] MarkdownView& view() const { return *m_view; }
     [[nodiscard]] QTreeWidget& contents() const { return *m_contents; }
@@ -43,19 +38,14 @@ protected:
     void keyPressEvent(QKeyEvent* event) override;
 
 private:
-    /// What was looked at, and how far down.
-    struct Visit {
-        QString place;
-        int scroll = -1; ///< -1: at the place itself
-    };
     void layOut();
     void addKeys();
     void fillContents();
     void follow(const QUrl& link);
     void visit(const QString& place);
-    void step(int by);
-    void show(const Visit& visit);
-    void showInContents(const QString& page);
+    /// Title, contents and search follow the page that the view shows.
+    void followView();
+    [[nodiscard]] const HelpPage& page() const;
     void search(const QString& words);
     /// The best page of a new search; its next place, once that was opened.
     void openBest();
@@ -69,11 +59,6 @@ private:
     QStackedWidget* m_left;
     QLineEdit* m_search;
     QLabel* m_found;
-    QToolButton* m_back;
-    QToolButton* m_forward;
-    std::vector<Visit> m_visits;
-    std::size_t m_current = 0;
-    QString m_page; ///< that the view holds
     bool m_isNewSearch = false;
 };
 

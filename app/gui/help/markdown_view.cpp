@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/help/markdown_view.h"
 
+#include "app/gui/help/help_pages.h"
 #include "app/gui/theme/event_watch.h"
 #include "app/gui/theme/theme.h"
 #include "core/export/protocol_reference.h"
@@ -14,7 +15,7 @@
 #include <QTextTable>
 
 #include <algorithm>
-#include <utility>
+#include <vector>
 
 namespace posewire::gui {
 
@@ -57,6 +58,12 @@ void eachFragment(const QTextDocument& document, Visit&& visit) {
     }
 }
 
+/// Whether links lead to this block by this anchor.
+bool isHeading(const QTextBlock& block, const QString& anchor) {
+    return block.blockFormat().headingLevel() != 0 &&
+           exporting::headingAnchor(block.text().toStdString()) == anchor.toStdString();
+}
+
 QTextCursor cursorOf(QTextDocument& document, int from, int length) {
     QTextCursor cursor(&document);
     cursor.setPosition(from);
@@ -66,35 +73,30 @@ QTextCursor cursorOf(QTextDocument& document, int from, int length) {
 
 } // namespace
 
-MarkdownView::MarkdownView(QWidget* parent, QString pictures)
-    : QTextBrowser(parent), m_pictures(std::move(pictures)) {
+MarkdownView::MarkdownView(const HelpPages& pages, QWidget* parent) : QTextBrowser(parent), m_pages(pages) {
     setFrameShape(QFrame::NoFrame);
     setOpenLinks(false);
+    connect(this, &QTextBrowser::sourceChanged, this, &MarkdownView::arrive);
     new EventWatch(this, QEvent::PaletteChange, [this] {
         applyColours();
         highlight(m_highlighted);
     });
 }
 
-void MarkdownView::showText(const QString& markdown) {
-    m_highlighted.clear();
-    setExtraSelections({});
-    setMarkdown(markdown);
-    readHeadings();
-    applyColours();
-    m_fittedWidth = 0;
-    fitPictures();
-}
-
-void MarkdownView::readHeadings() {
-    m_headings.clear();
-    for (QTextBlock block = document()->begin(); block.isValid(); block = block.next()) {
-        if (const int level = block.blockFormat().headingLevel(); level != 0) {
-            m_headings.push_back(
-                {block.text(), QString::fromStdString(exporting::headingAnchor(block.text().toStdString())),
-                 level, block.position()});
-        }
+/// QTextBrowser has loaded the page, unless it was loaded before. A step back then restores its scroll bar.
+void MarkdownView::arrive(const QUrl& place) {
+    if (place.path() != m_page) {
+        m_page = place.path();
+        highlight({});
+        applyColours();
+        m_fittedWidth = 0;
+        fitPictures();
     }
+    QTextBlock block = place.hasFragment() ? document()->begin() : QTextBlock();
+    while (block.isValid() && !isHeading(block, place.fragment())) {
+        block = block.next();
+    }
+    showPosition(block.isValid() ? block.position() : 0);
 }
 
 void MarkdownView::applyColours() {
@@ -102,11 +104,13 @@ void MarkdownView::applyColours() {
     QTextCursor cursor(&text);
     cursor.beginEditBlock();
     styleTables(text);
-    for (const Heading& heading : m_headings) {
-        QTextBlockFormat format;
-        format.setTopMargin(heading.position == 0 ? 0 : fontMetrics().height());
-        format.setBottomMargin(fontMetrics().height() / 3.0);
-        cursorOf(text, heading.position, 0).mergeBlockFormat(format);
+    for (QTextBlock block = text.begin(); block.isValid(); block = block.next()) {
+        if (block.blockFormat().headingLevel() != 0) {
+            QTextBlockFormat format;
+            format.setTopMargin(block.position() == 0 ? 0 : fontMetrics().height());
+            format.setBottomMargin(fontMetrics().height() / 3.0);
+            QTextCursor(block).mergeBlockFormat(format);
+        }
     }
     std::vector<QTextFragment> links;
     eachFragment(text, [&links](const QTextFragment& fragment) {
@@ -124,10 +128,11 @@ void MarkdownView::applyColours() {
 }
 
 QVariant MarkdownView::loadResource(int type, const QUrl& name) {
-    if (type != QTextDocument::ImageResource || m_pictures.isEmpty()) {
-        return QTextBrowser::loadResource(type, name);
+    if (type != QTextDocument::ImageResource) {
+        const HelpPage* page = m_pages.find(name.path());
+        return page != nullptr ? QVariant(page->markdown) : QVariant();
     }
-    const QImage picture(m_pictures + name.path());
+    const QImage picture(QStringLiteral(":/help/") + name.path());
     const int room = viewport()->width() - static_cast<int>(2 * document()->documentMargin());
     const qreal ratio = devicePixelRatioF();
     const int width = static_cast<int>(std::clamp(room, 1, std::max(1, picture.width())) * ratio);
@@ -137,7 +142,7 @@ QVariant MarkdownView::loadResource(int type, const QUrl& name) {
 }
 
 void MarkdownView::fitPictures() {
-    if (m_pictures.isEmpty() || m_fittedWidth == viewport()->width()) {
+    if (m_fittedWidth == viewport()->width()) {
         return;
     }
     m_fittedWidth = viewport()->width();
@@ -160,16 +165,7 @@ void MarkdownView::resizeEvent(QResizeEvent* event) {
     fitPictures();
 }
 
-bool MarkdownView::goTo(const QString& anchor) {
-    const auto heading = std::ranges::find(m_headings, anchor, &Heading::anchor);
-    if (heading == m_headings.end()) {
-        return false;
-    }
-    showPlace(heading->position);
-    return true;
-}
-
-void MarkdownView::showPlace(int position) {
+void MarkdownView::showPosition(int position) {
     const QRectF block = document()->documentLayout()->blockBoundingRect(document()->findBlock(position));
     verticalScrollBar()->setValue(static_cast<int>(block.top()));
     setTextCursor(cursorOf(*document(), position, 0));
@@ -191,10 +187,6 @@ bool MarkdownView::findAgain(const QString& words, bool isBackward) {
         setTextCursor(before);
     }
     return isFound;
-}
-
-qsizetype MarkdownView::countOf(const QString& words) const {
-    return words.isEmpty() ? 0 : document()->toPlainText().count(words, Qt::CaseInsensitive);
 }
 
 void MarkdownView::highlight(const QStringList& words) {

@@ -88,10 +88,8 @@ public:
     void showHelp(const QString& place);
     /// That of the dock, bar or viewport that has the keyboard.
     void showHelpHere();
-    /// Leads a newcomer through the parts of the window.
-    void showTour();
-    /// The same at the first start.
-    void offerTour();
+    /// At the first start: says where the guide leads through the window.
+    void offerFirstSteps();
     void toggleFullScreen() { setWindowState(windowState() ^ Qt::WindowFullScreen); }
 
     /// A line at the bottom for a while, for what went wrong or was done.

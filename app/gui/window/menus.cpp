@@ -9,7 +9,6 @@
 #include "app/gui/window/report_saving.h"
 #include "app/gui/window/texts.h"
 #include "app/gui/window/viewport_entries.h"
-#include "core/export/protocol_reference.h"
 
 #include <QAction>
 #include <QCoreApplication>
@@ -81,11 +80,6 @@ void copyDiagnostics(Window& window) {
     copyText(diagnosticsText(commands(window).session(), window.driver().receiving().state(),
                              window.viewport().rendererName()));
     window.say(tr("Diagnostics copied"));
-}
-
-void showReference(Window& window) {
-    const QString text = QString::fromStdString(exporting::protocolReference());
-    (new ReferenceWindow(tr("Protocol reference"), text, &window))->show();
 }
 
 void showGuide(Window& window) {
@@ -321,11 +315,13 @@ const ActionInfo kActions[] = {
     panelsIn("&Help"),
     {"shortcuts", "&Help", QT_TRANSLATE_NOOP("Action", "&Keyboard shortcuts"), "",
      Do::call<showPage<HelpTopic::Shortcuts>>},
-    {"tour", "&Help", QT_TRANSLATE_NOOP("Action", "&First steps"), "", Do::call<&Window::showTour>},
+    {"tour", "&Help", QT_TRANSLATE_NOOP("Action", "&First steps"), "",
+     Do::call<showPage<HelpTopic::FirstSteps>>},
     lineIn("&Help"),
     {"connectionHelp", "&Help", QT_TRANSLATE_NOOP("Action", "&Connection help"), "Shift+F1",
      Do::call<&Window::openInputs, InputsDialog::Page::Help>},
-    {"reference", "&Help", QT_TRANSLATE_NOOP("Action", "&Protocol reference"), "", Do::call<showReference>},
+    {"reference", "&Help", QT_TRANSLATE_NOOP("Action", "&Protocol reference"), "",
+     Do::call<showPage<HelpTopic::Protocol>>},
     lineIn("&Help"),
     {"about", "&Help", QT_TRANSLATE_NOOP("Action", "&About Posewire"), "", Do::call<showAbout>},
 };

@@ -3,7 +3,9 @@
 
 #include "app/gui/help/markdown_view.h"
 #include "app/gui/theme/theme.h"
+#include "app/gui/window/texts.h"
 
+#include <QAbstractTextDocumentLayout>
 #include <QApplication>
 #include <QLineEdit>
 #include <QListWidget>
@@ -33,7 +35,7 @@ protected:
     }
     [[nodiscard]] QString firstBlock() const { return window.view().document()->firstBlock().text(); }
 
-    const HelpPages pages{{}};
+    const HelpPages pages{madeHelpParts()};
     HelpWindow window{pages, nullptr};
 };
 
@@ -76,16 +78,16 @@ TEST_F(HelpWindowTest, GoesBackToWhereItWasAndForwardAgain) {
     window.open("causes");
     window.view().verticalScrollBar()->setValue(120);
     window.open("packets");
-    window.back();
+    window.view().backward();
     EXPECT_EQ(window.place(), "causes");
     EXPECT_EQ(window.view().verticalScrollBar()->value(), 120);
-    window.forward();
+    window.view().forward();
     EXPECT_EQ(window.place(), "packets");
-    window.forward();
+    window.view().forward();
     EXPECT_EQ(window.place(), "packets") << "there is no further page";
-    window.back();
+    window.view().backward();
     window.open("glossary");
-    window.forward();
+    window.view().forward();
     EXPECT_EQ(window.place(), "glossary") << "what came after was left";
 }
 
@@ -98,6 +100,41 @@ TEST_F(HelpWindowTest, FollowsTheLinksOfAPage) {
     EXPECT_EQ(window.place(), "causes#network");
     emit window.view().anchorClicked(QUrl("https://example.org"));
     EXPECT_EQ(window.place(), "causes#network");
+}
+
+TEST_F(HelpWindowTest, FollowsALinkThatTheViewHasResolved) {
+    window.open("causes");
+    emit window.view().anchorClicked(QUrl("causes#network"));
+    EXPECT_EQ(window.place(), "causes#network");
+    EXPECT_EQ(window.view().textCursor().block().text(), "Network");
+}
+
+TEST_F(HelpWindowTest, ShowsEveryHeadingOfTheProtocolReferenceInEachTheme) {
+    window.open("protocol#13-null-pose");
+    EXPECT_EQ(window.view().textCursor().block().text(), "13 Null pose");
+    EXPECT_GT(window.view().verticalScrollBar()->value(), 0);
+    for (const ThemeChoice choice : {ThemeChoice::Light, ThemeChoice::Dark}) {
+        applyTheme(*qApp, choice);
+        QApplication::processEvents();
+        const QTextDocument& document = *window.view().document();
+        for (QTextBlock block = document.begin(); block.isValid(); block = block.next()) {
+            if (block.blockFormat().headingLevel() != 0) {
+                EXPECT_GT(document.documentLayout()->blockBoundingRect(block).height(), 10)
+                    << block.text().toStdString();
+            }
+        }
+    }
+}
+
+TEST_F(HelpWindowTest, FindsAFieldOfTheReferenceAndBeginsAgainAtTheTop) {
+    window.open("protocol");
+    ASSERT_TRUE(window.view().findAgain("freeAcceleration", false));
+    const int first = window.view().textCursor().selectionStart();
+    ASSERT_TRUE(window.view().findAgain("freeAcceleration", false));
+    EXPECT_GT(window.view().textCursor().selectionStart(), first);
+    ASSERT_TRUE(window.view().findAgain("freeAcceleration", false));
+    EXPECT_EQ(window.view().textCursor().selectionStart(), first);
+    EXPECT_FALSE(window.view().findAgain("no such words", true));
 }
 
 TEST_F(HelpWindowTest, ASearchListsPagesInsteadOfTheContentsAndMarksWhatItFound) {

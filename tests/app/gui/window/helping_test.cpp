@@ -114,13 +114,32 @@ TEST_F(HelpingTest, F1OpensThePageOfThePartThatHasTheKeyboard) {
 }
 
 TEST_F(HelpingTest, TheMenuOpensTheGuideItsCausesAndItsShortcuts) {
-    for (const auto& [action, page] :
-         {std::pair{"guide", "index"}, {"causes", "causes"}, {"shortcuts", "shortcuts"}}) {
+    for (const auto& [action, page] : {std::pair{"guide", "index"},
+                                       {"causes", "causes"},
+                                       {"shortcuts", "shortcuts"},
+                                       {"tour", "index#first-steps"},
+                                       {"reference", "protocol"}}) {
         window.findChild<QAction*>(action)->trigger();
         EXPECT_EQ(place(), page);
     }
     EXPECT_EQ(window.findChildren<HelpWindow*>().size(), 1) << "one guide, whatever is asked";
     EXPECT_FALSE(window.findChild<HelpWindow*>()->isModal());
+}
+
+TEST_F(HelpingTest, TheFirstStepsAreOfferedOnce) {
+    auto* about = window.findChild<QToolButton*>("messageHelp");
+    window.say("trouble", HelpTopic::SettingsUnusable);
+    window.offerFirstSteps();
+    about->click();
+    EXPECT_EQ(place(), placeOf(HelpTopic::SettingsUnusable)) << "the offer waits for the next start";
+    window.say({});
+    window.offerFirstSteps();
+    about->click();
+    EXPECT_EQ(place(), "index#first-steps");
+    EXPECT_TRUE(parseSettings(jsonOf(window.settings()))->isGuideOffered) << "the next run knows";
+    window.say({});
+    window.offerFirstSteps();
+    EXPECT_TRUE(about->isHidden());
 }
 
 TEST_F(HelpingTest, AMessageLeadsToItsPageAsLongAsItIsThere) {
