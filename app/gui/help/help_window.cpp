@@ -197,15 +197,17 @@ void HelpWindow::visit(const QString& place) {
                       QTextDocument::MarkdownResource);
 }
 
-void HelpWindow::followView() {
+/// The view's own source is that of before until this returns.
+void HelpWindow::followView(const QUrl& place) {
+    const HelpPage& page = *m_pages.find(place.path());
     m_view->highlight(searchedWords(m_search->text()));
-    setWindowTitle(page().id == QLatin1String(HelpPages::kStart)
-                       ? page().title
-                       : tr("%1 – Posewire user guide").arg(page().title));
+    setWindowTitle(page.id == QLatin1String(HelpPages::kStart)
+                       ? page.title
+                       : tr("%1 – Posewire user guide").arg(page.title));
     const QSignalBlocker quiet(m_contents);
     m_contents->setCurrentItem(nullptr);
     for (QTreeWidgetItemIterator at(m_contents); *at != nullptr; ++at) {
-        if ((*at)->data(0, kPageRole).toString() == page().id) {
+        if ((*at)->data(0, kPageRole).toString() == page.id) {
             m_contents->setCurrentItem(*at);
             m_contents->scrollToItem(*at);
         }

@@ -44,7 +44,7 @@ private:
     void follow(const QUrl& link);
     void visit(const QString& place);
     /// Title, contents and search follow the page that the view shows.
-    void followView();
+    void followView(const QUrl& place);
     [[nodiscard]] const HelpPage& page() const;
     void search(const QString& words);
     /// The best page of a new search; its next place, once that was opened.

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/inputs/inputs_page.h"
 
-#include "app/gui/theme/event_watch.h"
-#include "app/gui/theme/theme.h"
+#include "app/gui/theme/note.h"
 #include "app/gui/theme/widgets.h"
 #include "app/gui/theme/words.h"
 
@@ -82,17 +81,13 @@ InputForm::InputForm(QWidget* parent)
       m_host(new QLineEdit(this)),
       m_port(new QSpinBox(this)),
       m_groups(new QLineEdit(this)),
-      m_note(plainLabel(this)) {
+      m_note(new Note(this)) {
     m_protocol->addItem(tr("UDP"), static_cast<int>(Kind::Udp));
     m_protocol->addItem(tr("TCP, listening"), static_cast<int>(Kind::TcpListener));
     m_protocol->addItem(tr("TCP, connecting"), static_cast<int>(Kind::TcpConnection));
     m_port->setRange(1, kMostPort);
     m_port->setValue(kDefaultPort);
     m_port->setButtonSymbols(QAbstractSpinBox::NoButtons);
-    m_note->setWordWrap(true);
-    m_note->setAlignment(Qt::AlignTop);
-    // The room is there from the beginning, so that nothing jumps under the pointer.
-    m_note->setMinimumHeight(2 * fontMetrics().lineSpacing());
     const auto field = [this, grid = new QGridLayout(this)](const QString& text, QWidget* edit, int stretch) {
         const int column = grid->columnCount();
         QLabel* label = dimLabel(text, this);
@@ -115,7 +110,6 @@ InputForm::InputForm(QWidget* parent)
         connect(edit, &QLineEdit::textChanged, this, [this] { setProblem({}); });
     }
     connect(m_port, &QSpinBox::valueChanged, this, [this] { setProblem({}); });
-    new EventWatch(this, QEvent::PaletteChange, [this] { showNote(); });
     changeKind();
 }
 
@@ -148,13 +142,11 @@ void InputForm::changeKind() {
 
 void InputForm::setProblem(const QString& problem) {
     m_problem = problem;
-    showNote();
-}
-
-void InputForm::showNote() {
-    m_note->setText(m_problem.isEmpty() ? explanation(typed().kind, !m_host->text().trimmed().isEmpty())
-                                        : healthText(Health::Error, m_problem));
-    setTextColour(*m_note, m_problem.isEmpty() ? theme().dim : theme().error);
+    if (m_problem.isEmpty()) {
+        m_note->explain(explanation(typed().kind, !m_host->text().trimmed().isEmpty()));
+    } else {
+        m_note->warn(m_problem);
+    }
 }
 
 void InputForm::keyPressEvent(QKeyEvent* event) {

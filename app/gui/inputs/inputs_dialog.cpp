@@ -1,24 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/inputs/inputs_dialog.h"
 
-#include "app/gui/base/help_topics.h"
 #include "app/gui/base/saving.h"
 #include "app/gui/inputs/inputs_page.h"
 #include "app/gui/inputs/relay_page.h"
 #include "app/gui/models/text.h"
-#include "app/gui/theme/event_watch.h"
 #include "app/gui/theme/help_link.h"
 #include "app/gui/theme/theme.h"
 #include "app/gui/theme/widgets.h"
 #include "app/gui/theme/words.h"
 
 #include <QDialogButtonBox>
-#include <QGridLayout>
 #include <QLabel>
-#include <QPainter>
 #include <QPushButton>
-#include <QScrollArea>
 #include <QTabWidget>
+#include <QTextBrowser>
 #include <QVBoxLayout>
 
 #include <cmath>
@@ -28,64 +24,7 @@ namespace posewire::gui {
 
 namespace {
 
-struct Entry {
-    Health level;
-    QString text;
-    QString remedy;
-    QString helpPlace{}; ///< empty for none
-};
-
-QLabel* proseLabel(QWidget* parent) {
-    auto* label = plainLabel(parent);
-    label->setWordWrap(true);
-    label->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
-    return label;
-}
-
-Health healthOf(net::Finding::Kind kind) {
-    using Found = net::Finding::Kind;
-    switch (kind) {
-    case Found::CannotOpen:
-    case Found::AddressGone:
-        return Health::Error;
-    case Found::OtherTransport:
-    case Found::FirewallOn:
-        return Health::Unknown;
-    default:
-        return Health::Warning;
-    }
-}
-
-HelpTopic topicOf(net::Finding::Kind kind) {
-    using Found = net::Finding::Kind;
-    switch (kind) {
-    case Found::NoInput:
-        return HelpTopic::NoInput;
-    case Found::CannotOpen:
-        return HelpTopic::CannotListen;
-    case Found::NotMxtp:
-    case Found::GarbledPeer:
-        return HelpTopic::NotMxtp;
-    case Found::NotJoined:
-        return HelpTopic::GroupNotJoined;
-    case Found::NotReachable:
-    case Found::SilentPeer:
-        return HelpTopic::TcpTrouble;
-    default:
-        return HelpTopic::NothingArrives;
-    }
-}
-
-QString sentence(const std::string& text) {
-    QString sentence = QString::fromStdString(text).trimmed();
-    if (!sentence.isEmpty()) {
-        sentence[0] = sentence[0].toUpper();
-        sentence += sentence.endsWith(QLatin1Char('.')) ? QString() : QStringLiteral(".");
-    }
-    return sentence;
-}
-
-Entry allIsWell(const ReceivingState& receiving) {
+Advice allIsWell(const ReceivingState& receiving) {
     if (receiving.datagramsPerSecond <= 0) {
         return {Health::Unknown, tr("The inputs have just been opened."),
                 tr("If nothing arrives within two seconds, the reason will be shown here.")};
@@ -96,95 +35,29 @@ Entry allIsWell(const ReceivingState& receiving) {
             tr("No problem was found with the connection.")};
 }
 
-std::vector<Entry> entriesOf(const ReceivingState& receiving) {
-    std::vector<Entry> entries;
-    for (const net::Finding& finding : receiving.findings) {
-        entries.push_back({healthOf(finding.kind), sentence(finding.text), sentence(finding.remedy),
-                           placeOf(topicOf(finding.kind))});
-    }
-    if (entries.empty()) {
-        entries.push_back(allIsWell(receiving));
-    }
-    return entries;
+/// A mark in the colour of its level, what is known, below it what to do, and a link into the guide.
+QString htmlOf(const Advice& advice) {
+    const bool isKnown = advice.level != Health::Unknown;
+    const QString mark = isKnown ? healthSymbol(advice.level) : QStringLiteral("●");
+    const QColor colour = isKnown ? healthColour(advice.level) : theme().dim;
+    const QString link =
+        advice.topic
+            ? QStringLiteral(" <a href=\"%1\">%2</a>").arg(placeOf(*advice.topic), tr("Help on this"))
+            : QString();
+    return QStringLiteral("<table cellpadding=\"6\"><tr><td style=\"color: %1\">%2</td>"
+                          "<td><b>%3</b><br>%4%5</td></tr></table>")
+        .arg(colour.name(), mark, advice.text.toHtmlEscaped(), advice.remedy.toHtmlEscaped(), link);
 }
-
-/// One finding: what is known, and what to do.
-class FindingView final : public QWidget {
-public:
-    explicit FindingView(QWidget* parent)
-        : QWidget(parent),
-          m_symbol(plainLabel(this)),
-          m_text(proseLabel(this)),
-          m_remedy(proseLabel(this)),
-          m_help(flatButton(QStringLiteral("?"), tr("Help on this"), this)) {
-        m_help->setFocusPolicy(Qt::TabFocus);
-        connect(m_help, &QToolButton::clicked, this, [this] { openHelp(m_place); });
-        QFont font = m_text->font();
-        font.setWeight(QFont::DemiBold);
-        m_text->setFont(font);
-        const int unit = fontMetrics().height();
-        auto* grid = new QGridLayout(this);
-        grid->setContentsMargins(unit * 3 / 4, unit * 2 / 3, unit * 3 / 4, unit * 2 / 3);
-        grid->setVerticalSpacing(unit / 4);
-        grid->setColumnStretch(1, 1);
-        m_symbol->setMinimumWidth(unit);
-        grid->addWidget(m_symbol, 0, 0, Qt::AlignTop);
-        grid->addWidget(m_text, 0, 1);
-        grid->addWidget(m_remedy, 1, 1);
-        grid->addWidget(m_help, 0, 2, Qt::AlignTop);
-        new EventWatch(this, QEvent::PaletteChange, [this] { applyColours(); });
-    }
-
-    void setEntry(const Entry& entry) {
-        m_level = entry.level;
-        m_symbol->setText(m_level == Health::Unknown ? QStringLiteral("●") : healthSymbol(m_level));
-        m_text->setText(entry.text);
-        m_remedy->setText(entry.remedy);
-        m_place = entry.helpPlace;
-        m_help->setVisible(!m_place.isEmpty());
-        applyColours();
-        setVisible(true);
-    }
-
-protected:
-    void paintEvent(QPaintEvent* /*event*/) override {
-        constexpr qreal kRadius = 5;
-        QPainter painter(this);
-        painter.setRenderHint(QPainter::Antialiasing);
-        painter.setPen(theme().line);
-        painter.setBrush(theme().panel);
-        painter.drawRoundedRect(QRectF(rect()).adjusted(0.5, 0.5, -0.5, -0.5), kRadius, kRadius);
-    }
-
-private:
-    void applyColours() {
-        setTextColour(*m_symbol, m_level == Health::Unknown ? theme().dim : healthColour(m_level));
-        update();
-    }
-
-    QLabel* m_symbol;
-    QLabel* m_text;
-    QLabel* m_remedy;
-    QToolButton* m_help;
-    QString m_place;
-    Health m_level = Health::Unknown;
-};
 
 } // namespace
 
-/// Why no characters are seen, as long as it is open; says so where nothing is wrong.
+/// Why no characters are seen, as long as it is open; says so if nothing is wrong.
 class ConnectionPage final : public QWidget {
 public:
-    explicit ConnectionPage(QWidget* parent) : QWidget(parent) {
-        auto* content = new QWidget(this);
-        m_column = new QVBoxLayout(content);
-        m_column->setContentsMargins(0, 0, 0, 0);
-        m_column->setSpacing(fontMetrics().height() / 2);
-        m_column->addStretch(1);
-        auto* area = new QScrollArea(this);
-        area->setWidget(content);
-        area->setWidgetResizable(true);
-        area->setFrameShape(QFrame::NoFrame);
+    explicit ConnectionPage(QWidget* parent) : QWidget(parent), m_findings(new QTextBrowser(this)) {
+        m_findings->setAccessibleName(tr("What was found"));
+        m_findings->setOpenLinks(false);
+        setFocusProxy(m_findings);
         auto* about = dimLabel(tr("What was found, the most certain first, and what to do about it."), this);
         auto* copy = new QPushButton(tr("&Copy all"), this);
         auto* row = new QHBoxLayout;
@@ -193,25 +66,26 @@ public:
         auto* column = new QVBoxLayout(this);
         column->setSpacing(fontMetrics().height() * 2 / 3);
         column->addLayout(row);
-        column->addWidget(area, 1);
-        connect(copy, &QPushButton::clicked, this,
-                [this] { copyText(m_shown); });
+        column->addWidget(m_findings, 1);
+        connect(m_findings, &QTextBrowser::anchorClicked, this,
+                [](const QUrl& place) { openHelp(place.toString()); });
+        connect(copy, &QPushButton::clicked, this, [this] { copyText(m_shown); });
     }
 
     void refresh(const ReceivingState& receiving) {
-        const std::vector<Entry> entries = entriesOf(receiving);
-        while (m_views.size() < entries.size()) {
-            m_views.push_back(new FindingView(this));
-            m_column->insertWidget(static_cast<int>(m_views.size()) - 1, m_views.back());
+        std::vector<Advice> all = adviceOn(receiving);
+        if (all.empty()) {
+            all.push_back(allIsWell(receiving));
         }
         m_shown.clear();
-        for (std::size_t i = 0; i < m_views.size(); ++i) {
-            if (i >= entries.size()) {
-                m_views[i]->setVisible(false);
-                continue;
-            }
-            m_views[i]->setEntry(entries[i]);
-            m_shown += entries[i].text + QLatin1Char('\n') + entries[i].remedy + QStringLiteral("\n\n");
+        QString html;
+        for (const Advice& advice : all) {
+            m_shown += advice.text + QLatin1Char('\n') + advice.remedy + QStringLiteral("\n\n");
+            html += htmlOf(advice);
+        }
+        if (html != m_html) { // else what is selected in it stays
+            m_html = html;
+            m_findings->setHtml(html);
         }
     }
 
@@ -219,8 +93,8 @@ public:
     [[nodiscard]] const QString& text() const { return m_shown; }
 
 private:
-    QVBoxLayout* m_column;
-    std::vector<FindingView*> m_views;
+    QTextBrowser* m_findings;
+    QString m_html;
     QString m_shown;
 };
 

@@ -5,7 +5,7 @@
 #include "app/gui/inputs/undo_removal.h"
 #include "app/gui/models/text.h"
 #include "app/gui/panels/table_view.h"
-#include "app/gui/theme/event_watch.h"
+#include "app/gui/theme/note.h"
 #include "app/gui/theme/theme.h"
 #include "app/gui/theme/widgets.h"
 #include "app/gui/theme/words.h"
@@ -159,7 +159,7 @@ InputsPage::InputsPage(Receiving& receiving, QWidget* parent)
       m_form(new InputForm(this)),
       m_settings(new SenderSettings(this)),
       m_allowed(new QLineEdit(this)),
-      m_allowedNote(plainLabel(this)),
+      m_allowedNote(new Note(this)),
       m_state(plainLabel(this)),
       m_edit(new QPushButton(tr("&Edit"), this)),
       m_remove(new QPushButton(tr("&Remove"), this)),
@@ -191,7 +191,6 @@ InputsPage::InputsPage(Receiving& receiving, QWidget* parent)
         m_allowedProblem.clear();
         showAllowedNote();
     });
-    new EventWatch(this, QEvent::PaletteChange, [this] { showAllowedNote(); });
     endEditing();
     refresh();
 }
@@ -227,9 +226,6 @@ void InputsPage::layOut() {
     auto* allowedLabel = plainLabel(tr("&Listen only to"), this);
     allowedLabel->setBuddy(m_allowed);
     m_allowed->setPlaceholderText(tr("everyone"));
-    m_allowedNote->setWordWrap(true);
-    m_allowedNote->setAlignment(Qt::AlignTop);
-    m_allowedNote->setMinimumHeight(2 * fontMetrics().lineSpacing());
     auto* allowed = new QGridLayout;
     allowed->addWidget(allowedLabel, 0, 0);
     allowed->addWidget(m_allowed, 0, 1);
@@ -267,12 +263,13 @@ void InputsPage::showAllowedNote() {
     const QString refused = m_receiving.allowed().isEmpty() && state.refusedDatagrams == 0
                                 ? QString()
                                 : tr(" %1 datagrams of others so far.").arg(grouped(state.refusedDatagrams));
-    m_allowedNote->setText(problem.isEmpty()
-                               ? tr("Hosts or nets, such as 192.168.1.0/24, for all inputs; others are only "
-                                    "counted. Empty for everyone.") +
-                                     refused
-                               : healthText(Health::Error, problem));
-    setTextColour(*m_allowedNote, problem.isEmpty() ? theme().dim : theme().error);
+    if (problem.isEmpty()) {
+        m_allowedNote->explain(tr("Hosts or nets, such as 192.168.1.0/24, for all inputs; others are only "
+                                  "counted. Empty for everyone.") +
+                               refused);
+    } else {
+        m_allowedNote->warn(problem);
+    }
 }
 
 void InputsPage::refresh() {

@@ -19,6 +19,7 @@ class QSpinBox;
 namespace posewire::gui {
 
 class ComboBox;
+class Note;
 class SenderSettings;
 class TableView;
 class UndoRemoval;
@@ -54,13 +55,12 @@ protected:
 
 private:
     void changeKind();
-    void showNote();
 
     ComboBox* m_protocol;
     QLineEdit* m_host;
     QSpinBox* m_port;
     QLineEdit* m_groups;
-    QLabel* m_note;
+    Note* m_note;
     QString m_problem;
 };
 
@@ -113,7 +113,7 @@ private:
     InputForm* m_form;
     SenderSettings* m_settings;
     QLineEdit* m_allowed; ///< hosts and nets to listen to
-    QLabel* m_allowedNote;
+    Note* m_allowedNote;
     QString m_allowedProblem; ///< with what is typed
     QLabel* m_state;          ///< of the selected one, in full
     QPushButton* m_edit;

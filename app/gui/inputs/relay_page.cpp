@@ -3,7 +3,7 @@
 
 #include "app/gui/inputs/undo_removal.h"
 #include "app/gui/panels/table_view.h"
-#include "app/gui/theme/event_watch.h"
+#include "app/gui/theme/note.h"
 #include "app/gui/theme/widgets.h"
 
 #include <QHBoxLayout>
@@ -56,7 +56,7 @@ RelayPage::RelayPage(Relaying& relaying, QWidget* parent)
       m_model(new RelayModel(this)),
       m_table(new TableView(tr("Relay targets"), this)),
       m_target(new QLineEdit(this)),
-      m_note(plainLabel(this)),
+      m_note(new Note(this)),
       m_add(new QPushButton(tr("&Add target"), this)),
       m_remove(new QPushButton(tr("&Remove"), this)),
       m_undo(new UndoRemoval(this)) {
@@ -78,7 +78,6 @@ RelayPage::RelayPage(Relaying& relaying, QWidget* parent)
                 showNote();
             });
     new QShortcut(QKeySequence::Delete, m_table, this, &RelayPage::removeSelected, Qt::WidgetShortcut);
-    new EventWatch(this, QEvent::PaletteChange, [this] { showNote(); });
     setProblem({});
     refresh();
 }
@@ -89,9 +88,6 @@ void RelayPage::layOut() {
                           this);
     m_table->setMinimumHeight(m_table->heightForRows(kTargetRows));
     m_target->setPlaceholderText(tr("host:port, such as 192.168.1.40:%1").arg(kDefaultPort));
-    m_note->setWordWrap(true);
-    m_note->setAlignment(Qt::AlignTop);
-    m_note->setMinimumHeight(2 * fontMetrics().lineSpacing());
     m_remove->setEnabled(false);
     auto* label = plainLabel(tr("&Target"), this);
     label->setBuddy(m_target);
@@ -179,11 +175,11 @@ void RelayPage::setProblem(const QString& problem) {
 
 /// What is wrong with what is typed, else with the selected target: the table has no room for sentences.
 void RelayPage::showNote() {
-    const QModelIndex state = m_table->currentIndex().siblingAtColumn(RelayModel::kState);
-    const bool isTyped = !m_problem.isEmpty();
-    const QVariant colour = isTyped ? QVariant(theme().error) : state.data(Qt::ForegroundRole);
-    setTextColour(*m_note, colour.isValid() ? colour.value<QColor>() : theme().dim);
-    m_note->setText(isTyped ? healthText(Health::Error, m_problem) : state.data().toString());
+    if (m_problem.isEmpty()) {
+        m_note->explain(m_table->currentIndex().siblingAtColumn(RelayModel::kState).data().toString());
+    } else {
+        m_note->warn(m_problem);
+    }
 }
 
 void RelayPage::keyPressEvent(QKeyEvent* event) {

@@ -6,12 +6,12 @@
 
 #include <QWidget>
 
-class QLabel;
 class QLineEdit;
 class QPushButton;
 
 namespace posewire::gui {
 
+class Note;
 class TableView;
 class UndoRemoval;
 
@@ -50,7 +50,7 @@ private:
     RelayModel* m_model;
     TableView* m_table;
     QLineEdit* m_target;
-    QLabel* m_note;
+    Note* m_note;
     QPushButton* m_add;
     QPushButton* m_remove;
     UndoRemoval* m_undo;

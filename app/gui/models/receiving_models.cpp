@@ -91,6 +91,57 @@ PropertyValue relayStage(const RelayState& relay) {
 
 namespace {
 
+/// Without words.
+Advice adviceOf(net::Finding::Kind kind) {
+    using Found = net::Finding::Kind;
+    using Topic = HelpTopic;
+    switch (kind) {
+    case Found::NoInput:
+        return {Health::Warning, {}, {}, Topic::NoInput};
+    case Found::CannotOpen:
+        return {Health::Error, {}, {}, Topic::CannotListen};
+    case Found::AddressGone:
+        return {Health::Error, {}, {}, Topic::NothingArrives, true};
+    case Found::NotMxtp:
+        return {Health::Warning, {}, {}, Topic::NotMxtp};
+    case Found::GarbledPeer:
+        return {Health::Warning, {}, {}, Topic::NotMxtp, true};
+    case Found::NotJoined:
+        return {Health::Warning, {}, {}, Topic::GroupNotJoined};
+    case Found::NotReachable:
+    case Found::SilentPeer:
+        return {Health::Warning, {}, {}, Topic::TcpTrouble, true};
+    case Found::OtherTransport:
+    case Found::FirewallOn:
+        return {Health::Unknown, {}, {}, Topic::NothingArrives};
+    default:
+        return {Health::Warning, {}, {}, Topic::NothingArrives};
+    }
+}
+
+QString sentence(const std::string& text) {
+    QString sentence = QString::fromStdString(text).trimmed();
+    if (!sentence.isEmpty()) {
+        sentence[0] = sentence[0].toUpper();
+        sentence += sentence.endsWith(QLatin1Char('.')) ? QString() : QStringLiteral(".");
+    }
+    return sentence;
+}
+
+} // namespace
+
+std::vector<Advice> adviceOn(const ReceivingState& receiving) {
+    std::vector<Advice> all;
+    for (const net::Finding& finding : receiving.findings) {
+        all.push_back(adviceOf(finding.kind));
+        all.back().text = sentence(finding.text);
+        all.back().remedy = sentence(finding.remedy);
+    }
+    return all;
+}
+
+namespace {
+
 /// A figure of an input that is open.
 InputColumn figureColumn(const QString& title, const QString& help, QString (*figure)(const PortState&)) {
     return InputColumn::numbers(

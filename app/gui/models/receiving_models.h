@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/gui/base/help_topics.h"
 #include "app/gui/base/program_state.h"
 #include "app/gui/models/column.h"
 
 #include <optional>
+#include <vector>
 
 namespace posewire::gui {
 
@@ -48,5 +50,15 @@ signals:
 
 /// "forwarding", "off", or why not.
 [[nodiscard]] PropertyValue relayStage(const RelayState& relay);
+
+/// Why no characters are seen, and what to do about it, each a sentence.
+struct Advice {
+    Health level;
+    QString text;
+    QString remedy;
+    std::optional<HelpTopic> topic{};
+    bool isCertain = false; ///< known of an input, not inferred from silence
+};
+[[nodiscard]] std::vector<Advice> adviceOn(const ReceivingState& receiving);
 
 } // namespace posewire::gui

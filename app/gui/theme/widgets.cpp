@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/theme/widgets.h"
 
+#include "app/gui/theme/note.h"
 #include "app/gui/theme/plain_text.h"
 #include "app/gui/theme/theme.h"
 
@@ -226,13 +227,8 @@ std::optional<QString> askForText(const TextPrompt& words,
     edit->selectAll();
     auto* label = plainLabel(words.label, &dialog);
     label->setBuddy(edit);
-    auto* problem = plainLabel(&dialog);
-    problem->setWordWrap(true);
+    auto* problem = new Note(&dialog);
     problem->setMinimumWidth(dialog.fontMetrics().averageCharWidth() * 56);
-    // The room is there from the beginning, so that the dialog does not jump under the pointer.
-    problem->setMinimumHeight(2 * dialog.fontMetrics().lineSpacing());
-    problem->setAlignment(Qt::AlignTop);
-    setTextColour(*problem, theme().error);
     auto* buttons = new QDialogButtonBox(QDialogButtonBox::Ok | QDialogButtonBox::Cancel, &dialog);
     buttons->button(QDialogButtonBox::Ok)->setText(words.accept);
     auto* column = new QVBoxLayout(&dialog);
@@ -244,7 +240,7 @@ std::optional<QString> askForText(const TextPrompt& words,
         if (wrong.isEmpty()) {
             dialog.accept();
         } else {
-            problem->setText(healthText(Health::Error, wrong));
+            problem->warn(wrong);
         }
     });
     QObject::connect(buttons, &QDialogButtonBox::rejected, &dialog, &QDialog::reject);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/viewport/captions.h"
 
+#include "app/gui/models/receiving_models.h"
 #include "app/gui/models/stream_state.h"
 #include "app/gui/models/text.h"
 #include "app/gui/theme/words.h"
@@ -30,11 +31,7 @@ QString bytesText(std::span<const std::byte> bytes) {
     constexpr std::size_t kShown = 8;
     const auto shown = bytes.first(std::min(bytes.size(), kShown));
     const QByteArray data(reinterpret_cast<const char*>(shown.data()), static_cast<qsizetype>(shown.size()));
-    QString readable;
-    for (const char byte : data) {
-        readable += byte >= ' ' && byte <= '~' ? QLatin1Char(byte) : QLatin1Char('.');
-    }
-    return QString::fromLatin1(data.toHex(' ')) + QStringLiteral("   \"") + readable + QLatin1Char('"');
+    return QString::fromLatin1(data.toHex(' ')) + QStringLiteral("   \"%1\"").arg(readable(shown));
 }
 
 /// "192.168.1.20 or 10.0.0.4": as many as a line takes.
@@ -93,18 +90,13 @@ EmptyState foreign(const model::Sender& sender) {
 
 /// What is found beside the silence itself, and worth a line: the rest is in Help > Connection help.
 void addFindings(const ReceivingState& receiving, EmptyState& state) {
-    using Kind = net::Finding::Kind;
     bool hasMore = false;
-    for (const net::Finding& finding : receiving.findings) {
-        const bool isCertain = finding.kind == Kind::NotReachable || finding.kind == Kind::SilentPeer ||
-                               finding.kind == Kind::GarbledPeer || finding.kind == Kind::AddressGone;
-        if (isCertain) {
+    for (const Advice& advice : adviceOn(receiving)) {
+        if (advice.isCertain) {
             state.level = Health::Warning;
-            QString text = QString::fromStdString(finding.text + ": " + finding.remedy);
-            text[0] = text[0].toUpper();
-            state.lines += text;
+            state.lines += advice.text + QLatin1Char(' ') + advice.remedy;
         }
-        hasMore = hasMore || finding.kind != Kind::CannotOpen;
+        hasMore = hasMore || advice.topic != HelpTopic::CannotListen; // its problem has a line already
     }
     if (hasMore) {
         state.lines += tr("More in Help > Connection help (Shift+F1)");

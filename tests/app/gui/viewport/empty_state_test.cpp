@@ -63,7 +63,7 @@ TEST(EmptyState, SaysWhatIsWrongWithAPeerAndWhereThereIsMore) {
     receiving.findings = {{net::Finding::Kind::SilentPeer, "10.0.0.5:1 has sent nothing", "press play"}};
     const EmptyState state = emptyState(stage.session, receiving);
     EXPECT_EQ(state.level, Health::Warning);
-    EXPECT_THAT(textOf(state), testing::HasSubstr("10.0.0.5:1 has sent nothing: press play"));
+    EXPECT_THAT(textOf(state), testing::HasSubstr("10.0.0.5:1 has sent nothing. Press play."));
     EXPECT_THAT(textOf(state), testing::HasSubstr("Help > Connection help"));
 }
 
@@ -74,7 +74,7 @@ TEST(EmptyState, SaysThatTheAddressThatIsListenedOnHasGone) {
         {net::Finding::Kind::AddressGone, "no interface has 10.9.0.1 any more", "connect it"}};
     const EmptyState state = emptyState(stage.session, receiving);
     EXPECT_EQ(state.level, Health::Warning);
-    EXPECT_THAT(textOf(state), testing::HasSubstr("No interface has 10.9.0.1 any more: connect it"));
+    EXPECT_THAT(textOf(state), testing::HasSubstr("No interface has 10.9.0.1 any more. Connect it."));
 }
 
 TEST(EmptyState, ShowsTheFirstBytesOfForeignDatagrams) {
