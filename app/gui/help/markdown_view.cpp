@@ -89,6 +89,7 @@ void MarkdownView::arrive(const QUrl& place) {
         m_page = place.path();
         highlight({});
         applyColours();
+        setLineWrapColumnOrWidth(lineWrapColumnOrWidth()); // gives it its width again
         m_fittedWidth = 0;
         fitPictures();
     }
@@ -129,6 +130,9 @@ void MarkdownView::applyColours() {
 
 QVariant MarkdownView::loadResource(int type, const QUrl& name) {
     if (type != QTextDocument::ImageResource) {
+        // Without a width the page is not laid out while it grows cell by cell, which takes seconds for a
+        // long one: arrive() does that once.
+        document()->setPageSize({0, 0});
         const HelpPage* page = m_pages.find(name.path());
         return page != nullptr ? QVariant(page->markdown) : QVariant();
     }
@@ -167,9 +171,10 @@ void MarkdownView::resizeEvent(QResizeEvent* event) {
 
 void MarkdownView::showPosition(int position) {
     const QRectF block = document()->documentLayout()->blockBoundingRect(document()->findBlock(position));
-    verticalScrollBar()->setValue(static_cast<int>(block.top()));
+    const int top = position == 0 ? 0 : static_cast<int>(block.top()); // the title keeps its margin
+    verticalScrollBar()->setValue(top);
     setTextCursor(cursorOf(*document(), position, 0));
-    verticalScrollBar()->setValue(static_cast<int>(block.top()));
+    verticalScrollBar()->setValue(top);
 }
 
 bool MarkdownView::findAgain(const QString& words, bool isBackward) {

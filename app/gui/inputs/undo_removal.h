@@ -2,10 +2,9 @@
 #pragma once
 
 #include <QPushButton>
+#include <QUndoStack>
 
 #include <functional>
-
-class QUndoStack;
 
 namespace posewire::gui {
 
@@ -23,7 +22,7 @@ public:
 private:
     void showNext();
 
-    QUndoStack* m_removals;
+    QUndoStack m_removals; ///< a member, since it still announces its end
 };
 
 } // namespace posewire::gui
