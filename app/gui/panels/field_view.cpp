@@ -205,7 +205,7 @@ void FieldView::showMenu(const QPoint& at, const QString& displayFilter) {
     addFilters(menu, displayFilter);
     menu.addSeparator();
     const auto addCopy = [&](const QString& text, const QString& copied) {
-        menu.addAction(text, this, [this, copied] { copyText(copied); })->setEnabled(!copied.isEmpty());
+        menu.addAction(text, this, [copied] { copyText(copied); })->setEnabled(!copied.isEmpty());
     };
     const FieldDocument& document = m_fields.document();
     const wire::FieldNode& field = document.node(node);
