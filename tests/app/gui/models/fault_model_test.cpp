@@ -3,7 +3,7 @@
 
 #include "app/gui/models/span_text.h"
 #include "core/filter/filter.h"
-#include "core/performer/sending.h"
+#include "core/performer/datagram_damage.h"
 #include "tests/app/gui/models/stage.h"
 
 #include <QAbstractItemModelTester>
