@@ -2,9 +2,10 @@
 #pragma once
 
 #include <QPushButton>
-#include <QUndoStack>
 
 #include <functional>
+
+class QUndoStack;
 
 namespace posewire::gui {
 
@@ -22,7 +23,7 @@ public:
 private:
     void showNext();
 
-    QUndoStack m_removals; ///< a member, since it still announces its end
+    QUndoStack* m_removals;
 };
 
 } // namespace posewire::gui
