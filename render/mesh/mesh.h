@@ -42,8 +42,4 @@ struct SkinnedMesh {
     tl::expected<void, std::string> validate(std::size_t jointCount) const;
 };
 
-/// Area-weighted vertex normals of unit length. A vertex without area keeps (0, 0, 1).
-void computeNormals(std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices,
-                    std::span<glm::vec3> normals);
-
 } // namespace posewire::render

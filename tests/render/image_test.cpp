@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "render/image.h"
+#include "tests/support/images.h"
 
 #include <filesystem>
 #include <fstream>
 
 #include <gtest/gtest.h>
 
-namespace posewire::render {
+namespace posewire::render::test {
 namespace {
 
 Image gradient(PixelOrder order) {
@@ -119,4 +119,4 @@ TEST_F(ImageFile, RefusesToWriteTooFewPixels) {
 }
 
 } // namespace
-} // namespace posewire::render
+} // namespace posewire::render::test

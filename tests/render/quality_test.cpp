@@ -2,6 +2,7 @@
 #include "render/passes/floor_shadows.h"
 #include "render/quality_ladder.h"
 #include "tests/render/studio.h"
+#include "tests/support/images.h"
 
 #include <algorithm>
 #include <array>

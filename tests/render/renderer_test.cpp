@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "tests/render/studio.h"
+#include "tests/support/images.h"
 
 #include <algorithm>
 #include <array>

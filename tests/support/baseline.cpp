@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tests/support/baseline.h"
 
+#include "tests/support/images.h"
+
 #include <cstdlib>
 #include <filesystem>
 #include <string_view>

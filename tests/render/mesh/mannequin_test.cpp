@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "render/mesh/joints.h"
 #include "render/mesh/mannequin.h"
+#include "tests/render/mesh/normals.h"
 
 #include <algorithm>
 #include <array>

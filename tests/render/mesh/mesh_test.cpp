@@ -63,21 +63,5 @@ TEST(SkinnedMesh, RejectsPlacesThatAreNotFinite) {
     EXPECT_EQ(mesh.validate(2).error(), "vertex 1 is not finite");
 }
 
-TEST(ComputeNormals, PointsToTheSideSeenCounterClockwise) {
-    const SkinnedMesh mesh = triangle();
-    std::vector<glm::vec3> normals(3);
-    computeNormals(mesh.positions, mesh.indices, normals);
-    EXPECT_EQ(normals[0], glm::vec3(0.0F, 0.0F, 1.0F));
-    computeNormals(mesh.positions, std::vector<std::uint32_t>{0, 2, 1}, normals);
-    EXPECT_EQ(normals[2], glm::vec3(0.0F, 0.0F, -1.0F));
-}
-
-TEST(ComputeNormals, KeepsUnitLengthWhereThereIsNoArea) {
-    const std::vector<glm::vec3> points(3, glm::vec3(1.0F));
-    std::vector<glm::vec3> normals(3);
-    computeNormals(points, std::vector<std::uint32_t>{0, 1, 2}, normals);
-    EXPECT_EQ(normals[1], glm::vec3(0.0F, 0.0F, 1.0F));
-}
-
 } // namespace
 } // namespace posewire::render

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "render/mesh/mannequin.h"
 #include "render/mesh/null_pose_fit.h"
+#include "tests/render/mesh/normals.h"
 
 #include <cmath>
 #include <limits>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "render/image.h"
+#include "tests/support/images.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 
 #include <png.h>
 
-namespace posewire::render {
+namespace posewire::render::test {
 namespace {
 
 /// Where red, green and blue are in a pixel.
@@ -129,4 +129,4 @@ Image differenceImage(const Image& a, const Image& b) {
     return result;
 }
 
-} // namespace posewire::render
+} // namespace posewire::render::test
