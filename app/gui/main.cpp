@@ -136,7 +136,8 @@ void saveScreenshot(MainWindow& window, const Options& options) {
 void takeScreenshot(MainWindow& window, const Options& options, int attempts) {
     constexpr int kAgainMs = 50;
     const bool isOpening = window.driver().files().isOpening();
-    const bool isUnsettled = window.viewport().failure().isEmpty() && !window.viewport().isSettled();
+    const bool isUnsettled =
+        window.viewport().pictures().failure().isEmpty() && !window.viewport().pictures().isSettled();
     if (isOpening || (attempts > 0 && isUnsettled)) {
         const int left = isOpening ? attempts : attempts - 1;
         QTimer::singleShot(kAgainMs, &window,
@@ -154,7 +155,7 @@ void begin(MainWindow& window, const Options& options, const Settings& settings)
         std::fflush(stdout);
     }
     openInputs(window, options, settings);
-    window.viewport().start();
+    window.viewport().pictures().start();
     window.driver().start();
     if (options.screenshotFile.isEmpty()) {
         window.offerRecovered();

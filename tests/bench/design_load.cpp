@@ -89,7 +89,7 @@ int main(int argc, char** argv) {
     window.resize(1600, 1000);
     window.show();
     driver.receiving().addPort({QStringLiteral("127.0.0.1"), 0});
-    window.viewport().start();
+    window.viewport().pictures().start();
     driver.start();
 
     QProcess sender;

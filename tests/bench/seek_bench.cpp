@@ -63,7 +63,7 @@ public:
         : m_file(folder + QStringLiteral("/settings.json")), m_driver(m_clock, folder) {
         m_window.resize(1280, 720);
         m_window.show();
-        m_window.viewport().start();
+        m_window.viewport().pictures().start();
         m_driver.start();
         QObject::connect(&m_driver, &SessionDriver::tableTick, &m_window, [this] { ++m_tableTicks; });
     }
@@ -86,13 +86,13 @@ public:
     double seek(double share) {
         const model::SessionView& session = m_driver.commands().session();
         const double length = log::secondsOf(m_last - session.firstStamp());
-        const std::uint64_t pictures = m_window.viewport().picturesShown();
+        const std::uint64_t pictures = m_window.viewport().pictures().count();
         const std::uint64_t ticks = m_tableTicks;
         const Clock::time_point begin = Clock::now();
         m_driver.playback().showMoment(session.firstStamp() + log::durationOf(share * length));
         const auto isShown = [&] {
-            return m_tableTicks > ticks && m_window.viewport().picturesShown() > pictures &&
-                   m_window.viewport().isSettled();
+            return m_tableTicks > ticks && m_window.viewport().pictures().count() > pictures &&
+                   m_window.viewport().pictures().isSettled();
         };
         while (!isShown() && msSince(begin) < 5000) {
             QCoreApplication::processEvents(QEventLoop::AllEvents, 1);

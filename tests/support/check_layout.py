@@ -75,6 +75,7 @@ PLAIN_TEXT_PLACES = ("app/gui/theme/widgets.cpp", "app/gui/theme/plain_text.cpp"
 MARKUP = re.compile(r"\b(setHtml|setMarkdown|insertHtml|appendHtml)\(|\brichLabel\(")
 MARKUP_PLACES = PLAIN_TEXT_PLACES + ("app/gui/theme/widgets.h", "app/gui/panels/inspector_panel.cpp",
                                      "app/gui/panels/nullpose_panel.cpp", "app/gui/inputs/inputs_dialog.cpp",
+                                     "app/gui/viewport/pose_banner.cpp", "app/gui/viewport/segment_card.cpp",
                                      # Texts of the program itself: the guide and the reference.
                                      "app/gui/help/help_pages.cpp", "app/gui/help/markdown_view.cpp")
 PANEL_HEADER = re.compile(r'"app/gui/panels/(\w+_panel)\.h"')

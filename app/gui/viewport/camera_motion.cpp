@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/viewport/camera_motion.h"
 
+#include <QJsonArray>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace posewire::gui {
 
@@ -26,11 +29,14 @@ constexpr float kNearEnough = 0.01F;
 constexpr float kLost = 8;
 constexpr int kFitRounds = 8;
 
-struct ScreenBox {
-    glm::vec2 least{std::numeric_limits<float>::max()};
-    glm::vec2 most{std::numeric_limits<float>::lowest()};
-    bool isAllInFront = true;
-};
+/// Of a target, metres: halls are smaller.
+constexpr double kFarthest = 1'000;
+
+float number(const QJsonValue& value, double usual, double least, double most) {
+    return static_cast<float>(std::clamp(value.toDouble(usual), least, most));
+}
+
+} // namespace
 
 ScreenBox screenBox(const render::Camera& camera, std::span<const render::Bounds> boxes, float aspect) {
     ScreenBox box;
@@ -47,7 +53,9 @@ ScreenBox screenBox(const render::Camera& camera, std::span<const render::Bounds
     return box;
 }
 
-} // namespace
+float aspectOf(const QSizeF& view) {
+    return static_cast<float>(view.width() / view.height());
+}
 
 render::Camera fitted(render::Camera camera, std::span<const render::Bounds> boxes, float aspect) {
     render::Bounds all;
@@ -111,8 +119,7 @@ void CameraMotion::zoom(double steps, const QPointF& pointer, const QSizeF& view
     // The point at the target's depth under the pointer stays under it.
     const float halfHeight = (before - m_camera.distance) * std::tan(m_camera.verticalFov / 2);
     const glm::vec2 place = screenPoint(pointer, view);
-    const float aspect = static_cast<float>(view.width() / view.height());
-    m_camera.target += halfHeight * (place.x * aspect * m_camera.right() + place.y * m_camera.up());
+    m_camera.target += halfHeight * (place.x * aspectOf(view) * m_camera.right() + place.y * m_camera.up());
     m_isFollowing = false;
 }
 
@@ -154,6 +161,38 @@ void CameraMotion::follow(std::span<const render::Bounds> boxes, float aspect, d
     m_isGliding = glm::distance(wanted.target, m_camera.target) > near ||
                   wanted.distance - m_camera.distance > near ||
                   m_camera.distance > wanted.distance * kTooFar + near;
+}
+
+QJsonObject stateOf(const CameraMotion& motion) {
+    const render::Camera& camera = motion.camera();
+    return {{"target", QJsonArray{camera.target.x, camera.target.y, camera.target.z}},
+            {"yaw", camera.yaw},
+            {"pitch", camera.pitch},
+            {"distance", camera.distance},
+            {"orthographic", camera.projection == render::Projection::Orthographic},
+            {"standardView", motion.standardView() ? static_cast<int>(*motion.standardView()) : -1},
+            {"following", motion.isFollowing()}};
+}
+
+void restore(CameraMotion& motion, const QJsonObject& state) {
+    render::Camera camera = motion.camera();
+    const QJsonArray target = state["target"].toArray();
+    for (int axis = 0; axis < 3; ++axis) {
+        camera.target[axis] =
+            number(target.at(axis), static_cast<double>(camera.target[axis]), -kFarthest, kFarthest);
+    }
+    constexpr double turn = 2 * std::numbers::pi;
+    camera.yaw = number(state["yaw"], static_cast<double>(camera.yaw), -turn, turn);
+    camera.pitch = number(state["pitch"], static_cast<double>(camera.pitch), -turn, turn);
+    camera.distance = number(state["distance"], static_cast<double>(camera.distance), 0, kFarthest);
+    camera.orbit(0, 0); // within what an operator can reach
+    camera.zoom(1);
+    camera.projection =
+        state["orthographic"].toBool() ? render::Projection::Orthographic : render::Projection::Perspective;
+    const int view = state["standardView"].toInt(-1);
+    const bool isStandard = view >= 0 && view <= static_cast<int>(render::StandardView::ThreeQuarter);
+    motion.restore(camera, state["following"].toBool(true),
+                   isStandard ? std::optional(static_cast<render::StandardView>(view)) : std::nullopt);
 }
 
 } // namespace posewire::gui

@@ -3,9 +3,11 @@
 
 #include "render/camera.h"
 
+#include <QJsonObject>
 #include <QPointF>
 #include <QSizeF>
 
+#include <limits>
 #include <optional>
 #include <span>
 
@@ -68,6 +70,23 @@ private:
 [[nodiscard]] render::Camera fitted(render::Camera camera, std::span<const render::Bounds> boxes,
                                     float aspect);
 
+/// The camera as it is kept from one run to the next.
+[[nodiscard]] QJsonObject stateOf(const CameraMotion& motion);
+/// What is missing or makes no sense stays as it is.
+void restore(CameraMotion& motion, const QJsonObject& state);
+
+/// The part of a picture that boxes take, −1 … 1 with y up, by those of their corners that are before the
+/// eye.
+struct ScreenBox {
+    glm::vec2 least{std::numeric_limits<float>::max()};
+    glm::vec2 most{std::numeric_limits<float>::lowest()};
+    bool isAllInFront = true;
+};
+[[nodiscard]] ScreenBox screenBox(const render::Camera& camera, std::span<const render::Bounds> boxes,
+                                  float aspect);
+
+/// Width by height.
+[[nodiscard]] float aspectOf(const QSizeF& view);
 /// −1 … 1, y up.
 [[nodiscard]] glm::vec2 screenPoint(const QPointF& pointer, const QSizeF& view);
 [[nodiscard]] QPointF pointerAt(const glm::vec2& screen, const QSizeF& view);

@@ -4,7 +4,7 @@
 #include "app/gui/models/text.h"
 #include "app/gui/theme/theme.h"
 #include "app/gui/theme/words.h"
-#include "app/gui/viewport/overlay_drawing.h"
+#include "app/gui/viewport/overlays.h"
 #include "app/gui/viewport/scene.h"
 
 #include <algorithm>

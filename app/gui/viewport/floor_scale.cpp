@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/viewport/floor_scale.h"
+#include "app/gui/viewport/view_look.h"
 
 #include "app/gui/models/text.h"
 #include "app/gui/theme/theme.h"
 #include "app/gui/theme/words.h"
-#include "app/gui/viewport/overlay_drawing.h"
+#include "app/gui/viewport/overlays.h"
 
 #include <QRectF>
 
@@ -19,10 +19,6 @@ constexpr double kNumbersApart = 64;    ///< logical pixels between two numbers,
 constexpr float kLevel = 0.02F;         ///< radians: a view along the floor
 constexpr int kMostNumbers = 14;        ///< on each side of the origin
 constexpr float kFarthestNumber = 5.0F; ///< of what is numbered, times the camera's distance
-
-float frameAspect(const SceneFrame& frame) {
-    return static_cast<float>(frame.width) / static_cast<float>(frame.height);
-}
 
 double metresPerPixel(const SceneFrame& frame) {
     const double height = frame.height / static_cast<double>(frame.pixelRatio);
@@ -40,15 +36,12 @@ QRectF roomOf(const Figure& figure, const SceneFrame& frame) {
     render::Bounds bounds = figure.bounds;
     bounds.min -= glm::vec3(kFlesh);
     bounds.max += glm::vec3(kFlesh);
-    QRectF room;
-    for (int corner = 0; corner < 8; ++corner) {
-        if (const auto place = frame.camera.project(bounds.corner(corner), frameAspect(frame))) {
-            const QPointF point(static_cast<double>(place->x), static_cast<double>(place->y));
-            room = room.isNull() ? QRectF(point, QSizeF(1e-6, 1e-6))
-                                 : room.united(QRectF(point, QSizeF(1e-6, 1e-6)));
-        }
+    const ScreenBox box = screenBox(frame.camera, std::span(&bounds, 1), aspectOf(frame));
+    if (box.least.x > box.most.x) {
+        return {}; // all of it is behind the eye
     }
-    return room;
+    return {QPointF(static_cast<double>(box.least.x), static_cast<double>(box.least.y)),
+            QPointF(static_cast<double>(box.most.x), static_cast<double>(box.most.y))};
 }
 
 std::vector<QRectF> roomsOf(const SceneFrame& frame) {
@@ -70,7 +63,7 @@ struct FloorNumber {
 
 void addCandidate(SceneText text, std::span<const QRectF> rooms, const SceneFrame& frame,
                   std::vector<FloorNumber>& numbers) {
-    const auto place = frame.camera.project(text.position, frameAspect(frame));
+    const auto place = frame.camera.project(text.position, aspectOf(frame));
     const QPointF at =
         place ? QPointF(static_cast<double>(place->x), static_cast<double>(place->y)) : QPointF();
     if (!place || std::ranges::any_of(rooms, [&](const QRectF& room) { return room.contains(at); })) {
@@ -119,7 +112,7 @@ void addRules(SceneFrame& frame) {
     const double pixel = metresPerPixel(frame);
     const double step = scaleStep(pixel, kNumbersApart);
     const double halfHeight = pixel * frame.height / static_cast<double>(frame.pixelRatio) / 2;
-    const double halfWidth = halfHeight * static_cast<double>(frameAspect(frame));
+    const double halfWidth = halfHeight * static_cast<double>(aspectOf(frame));
     const glm::vec3 right = camera.right();
     const double middle = static_cast<double>(glm::dot(camera.target, right));
     const glm::vec3 depth = camera.target - static_cast<float>(middle) * right;

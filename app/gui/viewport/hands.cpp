@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/viewport/hands.h"
 
+#include "app/gui/viewport/overlays.h"
 #include "core/model/body/segments.h"
 
 #include <algorithm>
@@ -62,10 +63,8 @@ PosedHands handsOf(const model::CharacterPose& pose) {
             hands.orientations[i] = glm::quat(kAbsent, kAbsent, kAbsent, kAbsent);
             continue;
         }
-        const Eigen::Vector3f place = pose.segments[at].position.cast<float>();
-        const Eigen::Quaternionf turn = pose.segments[at].orientation.cast<float>();
-        hands.positions[i] = {place.x(), place.y(), place.z()};
-        hands.orientations[i] = {turn.w(), turn.x(), turn.y(), turn.z()};
+        hands.positions[i] = pointOf(pose.segments[at].position);
+        hands.orientations[i] = turnOf(pose.segments[at].orientation);
         (i < render::kHandSegmentCount ? hands.hasLeft : hands.hasRight) = true;
     }
     return hands;
@@ -88,8 +87,7 @@ render::FingerOrigins fingerOriginsOf(const model::NullPose& nullPose, const mod
         const model::NullPose::Segment* hand = isLeft ? leftHand : rightHand;
         if (hand != nullptr) {
             const auto& place = body.places[isLeft ? model::segment::kLeftHand : model::segment::kRightHand];
-            const Eigen::Vector3f at = (place + segment.position - hand->position).cast<float>();
-            origins[known->second] = {at.x(), at.y(), at.z()};
+            origins[known->second] = pointOf(place + segment.position - hand->position);
         }
     }
     return origins;

@@ -14,10 +14,6 @@
 namespace posewire::gui {
 namespace {
 
-float aspectOf(const QSizeF& size) {
-    return static_cast<float>(size.width() / size.height());
-}
-
 /// Nothing where the head is behind the eye.
 std::optional<ViewportLabel> labelOf(const Figure& figure, const render::Camera& camera,
                                      model::SessionView& session, const QSizeF& size) {

@@ -11,4 +11,12 @@ void addOverlays(const Overlays& on, const OverlaySubject& subject, SceneFrame& 
     }
 }
 
+void addWay(const std::vector<glm::vec3>& places, const glm::vec4& ink, float width, SceneFrame& frame) {
+    for (std::size_t i = 1; i < places.size(); ++i) {
+        glm::vec4 faded = ink;
+        faded.a *= static_cast<float>(i) / static_cast<float>(places.size());
+        frame.lines.push_back({places[i - 1], places[i], faded, width});
+    }
+}
+
 } // namespace posewire::gui

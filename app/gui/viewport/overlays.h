@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/viewport/overlay_choice.h"
-#include "app/gui/viewport/readings.h"
 #include "app/gui/viewport/scene.h"
+#include "app/gui/viewport/segment_facts.h"
+#include "core/model/body/spaces.h"
 
+#include <QColor>
 #include <QtGlobal>
 
 #include <array>
+#include <vector>
 
 /// What is drawn over the figures. An overlay is a row in overlays() and its drawing: settings, the
 /// viewport's menu and tests follow.
@@ -66,5 +68,22 @@ inline constexpr std::array<OverlayEntry, kOverlayCount> kOverlayTable{{
 
 /// Draws those that are on: of the selected character, of all where none is selected.
 void addOverlays(const Overlays& on, const OverlaySubject& subject, SceneFrame& frame);
+
+[[nodiscard]] inline glm::vec3 pointOf(const Eigen::Vector3d& vector) {
+    return {static_cast<float>(vector.x()), static_cast<float>(vector.y()), static_cast<float>(vector.z())};
+}
+
+[[nodiscard]] inline glm::quat turnOf(const Eigen::Quaterniond& rotation) {
+    return {static_cast<float>(rotation.w()), static_cast<float>(rotation.x()),
+            static_cast<float>(rotation.y()), static_cast<float>(rotation.z())};
+}
+
+[[nodiscard]] inline glm::vec4 inkOf(const QColor& colour, float alpha = 1.0F) {
+    return {static_cast<float>(colour.redF()), static_cast<float>(colour.greenF()),
+            static_cast<float>(colour.blueF()), alpha};
+}
+
+/// A line that fades towards its beginning.
+void addWay(const std::vector<glm::vec3>& places, const glm::vec4& ink, float width, SceneFrame& frame);
 
 } // namespace posewire::gui

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/theme/theme.h"
-#include "app/gui/viewport/overlay_drawing.h"
+#include "app/gui/viewport/overlays.h"
 #include "core/model/body/ground_contact.h"
 #include "core/model/body/points.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/models/text.h"
 #include "app/gui/theme/theme.h"
-#include "app/gui/viewport/overlay_drawing.h"
+#include "app/gui/viewport/overlays.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/viewport/dressed_body.h"
+#include "app/gui/viewport/bodies.h"
 
 #include <QJsonArray>
 #include <QJsonObject>

@@ -4,7 +4,6 @@
 #include "app/gui/viewport/camera_motion.h"
 
 #include <QLineF>
-#include <QPolygonF>
 
 #include <algorithm>
 #include <limits>
@@ -15,12 +14,11 @@ namespace {
 
 std::optional<PickedSegment> pickOrigin(const SceneFrame& frame, const QPointF& pointer, const QSizeF& view) {
     constexpr qreal kNear = 12; // logical pixels
-    const auto aspect = static_cast<float>(view.width() / view.height());
     std::optional<PickedSegment> picked;
     qreal nearest = kNear;
     for (const Figure& figure : frame.figures) {
         for (const FreeSegment& one : figure.free) {
-            const auto screen = frame.camera.project(one.origin, aspect);
+            const auto screen = frame.camera.project(one.origin, aspectOf(view));
             const qreal away = screen ? QLineF(pointer, pointerAt(*screen, view)).length()
                                       : std::numeric_limits<qreal>::max();
             if (away < nearest) {
@@ -45,9 +43,8 @@ std::optional<PickedSegment> pickIn(const SceneFrame& frame, const QPointF& poin
             targets.push_back(targetOf(figure, static_cast<std::uint32_t>(i)));
         }
     }
-    const auto aspect = static_cast<float>(view.width() / view.height());
     const auto pick =
-        render::pickSegment(frame.camera.rayThrough(screenPoint(pointer, view), aspect), targets);
+        render::pickSegment(frame.camera.rayThrough(screenPoint(pointer, view), aspectOf(view)), targets);
     return pick ? std::optional(PickedSegment{frame.figures[pick->id].key, pick->segment}) : std::nullopt;
 }
 
@@ -57,8 +54,7 @@ render::PickTarget targetOf(const Figure& figure, std::uint32_t id) {
 
 bool isBehindAnother(const SceneFrame& frame, std::size_t which, const QPointF& there, const QSizeF& view) {
     constexpr float kFlesh = 0.3F; // metres around the origins of segments
-    const auto aspect = static_cast<float>(view.width() / view.height());
-    const render::Ray ray = frame.camera.rayThrough(screenPoint(there, view), aspect);
+    const render::Ray ray = frame.camera.rayThrough(screenPoint(there, view), aspectOf(view));
     const float own = glm::dot(frame.figures[which].labelPosition - ray.origin, ray.direction);
     const auto mayMeet = [&ray](const Figure& figure) {
         const glm::vec3 offset = figure.bounds.centre() - ray.origin;
@@ -81,21 +77,9 @@ QRectF roomOf(const SceneFrame& frame, const model::CharacterKey& key, const QSi
     if (figure == frame.figures.end() || figure->bounds.isEmpty()) {
         return {};
     }
-    const auto aspect = static_cast<float>(view.width() / view.height());
-    QPolygonF corners;
-    for (unsigned corner = 0; corner < 8; ++corner) {
-        glm::vec3 place = figure->bounds.min;
-        for (int axis = 0; axis < 3; ++axis) {
-            place[axis] =
-                (corner >> static_cast<unsigned>(axis) & 1U) != 0 ? figure->bounds.max[axis] : place[axis];
-        }
-        const auto screen = frame.camera.project(place, aspect);
-        if (!screen) {
-            return {};
-        }
-        corners << pointerAt(*screen, view);
-    }
-    return corners.boundingRect() & QRectF(QPointF(), view);
+    const ScreenBox box = screenBox(frame.camera, std::span(&figure->bounds, 1), aspectOf(view));
+    const QRectF room(pointerAt({box.least.x, box.most.y}, view), pointerAt({box.most.x, box.least.y}, view));
+    return box.isAllInFront ? room & QRectF(QPointF(), view) : QRectF();
 }
 
 } // namespace posewire::gui

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/viewport/picture_health.h"
+#include "app/gui/viewport/presenter.h"
 
 #include "app/gui/models/text.h"
 #include "app/gui/theme/words.h"

@@ -4,6 +4,7 @@
 #include "app/gui/models/text.h"
 #include "app/gui/theme/widgets.h"
 #include "app/gui/theme/words.h"
+#include "app/gui/viewport/viewport_overlay.h"
 #include "core/model/body/character_pose.h"
 #include "core/model/body/pose_remark.h"
 #include "core/model/text.h"
@@ -80,6 +81,7 @@ std::vector<PoseNote> poseNotes(const model::SessionView& session, std::size_t m
 
 PoseBanner::PoseBanner(Commands& commands, QWidget* parent)
     : QWidget(parent),
+      m_text(richLabel(this)),
       m_floor(framedButton(tr("Place on the floor"),
                            tr("Lift these by the height of their pelvis above the soles"), this)) {
     setObjectName(QStringLiteral("poseBanner"));
@@ -87,19 +89,8 @@ PoseBanner::PoseBanner(Commands& commands, QWidget* parent)
     auto* column = tightColumn(this);
     column->setContentsMargins(10, 8, 10, 8);
     column->setSpacing(0);
-    for (QLabel*& label : m_labels) {
-        auto* row = spacedRow({}, 6);
-        QLabel*& sign = m_signs[static_cast<std::size_t>(&label - m_labels.data())];
-        sign = plainLabel(this);
-        label = plainLabel(this);
-        label->setWordWrap(true);
-        label->setAlignment(Qt::AlignTop | Qt::AlignLeft);
-        label->setContentsMargins(0, 2, 0, 2);
-        sign->setContentsMargins(0, 2, 0, 2);
-        row->addWidget(sign, 0, Qt::AlignTop);
-        row->addWidget(label, 1);
-        column->addLayout(row);
-    }
+    m_text->setWordWrap(true);
+    column->addWidget(m_text);
     column->addWidget(m_floor, 0, Qt::AlignLeft);
     connect(m_floor, &QToolButton::clicked, this, [this, &commands] {
         for (const model::CharacterKey& key : m_below) {
@@ -132,20 +123,17 @@ void PoseBanner::refresh(const model::SessionView& session, bool isInterpolated)
 
 void PoseBanner::showNotes() {
     QStringList all;
-    for (std::size_t i = 0; i < m_labels.size(); ++i) {
-        const bool isUsed = i < m_notes.size();
-        m_labels[i]->setVisible(isUsed);
-        m_signs[i]->setVisible(isUsed);
-        if (isUsed) {
-            const PoseNote& note = m_notes[i];
-            const bool isWarning = note.level == Health::Warning;
-            m_signs[i]->setText(healthSymbol(note.level));
-            setTextColour(*m_signs[i], isWarning ? healthColour(note.level) : theme().dim);
-            m_labels[i]->setText(note.text);
-            setTextColour(*m_labels[i], isWarning ? theme().text : theme().dim);
-            all += note.text;
-        }
+    QString html = QStringLiteral("<table cellspacing=0 cellpadding=2>");
+    for (const PoseNote& note : m_notes) {
+        const bool isWarning = note.level == Health::Warning;
+        html +=
+            QStringLiteral(
+                "<tr><td style=\"color:%1;padding-right:4px\">%2</td><td style=\"color:%3\">%4</td></tr>")
+                .arg((isWarning ? healthColour(note.level) : theme().dim).name(), healthSymbol(note.level),
+                     (isWarning ? theme().text : theme().dim).name(), note.text.toHtmlEscaped());
+        all += note.text;
     }
+    m_text->setText(html + QStringLiteral("</table>"));
     setAccessibleDescription(all.join(QStringLiteral(". ")));
     m_floor->setVisible(!m_below.empty());
     setVisible(!m_notes.empty());
@@ -164,11 +152,7 @@ void PoseBanner::paintEvent(QPaintEvent* /*event*/) {
     QPainter painter(this);
     painter.setRenderHint(QPainter::Antialiasing);
     const bool isWarning = !m_notes.empty() && m_notes.front().level == Health::Warning;
-    constexpr double kOpacity = 0.9;
-    constexpr double kRadius = 5;
-    painter.setPen(isWarning ? healthColour(Health::Warning) : theme().line);
-    painter.setBrush(withAlpha(theme().raised, kOpacity));
-    painter.drawRoundedRect(QRectF(rect()).adjusted(0.5, 0.5, -0.5, -0.5), kRadius, kRadius);
+    paintPlate(painter, rect(), isWarning ? healthColour(Health::Warning) : theme().line, 0.9);
 }
 
 void PoseBanner::changeEvent(QEvent* event) {

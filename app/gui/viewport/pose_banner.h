@@ -7,7 +7,6 @@
 
 #include <QWidget>
 
-#include <array>
 #include <vector>
 
 class QLabel;
@@ -52,8 +51,7 @@ private:
 
     std::vector<PoseNote> m_notes;
     std::vector<model::CharacterKey> m_below; ///< the floor
-    std::array<QLabel*, kMost> m_signs{};
-    std::array<QLabel*, kMost> m_labels{};
+    QLabel* m_text;
     QToolButton* m_floor;
 };
 

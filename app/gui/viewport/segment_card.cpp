@@ -1,37 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/viewport/segment_card.h"
 
+#include "app/gui/theme/widgets.h"
 #include "app/gui/theme/words.h"
+#include "app/gui/viewport/viewport_overlay.h"
 
 #include <QEvent>
-#include <QFontMetricsF>
 #include <QPainter>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <utility>
 
 namespace posewire::gui {
 namespace {
 
 constexpr int kEdge = 12;
-constexpr qreal kMargin = 10;
-constexpr qreal kBetween = 8;
-
-qreal rowHeight(const QFontMetricsF& metrics) {
-    return std::ceil(1.15 * metrics.height());
-}
-
-QFont titleFont() {
-    QFont font = tabularFont();
-    font.setWeight(QFont::DemiBold);
-    return font;
-}
-
-bool isVector(const SegmentFact& fact) {
-    return !fact.values[2].isEmpty();
-}
+constexpr int kMargin = 10;
 
 QString spoken(const SegmentFact& fact) {
     QStringList values;
@@ -43,58 +28,101 @@ QString spoken(const SegmentFact& fact) {
     return QStringLiteral("%1 %2 %3").arg(fact.name, values.join(QLatin1Char(' ')), fact.unit).trimmed();
 }
 
+QString cell(const QString& text, const QColor& colour, const char* attributes = "") {
+    return QStringLiteral("<td style=\"color:%1;padding-left:8px\" %2>%3</td>")
+        .arg(colour.name(), QLatin1String(attributes), text.toHtmlEscaped());
+}
+
+/// A row for each fact: w x y z in columns; plain numbers are in the last one, under no head.
+QString tableOf(const SegmentFacts& known) {
+    const bool hasW =
+        std::ranges::any_of(known.facts, [](const SegmentFact& fact) { return !fact.values[0].isEmpty(); });
+    const std::array<std::pair<const char*, QColor>, 4> heads{
+        {{"w", theme().dim}, {"x", theme().axisX}, {"y", theme().axisY}, {"z", theme().axisZ}}};
+    const std::size_t first = hasW ? 0 : 1;
+    const int least = QFontMetrics(tabularFont()).horizontalAdvance(QStringLiteral("−0.000"));
+    const QByteArray head = QByteArrayLiteral("align=right width=") + QByteArray::number(least + 8);
+    QString html = QStringLiteral("<table cellspacing=0><tr><td></td>");
+    for (std::size_t column = first; column < heads.size(); ++column) {
+        html += cell(QLatin1String(heads[column].first), heads[column].second, head);
+    }
+    for (const SegmentFact& fact : known.facts) {
+        const bool isVector = !fact.values[2].isEmpty();
+        html += QStringLiteral("</tr><tr><td style=\"color:%1\">%2</td>")
+                    .arg(theme().dim.name(), fact.name.toHtmlEscaped());
+        for (std::size_t column = first; column < heads.size(); ++column) {
+            const QString plain = column + 1 == heads.size() ? fact.values[1] : QString();
+            html += cell(isVector ? fact.values[column] : plain, theme().text, "align=right");
+        }
+        html += cell(fact.unit, theme().dim);
+    }
+    return html + QStringLiteral("</tr></table>");
+}
+
 } // namespace
 
-SegmentCard::SegmentCard(QWidget* parent, const QWidget& banner) : QWidget(parent), m_banner(banner) {
+SegmentCard::SegmentCard(QWidget* parent, const QWidget& banner)
+    : QWidget(parent),
+      m_banner(banner),
+      m_segment(plainLabel(this)),
+      m_mark(new QWidget(this)),
+      m_character(new ElidedLabel(Qt::AlignLeft | Qt::AlignVCenter, this)),
+      m_source(plainLabel(this)),
+      m_table(richLabel(this)) {
     setObjectName(QStringLiteral("segmentCard"));
     setAttribute(Qt::WA_TransparentForMouseEvents);
+    QVBoxLayout* column = tightColumn(this);
+    column->setContentsMargins(kMargin, kMargin, kMargin, kMargin);
+    QHBoxLayout* title = spacedRow({}, 8);
+    title->addWidget(m_segment);
+    title->addWidget(m_mark);
+    title->addWidget(m_character, 1);
+    column->addLayout(title);
+    column->addWidget(m_source);
+    column->addWidget(m_table);
+    m_source->setWordWrap(true);
     hide();
 }
 
 void SegmentCard::setFacts(std::optional<SegmentFacts> facts) {
-    if (facts == m_facts) {
-        place();
-        return;
-    }
-    m_facts = std::move(facts);
-    if (m_facts) {
-        QStringList all{m_facts->source};
-        for (const SegmentFact& fact : m_facts->facts) {
-            all += spoken(fact);
-        }
-        setAccessibleName(tr("%1 of %2").arg(m_facts->segment, m_facts->character));
-        setAccessibleDescription(all.join(QStringLiteral(". ")));
+    if (facts != m_facts) {
+        m_facts = std::move(facts);
+        showFacts();
     }
     place();
+}
+
+void SegmentCard::showFacts() {
+    if (!m_facts) {
+        return;
+    }
+    QFont bold = tabularFont();
+    bold.setWeight(QFont::DemiBold);
+    m_segment->setFont(bold);
+    m_segment->setText(m_facts->segment);
+    const int side = qRound(0.65 * QFontMetrics(tabularFont()).height());
+    m_mark->setFixedSize(side, side);
+    m_character->setText({}, m_facts->character);
+    m_source->setText(m_facts->source);
+    const bool isWarning = m_facts->sourceHealth == Health::Warning;
+    setTextColour(*m_source, isWarning ? healthColour(Health::Warning) : theme().dim);
+    m_table->setFont(tabularFont());
+    m_table->setText(tableOf(*m_facts));
+    QStringList all{m_facts->source};
+    for (const SegmentFact& fact : m_facts->facts) {
+        all += spoken(fact);
+    }
+    setAccessibleName(tr("%1 of %2").arg(m_facts->segment, m_facts->character));
+    setAccessibleDescription(all.join(QStringLiteral(". ")));
     update();
 }
 
-SegmentCard::Columns SegmentCard::columns() const {
-    const QFontMetricsF metrics(tabularFont());
-    Columns columns;
-    columns.value = metrics.horizontalAdvance(QStringLiteral("−0.000"));
-    for (const SegmentFact& fact : m_facts->facts) {
-        columns.name = std::max(columns.name, metrics.horizontalAdvance(fact.name));
-        columns.unit = std::max(columns.unit, metrics.horizontalAdvance(fact.unit));
-        for (const QString& value : fact.values) {
-            columns.value = std::max(columns.value, metrics.horizontalAdvance(value));
-        }
-        columns.count = fact.values[0].isEmpty() ? columns.count : 4;
-    }
-    return columns;
-}
-
-QSizeF SegmentCard::wantedSize() const {
-    const Columns wanted = columns();
-    const QFontMetricsF metrics(tabularFont());
-    const qreal title = QFontMetricsF(titleFont()).horizontalAdvance(m_facts->segment) + kBetween +
-                        metrics.horizontalAdvance(m_facts->character) + 1.4 * metrics.height();
-    const qreal table = wanted.name + wanted.count * (kBetween + wanted.value) + kBetween / 2 + wanted.unit;
-    const qreal width = std::max({std::min(title, table * 1.3), table});
-    const QRectF source = metrics.boundingRect(QRectF(0, 0, width, 1000), Qt::TextWordWrap, m_facts->source);
-    const auto rows = static_cast<qreal>(m_facts->facts.size()) + 2.3; // title and heads
-    return {std::ceil(width + 2 * kMargin),
-            std::ceil(rows * rowHeight(metrics) + source.height() + 2 * kMargin)};
+/// As wide as the table, a little wider for a long name.
+QSize SegmentCard::wantedSize() const {
+    const int table = m_table->sizeHint().width();
+    const int title = layout()->itemAt(0)->sizeHint().width();
+    const int width = std::clamp(title, table, table * 13 / 10) + 2 * kMargin;
+    return {width, layout()->totalHeightForWidth(width)};
 }
 
 QRect SegmentCard::cornerFor(const QSize& size, bool isLeft) const {
@@ -118,7 +146,8 @@ void SegmentCard::place() {
     }
     constexpr double kMost = 0.6;
     constexpr double kBetter = 0.5; // of what it covers: a figure that moves does not make it jump
-    const QSize size = wantedSize().toSize();
+    layout()->activate();           // rows remember the height of their last text otherwise
+    const QSize size = wantedSize();
     const QRect room = parentWidget()->rect().adjusted(kEdge, kEdge, -kEdge, -kEdge);
     const auto covered = [&](bool isLeft) {
         const QRectF common = QRectF(cornerFor(size, isLeft)) & m_seen;
@@ -132,74 +161,18 @@ void SegmentCard::place() {
 }
 
 void SegmentCard::paintEvent(QPaintEvent* /*event*/) {
-    if (!m_facts) {
-        return;
-    }
-    constexpr double kOpacity = 0.92;
-    constexpr double kRadius = 5;
     QPainter painter(this);
     painter.setRenderHint(QPainter::Antialiasing);
-    painter.setPen(theme().line);
-    painter.setBrush(withAlpha(theme().raised, kOpacity));
-    painter.drawRoundedRect(QRectF(rect()).adjusted(0.5, 0.5, -0.5, -0.5), kRadius, kRadius);
-    painter.setFont(titleFont());
-    const QFontMetricsF metrics(tabularFont());
-    const qreal row = rowHeight(metrics);
-    const qreal side = 0.65 * metrics.height();
-    const qreal right = width() - kMargin;
-    QRectF line(kMargin, kMargin, right - kMargin, row);
-    painter.setPen(theme().text);
-    painter.drawText(line, Qt::AlignLeft | Qt::AlignVCenter, m_facts->segment);
-    line.setLeft(kMargin + QFontMetricsF(titleFont()).horizontalAdvance(m_facts->segment) + kBetween);
-    paintMark(painter, QRectF(line.left(), line.center().y() - side / 2, side, side), m_facts->mark);
-    line.setLeft(line.left() + 1.4 * side);
-    painter.setFont(tabularFont());
-    painter.setPen(theme().dim);
-    painter.drawText(line, Qt::AlignLeft | Qt::AlignVCenter,
-                     metrics.elidedText(m_facts->character, Qt::ElideRight, line.width()));
-    QRectF source(kMargin, kMargin + row, right - kMargin, height());
-    const bool isWarning = m_facts->sourceHealth == Health::Warning;
-    painter.setPen(isWarning ? healthColour(Health::Warning) : theme().dim);
-    QRectF used;
-    painter.drawText(source, Qt::AlignLeft | Qt::AlignTop | Qt::TextWordWrap, m_facts->source, &used);
-    paintFacts(painter, used.bottom() + 0.15 * row);
-}
-
-void SegmentCard::paintFacts(QPainter& painter, qreal top) const {
-    const Columns wide = columns();
-    const qreal row = rowHeight(QFontMetricsF(tabularFont()));
-    const qreal unitLeft = width() - kMargin - wide.unit;
-    const auto valueRoom = [&](std::size_t column, qreal y) {
-        const qreal right =
-            unitLeft - kBetween / 2 - static_cast<qreal>(3 - column) * (kBetween + wide.value);
-        return QRectF(right - wide.value, y, wide.value, row);
-    };
-    const std::array<std::pair<const char*, QColor>, 4> heads{
-        {{"w", theme().dim}, {"x", theme().axisX}, {"y", theme().axisY}, {"z", theme().axisZ}}};
-    for (std::size_t column = wide.count == 4 ? 0 : 1; column < heads.size(); ++column) {
-        painter.setPen(heads[column].second);
-        painter.drawText(valueRoom(column, top), Qt::AlignRight | Qt::AlignVCenter,
-                         QLatin1String(heads[column].first));
-    }
-    for (const SegmentFact& fact : m_facts->facts) {
-        top += row;
-        painter.setPen(theme().dim);
-        painter.drawText(QRectF(kMargin, top, width(), row), Qt::AlignLeft | Qt::AlignVCenter, fact.name);
-        painter.drawText(QRectF(unitLeft, top, wide.unit + 2, row), Qt::AlignLeft | Qt::AlignVCenter,
-                         fact.unit);
-        painter.setPen(theme().text);
-        for (std::size_t column = 0; column < fact.values.size(); ++column) {
-            // A plain number stands at the right, under no head.
-            const std::size_t shown = isVector(fact) ? column : 3;
-            painter.drawText(valueRoom(shown, top), Qt::AlignRight | Qt::AlignVCenter, fact.values[column]);
-        }
+    paintPlate(painter, rect(), theme().line, 0.92);
+    if (m_facts) {
+        paintMark(painter, m_mark->geometry(), m_facts->mark);
     }
 }
 
 void SegmentCard::changeEvent(QEvent* event) {
     if (event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange) {
+        showFacts();
         place();
-        update();
     }
     QWidget::changeEvent(event);
 }

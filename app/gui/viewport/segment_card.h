@@ -9,7 +9,11 @@
 
 #include <optional>
 
+class QLabel;
+
 namespace posewire::gui {
+
+class ElidedLabel;
 
 /// The values of one segment, in the corner of the viewport.
 class SegmentCard final : public QWidget {
@@ -35,21 +39,18 @@ protected:
     void changeEvent(QEvent* event) override;
 
 private:
-    /// Widths in pixels of what stands in columns.
-    struct Columns {
-        qreal name = 0;
-        qreal value = 0;
-        qreal unit = 0;
-        int count = 3; ///< of values
-    };
-    [[nodiscard]] Columns columns() const;
-    [[nodiscard]] QSizeF wantedSize() const;
-    void paintFacts(QPainter& painter, qreal top) const;
-    /// At the lower edge, above the banner where that is in the way.
+    [[nodiscard]] QSize wantedSize() const;
+    /// At the lower edge, above the banner if that is in the way.
     [[nodiscard]] QRect cornerFor(const QSize& size, bool isLeft) const;
+    void showFacts();
 
     const QWidget& m_banner;
     std::optional<SegmentFacts> m_facts;
+    QLabel* m_segment;
+    QWidget* m_mark; ///< where the mark is painted
+    ElidedLabel* m_character;
+    QLabel* m_source;
+    QLabel* m_table;
     QRectF m_seen;
     std::optional<QPoint> m_pointer;
     bool m_isLeft = false;

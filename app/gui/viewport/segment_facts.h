@@ -3,14 +3,44 @@
 
 #include "app/gui/theme/character_mark.h"
 #include "app/gui/theme/theme.h"
-#include "app/gui/viewport/readings.h"
+#include "core/model/body/character_pose.h"
+#include "core/model/session/session_view.h"
 
 #include <QString>
 
 #include <array>
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace posewire::gui {
+
+/// A character as it is shown.
+struct PoseSubject {
+    model::SessionView& session;
+    model::CharacterKey key;
+    const model::CharacterPose& pose;
+};
+
+/// The newest message of the subject's character, where it is not older than its pose by more than types that
+/// are sent together are; null for none. Positions of it are to be moved as the pose was.
+[[nodiscard]] const model::Message* freshMessage(const PoseSubject& subject, std::uint8_t type);
+/// The same as the body of that message.
+template <class Body>
+[[nodiscard]] const Body* freshBody(const PoseSubject& subject) {
+    const model::Message* message = freshMessage(subject, Body::kType);
+    return message != nullptr ? std::get_if<Body>(&message->datagram.body) : nullptr;
+}
+/// Of positions in messages of a type.
+[[nodiscard]] model::LengthUnit unitOf(const PoseSubject& subject, std::uint8_t type);
+
+/// The joint between a body segment and its parent.
+struct JointReading {
+    std::array<double, 3> degrees{}; ///< abduction, axial rotation, flexion
+    bool isSent = false;             ///< in type 20; else from the orientations of the pose
+};
+/// Nothing for the pelvis and for what is not of the body.
+[[nodiscard]] std::optional<JointReading> jointReading(const PoseSubject& subject, int segment);
 
 /// A quantity of a segment: w x y z, of which vectors leave w empty and plain numbers have x alone.
 struct SegmentFact {

@@ -2,7 +2,6 @@
 #include "app/gui/base/logging.h"
 #include "app/gui/theme/theme.h"
 #include "app/gui/viewport/drawing_thread.h"
-#include "app/gui/viewport/picture_health.h"
 
 #include <QImage>
 #include <QPainter>

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/viewport/view_look.h"
 
-#include "app/gui/viewport/floor_scale.h"
-
 #include <QRect>
 
 #include <algorithm>
@@ -16,7 +14,7 @@ void ViewLook::fill(SceneBuilder& builder, double seconds, SceneFrame& frame) {
     aim(panes.motion(), seconds, frame);
 }
 
-void ViewLook::fillPanes(SceneBuilder& builder, double seconds, const QSize& view, SceneFrame& frame) {
+void ViewLook::fillPanes(SceneBuilder& builder, double seconds, SceneFrame& frame) {
     builder.setWardrobe(wardrobe);
     builder.build(axes, overlays, frame);
     std::vector<SceneFrame> all(static_cast<std::size_t>(panes.count()), frame);
@@ -25,7 +23,7 @@ void ViewLook::fillPanes(SceneBuilder& builder, double seconds, const QSize& vie
     };
     for (int pane = 0; pane < panes.count(); ++pane) {
         SceneFrame& one = all[static_cast<std::size_t>(pane)];
-        const QRect place = panes.place(pane, view);
+        const QRect place = panes.place(pane);
         one.x = pixels(place.x());
         one.y = pixels(place.y());
         one.width = std::max(1, pixels(place.width()));

@@ -19,8 +19,8 @@ struct ViewLook {
     /// The frame at the cursor of the builder's session, for its width, height and ratio of pixels.
     /// `seconds`: since the frame before it, for a camera that follows.
     void fill(SceneBuilder& builder, double seconds, SceneFrame& frame);
-    /// The same for all panes of a view of that size, in logical pixels: what is in them is built once.
-    void fillPanes(SceneBuilder& builder, double seconds, const QSize& view, SceneFrame& frame);
+    /// The same for all panes: what is in them is built once.
+    void fillPanes(SceneBuilder& builder, double seconds, SceneFrame& frame);
 
     /// Whether a camera is on its way to what it follows.
     [[nodiscard]] bool isGliding() const;
@@ -34,5 +34,13 @@ private:
 [[nodiscard]] std::vector<render::Bounds> boxesOf(const SceneFrame& frame);
 /// Width by height.
 [[nodiscard]] float aspectOf(const SceneFrame& frame);
+
+/// Metres in the picture, once its camera and size are known: numbers along the axes x and y on the floor;
+/// where an orthographic view looks along the floor, the floor as a line, with a rule along it and one that
+/// gives heights. Numbers keep out of the figures.
+void addFloorScale(SceneFrame& frame);
+
+/// The least of 0.1, 0.2, 0.5, 1, 2, 5 … metres that takes at least `pixels` of a picture.
+[[nodiscard]] double scaleStep(double metresPerPixel, double pixels);
 
 } // namespace posewire::gui

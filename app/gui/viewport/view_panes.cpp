@@ -2,7 +2,6 @@
 #include "app/gui/viewport/view_panes.h"
 
 #include "app/gui/theme/words.h"
-#include "app/gui/viewport/camera_state.h"
 
 #include <QJsonArray>
 #include <QRect>
@@ -41,18 +40,23 @@ void ViewPanes::activate(int pane) {
     m_active = std::clamp(pane, 0, m_count - 1);
 }
 
-QRect ViewPanes::place(int pane, const QSize& view) const {
+QRect ViewPanes::place(int pane) const {
     if (m_count == 1) {
-        return {{}, view};
+        return {{}, m_view};
     }
-    const int width = std::max(1, (view.width() - kGap) / 2);
-    const int height = m_count == 2 ? view.height() : std::max(1, (view.height() - kGap) / 2);
-    return {(pane % 2) * (view.width() - width), (pane / 2) * (view.height() - height), width, height};
+    const int width = std::max(1, (m_view.width() - kGap) / 2);
+    const int height = m_count == 2 ? m_view.height() : std::max(1, (m_view.height() - kGap) / 2);
+    return {(pane % 2) * (m_view.width() - width), (pane / 2) * (m_view.height() - height), width, height};
 }
 
-int ViewPanes::paneAt(const QPointF& point, const QSize& view) const {
+float ViewPanes::aspect() const {
+    return static_cast<float>(std::max(1, place().width())) /
+           static_cast<float>(std::max(1, place().height()));
+}
+
+int ViewPanes::paneAt(const QPointF& point) const {
     for (int pane = 0; pane < m_count; ++pane) {
-        if (place(pane, view).contains(point.toPoint())) {
+        if (place(pane).contains(point.toPoint())) {
             return pane;
         }
     }

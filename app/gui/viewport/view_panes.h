@@ -4,7 +4,6 @@
 #include "app/gui/viewport/camera_motion.h"
 #include "app/gui/viewport/scene.h"
 
-#include <QJsonObject>
 #include <QPointF>
 #include <QRectF>
 #include <QSizeF>
@@ -23,6 +22,9 @@ public:
     [[nodiscard]] bool isSplit() const { return m_count > 1; }
     [[nodiscard]] int active() const { return m_active; }
 
+    /// Of all panes together, logical pixels.
+    void resize(const QSize& view) { m_view = view; }
+
     /// 1, 2 or 4. Views that were never shown look level from the front, the left and the top, about
     /// `heading` (radians) as a character's.
     void split(int count, float heading);
@@ -36,10 +38,13 @@ public:
         return m_motions[static_cast<std::size_t>(pane)];
     }
 
-    /// Where a pane is in a view of that size.
-    [[nodiscard]] QRect place(int pane, const QSize& view) const;
-    /// The one there; the active one where the point is between two.
-    [[nodiscard]] int paneAt(const QPointF& point, const QSize& view) const;
+    /// Where a pane is in the view.
+    [[nodiscard]] QRect place(int pane) const;
+    /// The active one's place, and its width by its height.
+    [[nodiscard]] QRect place() const { return place(m_active); }
+    [[nodiscard]] float aspect() const;
+    /// The one there; the active one if the point is between two.
+    [[nodiscard]] int paneAt(const QPointF& point) const;
 
     [[nodiscard]] QJsonObject state() const;
     /// What makes no sense stays as it is.
@@ -51,6 +56,7 @@ public:
 private:
     std::array<CameraMotion, kMost> m_motions;
     std::array<bool, kMost> m_wasShown{true};
+    QSize m_view;
     int m_count = 1;
     int m_active = 0;
 };

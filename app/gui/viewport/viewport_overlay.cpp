@@ -4,6 +4,7 @@
 #include "app/gui/theme/event_watch.h"
 #include "app/gui/theme/help_link.h"
 #include "app/gui/theme/widgets.h"
+#include "app/gui/theme/words.h"
 #include "app/gui/viewport/overlays.h"
 #include "app/gui/viewport/viewport_widget.h"
 
@@ -11,6 +12,7 @@
 #include <QMenu>
 #include <QPainter>
 #include <QPainterPath>
+#include <QtMath>
 
 #include <algorithm>
 #include <array>
@@ -21,17 +23,9 @@ namespace posewire::gui {
 
 namespace {
 
-constexpr qreal kRadius = 5;
 constexpr QLatin1String kButtons("viewportButtons");
 constexpr int kByButtons = 4; // pixels
 constexpr double kBackgroundOpacity = 0.9;
-
-void paintPlate(QPainter& painter, const QRectF& plate, const QPen& border, qreal radius,
-                double opacity = kBackgroundOpacity) {
-    painter.setPen(border);
-    painter.setBrush(withAlpha(theme().raised, opacity));
-    painter.drawRoundedRect(plate.adjusted(0.5, 0.5, -0.5, -0.5), radius, radius);
-}
 
 /// As in drawings: what is hidden has broken lines.
 Qt::PenStyle styleOf(const ViewportLabel& label) {
@@ -89,6 +83,30 @@ int weightOf(const ViewportLabel& label) {
     return (label.isSelected ? 4 : 0) + trouble;
 }
 
+/// Each entry shows whether it is on, also if something else has switched it.
+QMenu* overlayMenu(ViewChoice& choice, QWidget* parent) {
+    auto* menu = new QMenu(parent);
+    const auto add = [&](const QString& text, auto toggle, auto isOn) {
+        QAction* action = menu->addAction(text, &choice, toggle);
+        action->setCheckable(true);
+        QObject::connect(menu, &QMenu::aboutToShow, action, [action, isOn] { action->setChecked(isOn()); });
+    };
+    for (const OverlayEntry& entry : kOverlayTable) {
+        add(
+            QCoreApplication::translate("Action", entry.title),
+            [&choice, one = entry.overlay] { choice.toggle(one); },
+            [&choice, one = entry.overlay] { return choice.isOn(one); });
+    }
+    menu->addSeparator();
+    for (const auto& [which, text] : {std::pair{ViewSwitch::Scale, tr("Metres on the f&loor")},
+                                      std::pair{ViewSwitch::Card, tr("Val&ues of a segment")}}) {
+        add(
+            text, [&choice, which = which] { choice.toggleSwitch(which); },
+            [&choice, which = which] { return choice.isSwitchedOn(which); });
+    }
+    return menu;
+}
+
 class ViewportButtons final : public QWidget {
     static constexpr int kApart = 8; // pixels
 
@@ -112,58 +130,36 @@ public:
                                std::pair{AxesMode::None, tr("None")}};
         auto* menu = new QMenu(m_axes);
         for (const auto& [mode, text] : modes) {
-            menu->addAction(text, viewport, [viewport, mode = mode] { viewport->setAxes(mode); });
+            menu->addAction(text, viewport, [viewport, mode = mode] { viewport->choice().setAxes(mode); });
         }
         m_axes->setMenu(menu);
         m_axes->setPopupMode(QToolButton::InstantPopup);
-        m_overlays->setMenu(overlayMenu(*viewport));
+        m_overlays->setMenu(overlayMenu(viewport->choice(), m_overlays));
         m_overlays->setPopupMode(QToolButton::InstantPopup);
         m_overlays->setAccessibleName(tr("Overlays"));
         connect(m_frame, &QToolButton::clicked, viewport, &ViewportWidget::frameAll);
-        connect(m_projection, &QToolButton::clicked, viewport, &ViewportWidget::toggleProjection);
+        connect(m_projection, &QToolButton::clicked, &viewport->choice(), &ViewChoice::toggleProjection);
         m_more->setObjectName(QStringLiteral("moreOfViewport"));
         m_more->setAccessibleName(tr("More"));
         m_more->setMenu(new QMenu(m_more));
         m_more->setPopupMode(QToolButton::InstantPopup);
         connect(m_more->menu(), &QMenu::aboutToShow, this, &ViewportButtons::listMore);
-        connect(viewport, &ViewportWidget::optionsChanged, this,
+        connect(&viewport->choice(), &ViewChoice::changed, this,
                 [this, viewport] { showOptions(*viewport); });
         new EventWatch(viewport, QEvent::Resize, [this, viewport] { fitInto(viewport->width()); });
         showOptions(*viewport);
     }
 
 private:
-    /// Each entry shows whether it is on, also where something else has switched it.
-    QMenu* overlayMenu(ViewportWidget& viewport) {
-        auto* menu = new QMenu(m_overlays);
-        const auto add = [&](const QString& text, auto toggle, auto isOn) {
-            QAction* action = menu->addAction(text, &viewport, toggle);
-            action->setCheckable(true);
-            connect(menu, &QMenu::aboutToShow, action, [action, isOn] { action->setChecked(isOn()); });
-        };
-        for (const OverlayEntry& entry : kOverlayTable) {
-            add(
-                QCoreApplication::translate("Action", entry.title),
-                [&viewport, one = entry.overlay] { viewport.toggle(one); },
-                [&viewport, one = entry.overlay] { return viewport.isOn(one); });
-        }
-        menu->addSeparator();
-        add(
-            tr("Metres on the f&loor"), [&viewport] { viewport.toggleScale(); },
-            [&viewport] { return viewport.hasScale(); });
-        add(
-            tr("Val&ues of a segment"), [&viewport] { viewport.toggleCard(); },
-            [&viewport] { return viewport.hasCard(); });
-        return menu;
-    }
     void showOptions(const ViewportWidget& viewport) {
         const std::array names{tr("all"), tr("selected"), tr("none")};
-        m_axes->setText(tr("Axes: %1 ▾").arg(names[static_cast<std::size_t>(viewport.axes())]));
-        m_projection->setText(viewport.projection() == render::Projection::Perspective ? tr("Persp")
-                                                                                       : tr("Ortho"));
-        m_axes->setAccessibleName(tr("Axes: %1").arg(names[static_cast<std::size_t>(viewport.axes())]));
+        m_axes->setText(tr("Axes: %1 ▾").arg(names[static_cast<std::size_t>(viewport.choice().axes())]));
+        m_projection->setText(
+            viewport.choice().projection() == render::Projection::Perspective ? tr("Persp") : tr("Ortho"));
+        m_axes->setAccessibleName(
+            tr("Axes: %1").arg(names[static_cast<std::size_t>(viewport.choice().axes())]));
         m_frame->setAccessibleName(tr("Frame all"));
-        m_projection->setAccessibleName(viewport.projection() == render::Projection::Perspective
+        m_projection->setAccessibleName(viewport.choice().projection() == render::Projection::Perspective
                                             ? tr("Projection: perspective")
                                             : tr("Projection: orthographic"));
         fitInto(viewport.width());
@@ -208,9 +204,92 @@ private:
 
 } // namespace
 
+void paintPlate(QPainter& painter, const QRectF& plate, const QPen& border, double opacity, double radius) {
+    painter.setPen(border);
+    painter.setBrush(withAlpha(theme().raised, opacity));
+    painter.drawRoundedRect(plate.adjusted(0.5, 0.5, -0.5, -0.5), radius, radius);
+}
+
 void addViewportButtons(ViewportWidget& viewport) {
     new ViewportButtons(&viewport);
 }
+
+/// A few words and a way into the guide over a picture that shows no character.
+class MessageCard final : public QWidget {
+public:
+    explicit MessageCard(QWidget* parent)
+        : QWidget(parent),
+          m_title(plainLabel(this)),
+          m_text(plainLabel(this)),
+          m_help(framedButton(tr("Help"), tr("What this means, and what to do about it"), this)) {
+        m_help->setObjectName(QStringLiteral("cardHelp"));
+        m_help->setAccessibleName(tr("Help on this message"));
+        m_help->setFocusPolicy(Qt::TabFocus);
+        connect(m_help, &QToolButton::clicked, this, [this] { openHelp(placeOf(m_state.topic)); });
+        const int unit = fontMetrics().height();
+        QVBoxLayout* column = tightColumn(this);
+        column->setContentsMargins(unit, unit, unit, unit);
+        column->setSpacing(unit / 2);
+        QFont bold = font();
+        bold.setWeight(QFont::DemiBold);
+        m_title->setFont(bold);
+        for (QLabel* label : {m_title, m_text}) {
+            label->setAlignment(Qt::AlignHCenter);
+            label->setWordWrap(true);
+            column->addWidget(label, 0, Qt::AlignHCenter);
+        }
+        column->addWidget(m_help, 0, Qt::AlignHCenter);
+    }
+
+    void setState(const EmptyState& state) {
+        m_state = state;
+        const bool isPlain = state.level == Health::Unknown || state.level == Health::Good;
+        m_border = isPlain ? theme().line : healthColour(state.level);
+        m_title->setText(isPlain ? state.title : healthText(state.level, state.title));
+        setTextColour(*m_title, isPlain ? theme().text : m_border);
+        m_text->setText(state.lines.join(QLatin1Char('\n')));
+        setTextColour(*m_text, theme().dim);
+        setVisible(!state.title.isEmpty());
+        place();
+    }
+
+    /// In the middle, but below the buttons.
+    void place() {
+        const int unit = fontMetrics().height();
+        const QSize room = parentWidget()->size();
+        const double most = std::min(0.86 * room.width(), 34.0 * unit) - 2 * unit;
+        for (QLabel* label : {m_title, m_text}) {
+            label->setFixedWidth(qCeil(balancedWidth(QFontMetricsF(label->font()), label->text(), most)) + 1);
+        }
+        layout()->activate();
+        const int width = std::max(m_title->width(), m_text->width()) + 2 * unit;
+        resize(width, layout()->totalHeightForWidth(width));
+        const auto* above = parentWidget()->findChild<QWidget*>(kButtons);
+        const int least = above == nullptr ? 0 : above->geometry().bottom() - unit / 2;
+        const int top = std::min(std::max((room.height() - height()) / 2, least), room.height() - height());
+        move((room.width() - width) / 2, top);
+    }
+
+protected:
+    void paintEvent(QPaintEvent* /*event*/) override {
+        QPainter painter(this);
+        painter.setRenderHint(QPainter::Antialiasing);
+        paintPlate(painter, rect(), m_border, 1, 7); // sentences are read: nothing shines through
+    }
+    void changeEvent(QEvent* event) override {
+        QWidget::changeEvent(event);
+        if (event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange) {
+            setState(m_state);
+        }
+    }
+
+private:
+    QLabel* m_title;
+    QLabel* m_text;
+    QToolButton* m_help;
+    QColor m_border;
+    EmptyState m_state;
+};
 
 ViewportOverlay::ViewportOverlay(QWidget* parent) : QWidget(parent) {
     setAttribute(Qt::WA_TransparentForMouseEvents);
@@ -232,35 +311,18 @@ void ViewportOverlay::setCard(const EmptyState& card) {
         m_card = card;
         setAccessibleName(card.title);
         setAccessibleDescription(card.lines.join(QLatin1Char(' ')));
-        placeCardHelp();
-        update();
+        if (m_message == nullptr) {
+            m_message = new MessageCard(parentWidget());
+        }
+        m_message->setState(card);
     }
-}
-
-void ViewportOverlay::makeCardHelp() {
-    m_cardHelp = framedButton(tr("Help"), tr("What this means, and what to do about it"), parentWidget());
-    m_cardHelp->setObjectName(QStringLiteral("cardHelp"));
-    m_cardHelp->setAccessibleName(tr("Help on this message"));
-    m_cardHelp->setFocusPolicy(Qt::TabFocus);
-    connect(m_cardHelp, &QToolButton::clicked, this, [this] { openHelp(placeOf(m_card.topic)); });
-}
-
-void ViewportOverlay::placeCardHelp() {
-    if (m_cardHelp == nullptr && m_card.title.isEmpty()) {
-        return;
-    }
-    if (m_cardHelp == nullptr) {
-        makeCardHelp();
-    }
-    m_cardHelp->setVisible(!m_card.title.isEmpty());
-    m_cardHelp->adjustSize();
-    m_cardHelp->move(layOutCard().button);
-    m_cardHelp->raise();
 }
 
 void ViewportOverlay::resizeEvent(QResizeEvent* event) {
     QWidget::resizeEvent(event);
-    placeCardHelp();
+    if (m_message != nullptr) {
+        m_message->place();
+    }
 }
 
 /// By what else stands over the picture.
@@ -325,9 +387,6 @@ void ViewportOverlay::paintEvent(QPaintEvent* /*event*/) {
         }
     }
     paintTexts(painter, taken);
-    if (!m_card.title.isEmpty()) {
-        paintCard(painter);
-    }
 }
 
 void ViewportOverlay::paintLabel(QPainter& painter, const ViewportLabel& label,
@@ -344,7 +403,7 @@ void ViewportOverlay::paintLabel(QPainter& painter, const ViewportLabel& label,
     }
     const QRectF& plate = placed.plate;
     const QColor& border = label.isSelected ? theme().accent : label.isBehind ? theme().dim : theme().line;
-    paintPlate(painter, plate, QPen(border, 1, styleOf(label)), kRadius);
+    paintPlate(painter, plate, QPen(border, 1, styleOf(label)), kBackgroundOpacity);
     paintMark(painter, QRectF(plate.left() + 0.6 * unit, plate.center().y() - side / 2, side, side),
               label.mark);
     const LabelText text = textOf(label, metrics, width());
@@ -378,60 +437,6 @@ void ViewportOverlay::paintTexts(QPainter& painter, std::vector<QRectF>& taken) 
                                       Qt::RoundCap, Qt::RoundJoin));
         painter.fillPath(path, text.colour);
     }
-}
-
-bool ViewportOverlay::isCardPlain() const {
-    return m_card.level == Health::Unknown || m_card.level == Health::Good;
-}
-
-/// As it is painted.
-QString ViewportOverlay::cardTitle() const {
-    return isCardPlain() ? m_card.title : healthText(m_card.level, m_card.title);
-}
-
-ViewportOverlay::CardLayout ViewportOverlay::layOutCard() const {
-    QFont titleFont = font();
-    titleFont.setWeight(QFont::DemiBold);
-    const QFontMetricsF metrics(font());
-    const qreal unit = metrics.height();
-    const qreal most = std::min(0.86 * width(), 34 * unit);
-    const QString text = m_card.lines.join(QLatin1Char('\n'));
-    const QRectF room(0, 0, most - 3 * unit, height());
-    const QRectF titleRoom =
-        QFontMetricsF(titleFont).boundingRect(room, Qt::AlignHCenter | Qt::TextWordWrap, cardTitle());
-    const QRectF narrow(0, 0, balancedWidth(metrics, text, room.width()), height());
-    const QRectF textRoom = metrics.boundingRect(narrow, Qt::AlignHCenter | Qt::TextWordWrap, text);
-    const QSizeF button = m_cardHelp->sizeHint();
-    const qreal cardWidth = std::min(most, std::max(titleRoom.width(), textRoom.width()) + 3.2 * unit);
-    const qreal cardHeight = titleRoom.height() + textRoom.height() + button.height() + 3.2 * unit;
-    CardLayout layout;
-    // Below the buttons, where it would lie under them.
-    const auto* above = parentWidget()->findChild<QWidget*>(kButtons);
-    const qreal least = above == nullptr ? 0 : above->geometry().bottom() - 0.5 * unit;
-    const qreal top = std::min(std::max((height() - cardHeight) / 2, least), height() - cardHeight);
-    layout.card = {std::round((width() - cardWidth) / 2), std::round(top), cardWidth, cardHeight};
-    layout.title = layout.card.adjusted(1.2 * unit, 0.9 * unit, -1.2 * unit, -0.9 * unit);
-    layout.text = layout.title.adjusted(0, titleRoom.height() + 0.6 * unit, 0, 0);
-    layout.button = QPointF(layout.card.center().x() - button.width() / 2,
-                            layout.card.bottom() - button.height() - 0.9 * unit)
-                        .toPoint();
-    return layout;
-}
-
-void ViewportOverlay::paintCard(QPainter& painter) const {
-    const CardLayout layout = layOutCard();
-    const bool isPlain = isCardPlain();
-    paintPlate(painter, layout.card, isPlain ? theme().line : healthColour(m_card.level), 1.4 * kRadius,
-               1); // sentences are read: nothing shines through
-    QFont titleFont = font();
-    titleFont.setWeight(QFont::DemiBold);
-    painter.setFont(titleFont);
-    painter.setPen(isPlain ? theme().text : healthColour(m_card.level));
-    painter.drawText(layout.title, Qt::AlignHCenter | Qt::AlignTop | Qt::TextWordWrap, cardTitle());
-    painter.setFont(font());
-    painter.setPen(theme().dim);
-    painter.drawText(layout.text, Qt::AlignHCenter | Qt::AlignTop | Qt::TextWordWrap,
-                     m_card.lines.join(QLatin1Char('\n')));
 }
 
 } // namespace posewire::gui

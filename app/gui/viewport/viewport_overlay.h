@@ -10,11 +10,14 @@
 #include <map>
 #include <vector>
 
-class QToolButton;
-
 namespace posewire::gui {
 
+class MessageCard;
 class ViewportWidget;
+
+/// The background of what lies over a picture: a rectangle with round corners.
+void paintPlate(QPainter& painter, const QRectF& plate, const QPen& border, double opacity,
+                double radius = 5);
 
 /// Lays the few choices over the picture: axes, framing, projection.
 void addViewportButtons(ViewportWidget& viewport);
@@ -29,7 +32,7 @@ public:
     void setLabels(std::vector<ViewportLabel> labels);
     /// The first are the last to give way where they would lie on each other.
     void setTexts(std::vector<ViewportText> texts);
-    /// With a button that opens its page of the guide, beside this widget, which lets the mouse through.
+    /// The card is a widget of its own beside this one, which lets the mouse through.
     void setCard(const EmptyState& card);
     [[nodiscard]] const EmptyState& card() const { return m_card; }
     [[nodiscard]] const std::vector<ViewportLabel>& labels() const { return m_labels; }
@@ -41,30 +44,17 @@ protected:
     void resizeEvent(QResizeEvent* event) override;
 
 private:
-    /// Where the card and what is on it are.
-    struct CardLayout {
-        QRectF card;
-        QRectF title;
-        QRectF text;
-        QPoint button;
-    };
-    [[nodiscard]] bool isCardPlain() const;
-    [[nodiscard]] QString cardTitle() const;
-    [[nodiscard]] CardLayout layOutCard() const;
-    void makeCardHelp();
-    void placeCardHelp();
     [[nodiscard]] std::vector<QRectF> takenRoom() const;
     void placeAll();
     void paintLabel(QPainter& painter, const ViewportLabel& label, const PlacedLabel& placed) const;
     void paintTexts(QPainter& painter, std::vector<QRectF>& taken) const;
-    void paintCard(QPainter& painter) const;
 
     std::vector<ViewportLabel> m_labels;
     std::vector<PlacedLabel> m_placed; ///< by label
     std::map<model::CharacterKey, PlacedLabel> m_before;
     std::vector<ViewportText> m_texts;
     EmptyState m_card;
-    QToolButton* m_cardHelp = nullptr; ///< made with the first card
+    MessageCard* m_message = nullptr; ///< made with the first card
 };
 
 } // namespace posewire::gui

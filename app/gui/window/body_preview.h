@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/gui/viewport/bodies.h"
 #include "app/gui/viewport/camera_motion.h"
-#include "app/gui/viewport/dressed_body.h"
 #include "app/gui/viewport/presenter.h"
 
 #include <QWidget>

@@ -75,9 +75,10 @@ MainWindow::MainWindow(SessionDriver& driver, const SettingsFile& file, const Se
     connectHelp();
     m_driver.commands().setThresholds(m_settings.alerts.thresholds);
     m_driver.commands().setDisplayFilter(m_settings.filter);
-    connect(&m_viewport->ownCharacters(), &OwnCharacters::failed, this, &MainWindow::sayAlsoAfterOpening);
-    m_viewport->restoreState(m_settings.viewport);
-    m_viewport->setComparison(m_driver.files().comparing().state());
+    connect(&m_viewport->choice().ownCharacters(), &OwnCharacters::failed, this,
+            &MainWindow::sayAlsoAfterOpening);
+    m_viewport->choice().restoreState(m_settings.viewport);
+    m_viewport->pictures().setComparison(m_driver.files().comparing().state());
     new PressingKeys(this);
     new EventWatch(this, QEvent::ThemeChange, [this] { useTheme(m_settings.theme); }); // of the desktop
     keepHistory();
@@ -178,7 +179,7 @@ void MainWindow::connectDriver() {
         showTake();
         say(problem, HelpTopic::RecordingFailed);
     });
-    connect(m_viewport, &ViewportWidget::optionsChanged, this, showStates);
+    connect(&m_viewport->choice(), &ViewChoice::changed, this, showStates);
     showReceiving();
 }
 
@@ -264,7 +265,7 @@ Settings MainWindow::settings() const {
             settings.panels.remove(dock.dock->objectName());
         }
     }
-    settings.viewport = m_viewport->state();
+    settings.viewport = m_viewport->choice().state();
     settings.filter = QString::fromStdString(m_driver.commands().live().ownFilter());
     const auto pathOf = [](const OpenedFile* file) {
         return file != nullptr ? QDir().absoluteFilePath(file->path()) : QString();
@@ -292,8 +293,8 @@ void MainWindow::showReceiving() {
     if (m_inputs != nullptr) {
         m_inputs->refresh();
     }
-    m_driver.health().setPictures(m_viewport->picturesShown(), m_viewport->pictureHealth());
-    if (const SceneBuilder* builder = m_viewport->builder()) {
+    m_driver.health().setPictures(m_viewport->pictures().count(), m_viewport->pictures().health());
+    if (const SceneBuilder* builder = m_viewport->pictures().builder()) {
         const BodyFits& bodies = builder->bodies();
         const OwnFigures& own = builder->ownFigures();
         m_driver.health().setMeshMemory(bodies.memoryBytes() + own.memoryBytes(),

@@ -78,7 +78,7 @@ void saveReport(Window& window) {
 
 void copyDiagnostics(Window& window) {
     copyText(diagnosticsText(commands(window).session(), window.driver().receiving().state(),
-                             window.viewport().rendererName()));
+                             window.viewport().pictures().rendererName()));
     window.say(tr("Diagnostics copied"));
 }
 

@@ -168,7 +168,7 @@ void MainWindow::editOwnCharacter() {
     names.removeDuplicates();
     const std::optional<model::CharacterKey>& selected = session.selection().character;
     const QString name = selected ? shown(session.displayName(*selected)) : QString();
-    OwnCharacterDialog(m_viewport->ownCharacters(), names, name, this).exec();
+    OwnCharacterDialog(m_viewport->choice().ownCharacters(), names, name, this).exec();
 }
 
 void MainWindow::showRecovered() {

@@ -179,8 +179,8 @@ void PicturesDialog::askWhereToSave() {
 }
 
 void PicturesDialog::save(const QString& path) {
-    m_series =
-        std::make_unique<PictureSeries>(m_commands.session(), m_playback, m_viewport.look(), request(path));
+    m_series = std::make_unique<PictureSeries>(m_commands.session(), m_playback, m_viewport.choice().look(),
+                                               request(path));
     m_series->setComparison(&m_comparison);
     const auto showState = [this] {
         m_state->setText(tr("Writing: %1 of %2").arg(m_series->written()).arg(m_series->request().count));

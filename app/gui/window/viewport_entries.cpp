@@ -14,10 +14,13 @@ namespace {
 using Window = MainWindow;
 using ViewDo = ActionsOf<MainWindow>;
 
+ViewChoice& choiceOf(const Window& window) {
+    return window.viewport().choice();
+}
+
 void nextAxes(Window& window) {
     constexpr int kModes = 3;
-    window.viewport().setAxes(
-        static_cast<AxesMode>((static_cast<int>(window.viewport().axes()) + 1) % kModes));
+    choiceOf(window).setAxes(static_cast<AxesMode>((static_cast<int>(choiceOf(window).axes()) + 1) % kModes));
 }
 
 bool isGhostOn(const Window& window) {
@@ -65,8 +68,8 @@ constexpr ActionInfo viewEntry(const char* id, const char* text, const char* sho
 
 template <int index>
 void showView(Window& window) {
-    if (window.viewport().isKept(index)) {
-        window.viewport().showKeptView(index);
+    if (choiceOf(window).isKept(index)) {
+        choiceOf(window).showKeptView(index);
     } else {
         window.say(tr("No view %1 is kept: View > Camera > Keep view does").arg(index + 1),
                    HelpTopic::ViewNotKept);
@@ -74,7 +77,7 @@ void showView(Window& window) {
 }
 template <int index>
 void keepView(Window& window) {
-    window.viewport().keepView(index);
+    choiceOf(window).keepView(index);
     window.say(tr("View %1 kept").arg(index + 1));
 }
 template <int index>
@@ -91,14 +94,14 @@ constexpr ActionInfo keepViewEntry(const char* id, const char* text, const char*
 template <auto move, int right, int up>
 constexpr ActionInfo moveEntry(const char* id, const char* text, const char* shortcut) {
     return {id, QT_TRANSLATE_NOOP("Action", "&View/&Camera/&Move"), text, shortcut,
-            ViewDo::callIn<&Window::viewport, move, right, up>};
+            ViewDo::callIn<choiceOf, move, right, up>};
 }
-constexpr auto kOrbit = &ViewportWidget::orbitBy;
-constexpr auto kPan = &ViewportWidget::panBy;
+constexpr auto kOrbit = &ViewChoice::orbitBy;
+constexpr auto kPan = &ViewChoice::panBy;
 template <int steps>
 constexpr ActionInfo zoomEntry(const char* id, const char* text, const char* shortcut) {
     return {id, QT_TRANSLATE_NOOP("Action", "&View/&Camera/&Move"), text, shortcut,
-            ViewDo::callIn<&Window::viewport, &ViewportWidget::zoomBy, steps>};
+            ViewDo::callIn<choiceOf, &ViewChoice::zoomBy, steps>};
 }
 
 template <int count>
@@ -108,16 +111,29 @@ constexpr ActionInfo splitEntry(const char* id, const char* text, const char* sh
             text,
             shortcut,
             ViewDo::callIn<&Window::viewport, &ViewportWidget::split, count>,
-            ViewDo::isIn<&Window::viewport, &ViewportWidget::viewCount, count>};
+            ViewDo::isIn<choiceOf, &ViewChoice::viewCount, count>};
+}
+
+template <ViewSwitch which>
+void toggleSwitch(Window& window) {
+    choiceOf(window).toggleSwitch(which);
+}
+template <ViewSwitch which>
+bool isSwitchedOn(const Window& window) {
+    return choiceOf(window).isSwitchedOn(which);
+}
+template <ViewSwitch which>
+constexpr ActionInfo switchEntry(const char* id, const char* menu, const char* text) {
+    return {id, menu, text, "", ViewDo::call<toggleSwitch<which>>, ViewDo::is<isSwitchedOn<which>>};
 }
 
 template <Overlay overlay>
 void toggleOverlay(Window& window) {
-    window.viewport().toggle(overlay);
+    choiceOf(window).toggle(overlay);
 }
 template <Overlay overlay>
 bool isOverlayOn(const Window& window) {
-    return window.viewport().isOn(overlay);
+    return choiceOf(window).isOn(overlay);
 }
 template <Overlay overlay>
 constexpr ActionInfo overlayEntry() {
@@ -135,13 +151,12 @@ const ActionInfo kEntries[] = {
     viewEntry<render::StandardView::Top>("viewTop", QT_TRANSLATE_NOOP("Action", "&Top"), "Alt+5"),
     viewEntry<render::StandardView::ThreeQuarter>("viewThreeQuarter",
                                                   QT_TRANSLATE_NOOP("Action", "T&hree-quarter"), "Alt+6"),
-    {"relativeViews", "&View/&Camera", QT_TRANSLATE_NOOP("Action", "Relative to the &pelvis"), "",
-     ViewDo::callIn<&Window::viewport, &ViewportWidget::toggleRelativeViews>,
-     ViewDo::isIn<&Window::viewport, &ViewportWidget::hasRelativeViews, true>},
+    switchEntry<ViewSwitch::RelativeViews>("relativeViews", "&View/&Camera",
+                                           QT_TRANSLATE_NOOP("Action", "Relative to the &pelvis")),
     lineIn("&View/&Camera"),
     {"orthographic", "&View/&Camera", QT_TRANSLATE_NOOP("Action", "&Orthographic"), "O",
-     ViewDo::callIn<&Window::viewport, &ViewportWidget::toggleProjection>,
-     ViewDo::isIn<&Window::viewport, &ViewportWidget::projection, render::Projection::Orthographic>},
+     ViewDo::callIn<choiceOf, &ViewChoice::toggleProjection>,
+     ViewDo::isIn<choiceOf, &ViewChoice::projection, render::Projection::Orthographic>},
     {"frame", "&View/&Camera", QT_TRANSLATE_NOOP("Action", "Fr&ame all"), "F",
      ViewDo::callIn<&Window::viewport, &ViewportWidget::frameAll>},
     moveEntry<kOrbit, -1, 0>("orbitLeft", QT_TRANSLATE_NOOP("Action", "Orbit to the &left"), "J"),
@@ -166,7 +181,7 @@ const ActionInfo kEntries[] = {
     splitEntry<2>("splitTwo", QT_TRANSLATE_NOOP("Action", "&Two side by side"), "Ctrl+Alt+2"),
     splitEntry<4>("splitFour", QT_TRANSLATE_NOOP("Action", "&Four views"), "Ctrl+Alt+4"),
     {"nextView", "&View/Sp&lit view", QT_TRANSLATE_NOOP("Action", "&Next view"), "Ctrl+Alt+N",
-     ViewDo::callIn<&Window::viewport, &ViewportWidget::activateNext>},
+     ViewDo::callIn<choiceOf, &ViewChoice::activateNext>},
     {"axes", "&View", QT_TRANSLATE_NOOP("Action", "&Axes: all, selected, none"), "A", ViewDo::call<nextAxes>},
     overlayEntry<Overlay::SegmentNames>(),
     overlayEntry<Overlay::JointAngles>(),
@@ -177,17 +192,14 @@ const ActionInfo kEntries[] = {
     overlayEntry<Overlay::Velocity>(),
     overlayEntry<Overlay::Acceleration>(),
     overlayEntry<Overlay::Trails>(),
-    {"scale", "&View/O&verlays", QT_TRANSLATE_NOOP("Action", "Metres on the f&loor"), "",
-     ViewDo::callIn<&Window::viewport, &ViewportWidget::toggleScale>,
-     ViewDo::isIn<&Window::viewport, &ViewportWidget::hasScale, true>},
-    {"segmentCard", "&View/O&verlays", QT_TRANSLATE_NOOP("Action", "Val&ues of a segment"), "",
-     ViewDo::callIn<&Window::viewport, &ViewportWidget::toggleCard>,
-     ViewDo::isIn<&Window::viewport, &ViewportWidget::hasCard, true>},
+    switchEntry<ViewSwitch::Scale>("scale", "&View/O&verlays",
+                                   QT_TRANSLATE_NOOP("Action", "Metres on the f&loor")),
+    switchEntry<ViewSwitch::Card>("segmentCard", "&View/O&verlays",
+                                  QT_TRANSLATE_NOOP("Action", "Val&ues of a segment")),
     {"ownCharacter", "&View", QT_TRANSLATE_NOOP("Action", "O&wn character…"), "",
      ViewDo::call<&Window::editOwnCharacter>},
-    {"interpolation", "&View", QT_TRANSLATE_NOOP("Action", "Interpolate between sa&mples"), "",
-     ViewDo::callIn<&Window::viewport, &ViewportWidget::toggleInterpolation>,
-     ViewDo::isIn<&Window::viewport, &ViewportWidget::isInterpolating, true>},
+    switchEntry<ViewSwitch::Interpolation>("interpolation", "&View",
+                                           QT_TRANSLATE_NOOP("Action", "Interpolate between sa&mples")),
     {"lift", "&View", QT_TRANSLATE_NOOP("Action", "Place bodies &below the floor on it"), "",
      ViewDo::call<toggleLifted>, ViewDo::is<isAnyLifted>},
     {"ghost", "&View", QT_TRANSLATE_NOOP("Action", "Null pose as &ghost"), "Shift+G",

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/viewport/camera_motion.h"
 
-#include "app/gui/viewport/camera_state.h"
-
 #include <QJsonArray>
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/viewport/drawing_thread.h"
 
-#include "app/gui/viewport/picture_health.h"
+#include "app/gui/viewport/presenter.h"
 
 #include <gtest/gtest.h>
 

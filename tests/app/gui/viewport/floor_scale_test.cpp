@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/viewport/floor_scale.h"
+#include "app/gui/viewport/view_look.h"
 
 #include <gtest/gtest.h>
 

@@ -22,18 +22,19 @@ constexpr QSize kWidget(801, 601);
 
 TEST(ViewPanes, ShareTheViewWithoutOverlap) {
     ViewPanes panes;
-    EXPECT_EQ(panes.place(0, kWidget), QRect({}, kWidget));
+    panes.resize(kWidget);
+    EXPECT_EQ(panes.place(0), QRect({}, kWidget));
     for (const int count : {2, 4}) {
         panes.split(count, 0);
         ASSERT_EQ(panes.count(), count);
         for (int one = 0; one < count; ++one) {
-            const QRect place = panes.place(one, kWidget);
+            const QRect place = panes.place(one);
             EXPECT_TRUE(QRect({}, kWidget).contains(place));
-            EXPECT_EQ(place.size(), panes.place(0, kWidget).size())
+            EXPECT_EQ(place.size(), panes.place(0).size())
                 << "what is kept between pictures fits all of them";
-            EXPECT_EQ(panes.paneAt(place.center(), kWidget), one);
+            EXPECT_EQ(panes.paneAt(place.center()), one);
             for (int other = 0; other < one; ++other) {
-                EXPECT_FALSE(place.intersects(panes.place(other, kWidget)));
+                EXPECT_FALSE(place.intersects(panes.place(other)));
             }
         }
     }
@@ -108,13 +109,13 @@ protected:
         m_stage.follow();
         m_viewport.resize(kWidget);
         m_viewport.show();
-        m_viewport.start();
+        m_viewport.pictures().start();
         ASSERT_TRUE(settle());
         m_viewport.split(4);
         ASSERT_TRUE(QTest::qWaitFor([this] { return shownOverlays().size() == 4; }, 20'000));
     }
     bool settle() {
-        return QTest::qWaitFor([this] { return m_viewport.isSettled(); }, 20'000);
+        return QTest::qWaitFor([this] { return m_viewport.pictures().isSettled(); }, 20'000);
     }
     [[nodiscard]] std::vector<ViewportOverlay*> shownOverlays() const {
         std::vector<ViewportOverlay*> shown;
@@ -170,27 +171,27 @@ TEST_F(SplitViewport, DrawsSomethingElseInEachView) {
 }
 
 TEST_F(SplitViewport, WhatIsAskedOfTheCameraIsOfTheActiveView) {
-    EXPECT_EQ(m_viewport.projection(), render::Projection::Perspective);
-    m_viewport.activateNext();
-    EXPECT_EQ(m_viewport.projection(), render::Projection::Orthographic);
-    const render::Camera before = m_viewport.look().panes.motion().camera();
+    EXPECT_EQ(m_viewport.choice().projection(), render::Projection::Perspective);
+    m_viewport.choice().activateNext();
+    EXPECT_EQ(m_viewport.choice().projection(), render::Projection::Orthographic);
+    const render::Camera before = m_viewport.choice().look().panes.motion().camera();
     QTest::mouseClick(&m_viewport, Qt::LeftButton, {}, QPoint(100, 560));
-    EXPECT_EQ(m_viewport.look().panes.active(), 2);
-    m_viewport.toggleProjection();
-    EXPECT_EQ(m_viewport.projection(), render::Projection::Perspective);
-    m_viewport.activateNext();
-    m_viewport.activateNext();
-    m_viewport.activateNext();
-    EXPECT_EQ(m_viewport.look().panes.active(), 1);
-    EXPECT_EQ(m_viewport.look().panes.motion().camera(), before) << "the others are as they were";
+    EXPECT_EQ(m_viewport.choice().look().panes.active(), 2);
+    m_viewport.choice().toggleProjection();
+    EXPECT_EQ(m_viewport.choice().projection(), render::Projection::Perspective);
+    m_viewport.choice().activateNext();
+    m_viewport.choice().activateNext();
+    m_viewport.choice().activateNext();
+    EXPECT_EQ(m_viewport.choice().look().panes.active(), 1);
+    EXPECT_EQ(m_viewport.choice().look().panes.motion().camera(), before) << "the others are as they were";
 }
 
 TEST_F(SplitViewport, IsKeptWithTheViewport) {
-    m_viewport.activateNext();
+    m_viewport.choice().activateNext();
     ViewportWidget next(m_stage.session, m_commands);
-    next.restoreState(m_viewport.state());
-    EXPECT_EQ(next.viewCount(), 4);
-    EXPECT_EQ(next.look().panes.active(), 1);
+    next.choice().restoreState(m_viewport.choice().state());
+    EXPECT_EQ(next.choice().viewCount(), 4);
+    EXPECT_EQ(next.choice().look().panes.active(), 1);
     m_viewport.split(1);
     ASSERT_TRUE(settle());
     EXPECT_EQ(shownOverlays().size(), 1U);

@@ -29,13 +29,16 @@ protected:
         stage.follow();
         viewport.resize(480, 360);
         viewport.show();
-        viewport.start();
+        viewport.pictures().start();
         ASSERT_TRUE(settle());
     }
     bool settle() {
-        return QTest::qWaitFor([this] { return viewport.isSettled() || !viewport.failure().isEmpty(); },
-                               20'000) &&
-               viewport.failure().isEmpty();
+        return QTest::qWaitFor(
+                   [this] {
+                       return viewport.pictures().isSettled() || !viewport.pictures().failure().isEmpty();
+                   },
+                   20'000) &&
+               viewport.pictures().failure().isEmpty();
     }
 
     /// Pixels near a colour's hue, bright or in shadow.
@@ -148,19 +151,19 @@ TEST_F(Viewport, AClickShowsTheValuesOfWhatIsClicked) {
 }
 
 QJsonObject cameraOf(const ViewportWidget& viewport) {
-    return viewport.state()["panes"].toObject()["cameras"].toArray().at(0).toObject();
+    return viewport.choice().state()["panes"].toObject()["cameras"].toArray().at(0).toObject();
 }
 
 TEST_F(Viewport, KeepsViewsFromOneRunToTheNext) {
     viewport.face(render::StandardView::Top);
     const QJsonObject top = cameraOf(viewport);
-    viewport.keepView(2);
+    viewport.choice().keepView(2);
     viewport.face(render::StandardView::Front);
     ViewportWidget other(stage.session, stage.commands);
-    other.restoreState(viewport.state());
-    EXPECT_FALSE(other.isKept(0));
+    other.choice().restoreState(viewport.choice().state());
+    EXPECT_FALSE(other.choice().isKept(0));
     EXPECT_NE(cameraOf(other), top);
-    other.showKeptView(2);
+    other.choice().showKeptView(2);
     EXPECT_EQ(cameraOf(other), top);
 }
 
@@ -171,7 +174,7 @@ TEST_F(Viewport, FacesThePelvisOrTheWorld) {
     const auto yaw = [this] { return cameraOf(viewport)["yaw"].toDouble(); };
     viewport.face(render::StandardView::Front);
     EXPECT_NEAR(yaw(), heading, 1e-4);
-    viewport.toggleRelativeViews();
+    viewport.choice().toggleSwitch(ViewSwitch::RelativeViews);
     viewport.face(render::StandardView::Front);
     EXPECT_EQ(yaw(), 0);
 }
@@ -180,17 +183,17 @@ TEST_F(Viewport, TheKeyboardMovesTheCameraAsTheMouseDoes) {
     viewport.face(render::StandardView::Front);
     const auto now = [this] { return cameraOf(viewport); };
     const QJsonObject front = now();
-    viewport.orbitBy(1, 0);
+    viewport.choice().orbitBy(1, 0);
     EXPECT_NE(now()["yaw"], front["yaw"]);
-    viewport.orbitBy(-1, 1);
+    viewport.choice().orbitBy(-1, 1);
     EXPECT_NEAR(now()["yaw"].toDouble(), front["yaw"].toDouble(), 1e-5);
     EXPECT_GT(now()["pitch"].toDouble(), front["pitch"].toDouble()) << "from above";
-    viewport.orbitBy(0, -1);
+    viewport.choice().orbitBy(0, -1);
     EXPECT_TRUE(now()["following"].toBool());
-    viewport.zoomBy(2);
+    viewport.choice().zoomBy(2);
     EXPECT_LT(now()["distance"].toDouble(), front["distance"].toDouble());
     const QJsonArray before = now()["target"].toArray();
-    viewport.panBy(0, 1);
+    viewport.choice().panBy(0, 1);
     EXPECT_GT(now()["target"].toArray().at(2).toDouble(), before.at(2).toDouble());
     EXPECT_FALSE(now()["following"].toBool());
 }
@@ -237,11 +240,11 @@ TEST_F(Viewport, TheCameraFinishesItsWayWhilePaused) {
     viewport.refresh();
     ASSERT_TRUE(settle());
     viewport.face(render::StandardView::Top); // from there a body is smaller
-    EXPECT_TRUE(viewport.look().isGliding());
+    EXPECT_TRUE(viewport.choice().look().isGliding());
     EXPECT_TRUE(QTest::qWaitFor(
         [this] {
             stage.session.follow(stage.now += 20ms);
-            return !viewport.look().isGliding();
+            return !viewport.choice().look().isGliding();
         },
         20'000));
 }
@@ -250,13 +253,13 @@ TEST_F(Viewport, TwoViewsOfOneSessionDrawAtOnce) {
     ViewportWidget other(stage.session, stage.commands);
     other.resize(320, 240);
     other.show();
-    other.start();
-    EXPECT_TRUE(QTest::qWaitFor([&] { return other.picturesShown() > 0; }, 20'000));
-    const std::uint64_t before = viewport.picturesShown();
+    other.pictures().start();
+    EXPECT_TRUE(QTest::qWaitFor([&] { return other.pictures().count() > 0; }, 20'000));
+    const std::uint64_t before = viewport.pictures().count();
     stage.session.setHidden(stage.key(), true);
     viewport.refresh();
-    EXPECT_TRUE(QTest::qWaitFor([&] { return viewport.picturesShown() > before; }, 20'000));
-    EXPECT_TRUE(other.failure().isEmpty());
+    EXPECT_TRUE(QTest::qWaitFor([&] { return viewport.pictures().count() > before; }, 20'000));
+    EXPECT_TRUE(other.pictures().failure().isEmpty());
 }
 
 TEST_F(Viewport, SaysWhenItsPictureIsOfAnotherSizeThanTheView) {
@@ -302,12 +305,12 @@ TEST_F(Viewport, LeavesDrawingToTheProcessorWhereTheHardwareFails) {
     ViewportWidget other(stage.session, stage.commands);
     other.resize(320, 240);
     other.show();
-    other.start([](QWidget* parent) -> Presenter* { return new FailingHardware(parent); });
-    EXPECT_TRUE(QTest::qWaitFor([&] { return other.picturesShown() > 0; }, 20'000));
-    EXPECT_TRUE(other.failure().isEmpty());
-    EXPECT_NE(other.rendererName(), QStringLiteral("broken"));
-    EXPECT_TRUE(other.pictureHealth().why.contains("The graphics driver was reset."))
-        << other.pictureHealth().why.toStdString();
+    other.pictures().start([](QWidget* parent) -> Presenter* { return new FailingHardware(parent); });
+    EXPECT_TRUE(QTest::qWaitFor([&] { return other.pictures().count() > 0; }, 20'000));
+    EXPECT_TRUE(other.pictures().failure().isEmpty());
+    EXPECT_NE(other.pictures().rendererName(), QStringLiteral("broken"));
+    EXPECT_TRUE(other.pictures().health().why.contains("The graphics driver was reset."))
+        << other.pictures().health().why.toStdString();
 }
 
 TEST(ViewportLabels, ShowHowACharacterDoesHoweverLongItsName) {

@@ -161,7 +161,8 @@ TEST_F(HelpingTest, WhatTheViewportSaysLeadsToItsPage) {
     auto* help = window.findChild<QToolButton*>("cardHelp");
     ASSERT_NE(help, nullptr);
     ASSERT_TRUE(help->isVisible()) << "nothing is received";
-    EXPECT_TRUE(window.viewport().rect().contains(help->geometry()));
+    EXPECT_TRUE(window.viewport().rect().contains(
+        QRect(help->mapTo(&window.viewport(), QPoint(0, 0)), help->size())));
     help->click();
     EXPECT_EQ(place(), placeOf(HelpTopic::NoInput));
 }

@@ -66,16 +66,16 @@ TEST_F(MainWindowTest, RestoresFilterCameraAndAxes) {
     {
         const auto window = makeWindow();
         driver.commands().setDisplayFilter("type == 02");
-        window->viewport().setAxes(AxesMode::Selected);
-        window->viewport().toggleProjection();
+        window->viewport().choice().setAxes(AxesMode::Selected);
+        window->viewport().choice().toggleProjection();
         kept = window->settings();
         EXPECT_TRUE(kept.file.isEmpty()) << "what is live was shown";
     }
     driver.commands().setDisplayFilter({});
     const auto window = makeWindow(kept);
     EXPECT_EQ(driver.commands().live().displayFilter(), "type == 02");
-    EXPECT_EQ(window->viewport().axes(), AxesMode::Selected);
-    EXPECT_EQ(window->viewport().projection(), render::Projection::Orthographic);
+    EXPECT_EQ(window->viewport().choice().axes(), AxesMode::Selected);
+    EXPECT_EQ(window->viewport().choice().projection(), render::Projection::Orthographic);
     EXPECT_EQ(window->settings().viewport, kept.viewport);
 }
 
@@ -230,10 +230,10 @@ TEST_F(MainWindowTest, KeysReachThePanels) {
 TEST_F(MainWindowTest, EntriesOfTheWindowDoWhatTheySay) {
     const auto window = makeWindow();
     action(*window, "orthographic")->trigger();
-    EXPECT_EQ(window->viewport().projection(), render::Projection::Orthographic);
-    EXPECT_EQ(window->viewport().axes(), AxesMode::Selected);
+    EXPECT_EQ(window->viewport().choice().projection(), render::Projection::Orthographic);
+    EXPECT_EQ(window->viewport().choice().axes(), AxesMode::Selected);
     action(*window, "axes")->trigger();
-    EXPECT_EQ(window->viewport().axes(), AxesMode::None);
+    EXPECT_EQ(window->viewport().choice().axes(), AxesMode::None);
     action(*window, "layoutInspect")->trigger();
     EXPECT_EQ(window->settings().layout, "Inspect");
     action(*window, "themeLight")->trigger();
@@ -253,7 +253,7 @@ TEST_F(MainWindowTest, EntriesShowWhatElsewhereSwitchedOn) {
     EXPECT_TRUE(action(*window, "pause")->isChecked());
     driver.commands().setGhostVisible(true);
     EXPECT_TRUE(action(*window, "ghost")->isChecked());
-    window->viewport().toggleProjection();
+    window->viewport().choice().toggleProjection();
     EXPECT_TRUE(action(*window, "orthographic")->isChecked());
 }
 

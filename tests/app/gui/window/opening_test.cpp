@@ -47,7 +47,7 @@ TEST_F(MainWindowTest, SaysWhatIsWrongWithACharacterAlsoWhereAFileIsOpenedMeanwh
     const auto window = makeWindow();
     const auto* message = window->findChild<HealthBar*>("healthBar")->findChild<QLabel*>("message");
     const QString problem = "The mannequin stays";
-    emit window->viewport().ownCharacters().failed(problem);
+    emit window->viewport().choice().ownCharacters().failed(problem);
     emit driver.files().opened(true, "");
     EXPECT_EQ(message->text(), problem);
     const QString endless = folder.filePath("endless");
