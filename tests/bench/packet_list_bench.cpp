@@ -5,7 +5,6 @@
 // felt.
 #include "app/gui/models/packet_model.h"
 #include "app/gui/models/packet_search.h"
-#include "app/gui/panels/fitting_header.h"
 #include "app/gui/panels/packet_view.h"
 #include "app/gui/theme/theme.h"
 #include "core/log/packet_log.h"
@@ -126,8 +125,6 @@ int main(int argumentCount, char** arguments) {
     gui::PacketModel model(session);
     gui::PacketView view("Packets");
     view.setModel(&model);
-    view.header().setSamples({"9 999 999", "9999.9999", "999.99", "192.168.10.21:52011",
-                              "02 Pose, quaternion", "0 Mira", "99 999", "1/1", "9999", QString()});
     view.resize(1000, 700);
     view.show();
     const auto begin = Clock::now();

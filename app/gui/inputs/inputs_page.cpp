@@ -169,11 +169,6 @@ InputsPage::InputsPage(Receiving& receiving, QWidget* parent)
       m_cancel(new QPushButton(tr("Cancel"), this)) {
     m_table->setModel(m_model);
     m_table->setEmptyText(tr("There are no inputs. Add one below: by default MVN sends to UDP port 9763."));
-    const QString address = QStringLiteral("this computer · every address");
-    m_table->setColumnSamples({tr("TCP, connecting"), address, QStringLiteral("65535"), QString(),
-                               QStringLiteral("10 000"), QStringLiteral("100 000 000"),
-                               QStringLiteral("100 000"), QStringLiteral("100 000")},
-                              tr("listening, nobody has connected"));
     layOut();
     setFocusProxy(m_table);
     connect(m_table->selectionModel(), &QItemSelectionModel::currentChanged, this, &InputsPage::showChoice);

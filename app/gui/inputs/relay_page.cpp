@@ -62,10 +62,6 @@ RelayPage::RelayPage(Relaying& relaying, QWidget* parent)
       m_undo(new UndoRemoval(this)) {
     m_table->setModel(m_model);
     m_table->setEmptyText(tr("Nothing is forwarded. Add the host of another program that needs the stream."));
-    m_table->setColumnSamples({QStringLiteral("☑ motion-capture.studio"), QStringLiteral("65535"), QString(),
-                               QStringLiteral("100 000 000"), QStringLiteral("100 000"),
-                               QStringLiteral("100 000"), QStringLiteral("10 000")},
-                              tr("looking up studio"));
     layOut();
     setFocusProxy(m_target);
     connect(m_model, &RelayModel::switched, this, &RelayPage::switchTarget, Qt::QueuedConnection);

@@ -66,9 +66,10 @@ QString ageText(double seconds) {
 }
 
 template <class Row>
-TableColumn<Row> lostColumn(const QString& title, model::LossCause cause, const QString& help) {
+TableColumn<Row> lostColumn(const QString& title, model::LossCause cause, int order, const QString& help) {
     const auto at = static_cast<std::size_t>(cause);
     return TableColumn<Row>::numbers(title, help, [at](const Row& row) { return grouped(row.lost[at]); })
+        .in({.usual = QStringLiteral("9 999"), .order = order})
         .withColour(
             [at](const Row& row) { return QVariant(row.lost[at] == 0 ? theme().dim : theme().warning); });
 }
@@ -81,47 +82,55 @@ void addFigureColumns(std::vector<TableColumn<Row>>& columns) {
         Column::numbers(tr("Nom."),
                         tr("Nominal rate in Hz, by the sender's own time code and sample counter"),
                         [](const Row& row) { return hertz(row.nominalHz, true); })
+            .in({.usual = QStringLiteral("240"), .order = 2})
             .dimmed());
-    columns.push_back(Column::numbers(tr("Hz"), tr("Rate in Hz, measured by arrival at this computer"),
-                                      [](const Row& row) { return hertz(row.measuredHz, false); }));
-    columns.push_back(lostColumn<Row>(tr("Here"), model::LossCause::ThisComputer,
+    columns.push_back(
+        Column::numbers(tr("Hz"), tr("Rate in Hz, measured by arrival at this computer"), [](const Row& row) {
+            return hertz(row.measuredHz, false);
+        }).in({.usual = QStringLiteral("240.0"), .order = 4}));
+    columns.push_back(lostColumn<Row>(tr("Here"), model::LossCause::ThisComputer, 6,
                                       tr("Samples of all its streams that this computer lost, in the time "
                                          "that stands above the table")));
-    columns.push_back(lostColumn<Row>(tr("Network"), model::LossCause::Network,
+    columns.push_back(lostColumn<Row>(tr("Network"), model::LossCause::Network, 8,
                                       tr("Samples that the network lost, in the time that stands above the "
                                          "table")));
-    columns.push_back(lostColumn<Row>(tr("Sender"), model::LossCause::Sender,
+    columns.push_back(lostColumn<Row>(tr("Sender"), model::LossCause::Sender, 7,
                                       tr("Samples that the sender left out, in the time that stands above "
                                          "the table")));
-    columns.push_back(lostColumn<Row>(tr("Unknown"), model::LossCause::Unknown,
+    columns.push_back(lostColumn<Row>(tr("Unknown"), model::LossCause::Unknown, 5,
                                       tr("Samples lost, cause unknown, in the time that "
                                          "stands above the table")));
-    columns.push_back(Column::numbers(tr("Age"), tr("Seconds since its newest datagram"), [](const Row& row) {
-                          return ageText(row.ageS);
-                      }).withColour([](const Row& row) {
-        // What has no rate is sent now and then.
-        const double patience = patienceAt(row.nominalHz.value_or(0));
-        return !row.nominalHz                               ? QVariant()
-               : row.ageS >= std::max(kStaleAge, patience)  ? QVariant(theme().error)
-               : row.ageS >= std::max(kSilentAge, patience) ? QVariant(theme().warning)
-                                                            : QVariant();
-    }));
+    columns.push_back(Column::numbers(tr("Age"), tr("Seconds since its newest datagram"),
+                                      [](const Row& row) { return ageText(row.ageS); })
+                          .in({.usual = QStringLiteral("99.9"), .order = 3})
+                          .withColour([](const Row& row) {
+                              // What has no rate is sent now and then.
+                              const double patience = patienceAt(row.nominalHz.value_or(0));
+                              return !row.nominalHz                               ? QVariant()
+                                     : row.ageS >= std::max(kStaleAge, patience)  ? QVariant(theme().error)
+                                     : row.ageS >= std::max(kSilentAge, patience) ? QVariant(theme().warning)
+                                                                                  : QVariant();
+                          }));
 }
 
 std::vector<TableColumn<DetailRow>> detailColumns() {
     using Column = TableColumn<DetailRow>;
     std::vector<Column> columns{Column::words(tr("Stream"), {}, [](const DetailRow& row) {
-        return QString::fromStdString(wire::typeTitle(row.key.type));
-    })};
+                                    return QString::fromStdString(wire::typeTitle(row.key.type));
+                                }).in({.usual = QStringLiteral("02 Pose, quaternion"), .isOpen = true})};
     addFigureColumns(columns);
     return columns;
 }
 
 std::vector<TableColumn<EndedSender>> endedColumns() {
     using Column = TableColumn<EndedSender>;
-    return {Column::words(tr("Ended sender"), {}, [](const EndedSender& row) { return row.address; }),
-            Column::words(tr("Characters"), {}, [](const EndedSender& row) { return row.characters; }),
-            Column::numbers(tr("Ended at"), {}, [](const EndedSender& row) { return row.ended; })};
+    return {Column::words(tr("Ended sender"), {}, [](const EndedSender& row) { return row.address; })
+                .in({QStringLiteral("255.255.255.255:65535")}),
+            Column::words(tr("Characters"), {}, [](const EndedSender& row) { return row.characters; })
+                .in({.usual = QStringLiteral("12345678"), .isOpen = true}),
+            Column::numbers(tr("Ended at"), {}, [](const EndedSender& row) {
+                return row.ended;
+            }).in({QStringLiteral("00:00:00")})};
 }
 
 /// "· 2"; with its sender where another one has the same name and ID.
@@ -265,6 +274,9 @@ std::vector<TableColumn<BoardRow>> CharacterModel::columns(model::SessionView& v
     };
     Column name = Column::words(tr("Character"), {},
                                 [&view](const BoardRow& row) { return characterName(view, row.key); })
+                      .in({.usual = QStringLiteral("         Mira Li"),
+                           .wish = QStringLiteral("         Performer with a name · 10"),
+                           .whole = 16})
                       .withToolTip(help)
                       .withMore(marks);
     name.spoken = [&view](const BoardRow& row) { return nameApart(view, row.key); };
@@ -272,6 +284,7 @@ std::vector<TableColumn<BoardRow>> CharacterModel::columns(model::SessionView& v
         std::move(name),
         valueColumn(Column::words(tr("Verdict"), tr("Whether it is good now on the wire"), {}),
                     [](const BoardRow& row) { return verdictState(row.verdict); })
+            .in({.usual = QStringLiteral("■ 10.0 % lost"), .isOpen = true, .whole = 26})
             .withMore([](const BoardRow& row, int role) {
                 if (role == kShortTextRole) { // whose loss it is stands beside it, in the columns of losses
                     const PropertyValue what{fromUtf8(row.verdict.what), healthOf(row.verdict.state)};
@@ -286,10 +299,13 @@ std::vector<TableColumn<BoardRow>> CharacterModel::columns(model::SessionView& v
                            : QVariant();
             })};
     addFigureColumns(columns);
-    columns.push_back(Column::words(
-        tr("Pose"), tr("The type of message that its figure is drawn from"), [](const BoardRow& row) {
-            return row.poseType ? QString::fromStdString(wire::typeDigits(*row.poseType)) : tr("none");
-        }));
+    columns.push_back(Column::words(tr("Pose"), tr("The type of message that its figure is drawn from"),
+                                    [](const BoardRow& row) {
+                                        return row.poseType
+                                                   ? QString::fromStdString(wire::typeDigits(*row.poseType))
+                                                   : tr("none");
+                                    })
+                          .in({.usual = tr("none"), .order = 1}));
     return columns;
 }
 

@@ -3,6 +3,7 @@
 
 #include "app/gui/theme/words.h"
 
+#include <algorithm>
 #include <array>
 
 namespace posewire::gui {
@@ -32,7 +33,7 @@ QString cellText(const QModelIndex& index) {
 }
 
 PropertyModel::PropertyModel(std::vector<Property> properties, QObject* parent)
-    : TableModel(columns(), parent) {
+    : TableModel(columns(properties), parent) {
     setRows(std::move(properties));
     refresh();
 }
@@ -45,13 +46,17 @@ void PropertyModel::refresh() {
     setRows(std::move(properties));
 }
 
-std::vector<TableColumn<Property>> PropertyModel::columns() const {
+std::vector<TableColumn<Property>> PropertyModel::columns(const std::vector<Property>& properties) const {
+    const auto longest = std::ranges::max_element(
+        properties, {}, [](const Property& property) { return property.label.size(); });
     auto value = valueColumn(TableColumn<Property>{.title = tr("Value"), .isNumber = true},
                              [](const Property& row) { return row.value; });
     value.colour = [this, own = value.colour](const Property& row) {
         return m_isPast && m_isPast() ? QVariant(theme().dim) : own(row);
     };
+    value.room = {.usual = QStringLiteral("12345678"), .isOpen = true};
     return {TableColumn<Property>::words(tr("Property"), {}, &Property::label)
+                .in({longest == properties.end() ? QString() : longest->label})
                 .dimmed()
                 .withToolTip([](const Property& row) { return row.value.toolTip; }),
             std::move(value)};

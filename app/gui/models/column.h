@@ -29,6 +29,21 @@ inline constexpr int kSpanRole = Qt::UserRole + 5;
 inline constexpr int kSeriesRole = Qt::UserRole + 4; ///< QList<float>: a small curve; NaN breaks it
 /// QList<float>: where the curve is to be marked, as many as it has values; 0 for no mark.
 inline constexpr int kMarksRole = Qt::UserRole + 6;
+/// ColumnRoom of a horizontal header.
+inline constexpr int kRoomRole = Qt::UserRole + 9;
+
+/// How wide FittingHeader makes a column, by texts that fit into it.
+struct ColumnRoom {
+    static constexpr int kOnChoice = -1;
+
+    QString usual{};     ///< other columns leave before it gets narrower; figures in sight are whole anyway
+    QString wish{};      ///< gets so wide if there is room; empty for the usual width
+    QString least{};     ///< gets so narrow if no other column can leave; empty for the usual width
+    int order = 0;       ///< leaves n-th if not all fit; 0: never; kOnChoice: shown only if chosen
+    bool isOpen = false; ///< takes the room left; of several the last one that is shown
+    int whole = 0;       ///< its words in sight count as usual up to so many characters; blanks that begin
+                         ///< `usual` are room for what is before them
+};
 
 /// What one cell says, made whenever it is painted: in shape, colour and text.
 struct PropertyValue {
@@ -61,6 +76,7 @@ struct TableColumn {
     QString help{}; ///< tooltip of the title
     bool isNumber = false;
     Words text{};
+    ColumnRoom room{};
     Colour colour{}; ///< nothing for the usual one
     Words toolTip{}; ///< empty for none
     Words spoken{};  ///< for screen readers; the text where it is left out
@@ -71,6 +87,10 @@ struct TableColumn {
     }
     [[nodiscard]] static TableColumn numbers(const QString& title, const QString& help, Words text) {
         return {.title = title, .help = help, .isNumber = true, .text = std::move(text)};
+    }
+    [[nodiscard]] TableColumn in(ColumnRoom given) && {
+        room = std::move(given);
+        return std::move(*this);
     }
     [[nodiscard]] TableColumn withColour(Colour read) && {
         colour = std::move(read);
@@ -157,12 +177,18 @@ public:
             return toolTipOf(column.help);
         case Qt::TextAlignmentRole:
             return column.isNumber ? numberAlignment() : QVariant();
+        case kRoomRole:
+            return QVariant::fromValue(room(section));
         default:
             return {};
         }
     }
 
 protected:
+    /// A model whose columns need another room from now on announces a change of their headers.
+    [[nodiscard]] virtual ColumnRoom room(int column) const {
+        return m_columns[static_cast<std::size_t>(column)].room;
+    }
     explicit ColumnModel(std::vector<TableColumn<Row>> columns, QObject* parent = nullptr)
         : Base(parent), m_columns(std::move(columns)) {}
 
@@ -251,7 +277,7 @@ public:
     void dimWhile(std::function<bool()> isPast) { m_isPast = std::move(isPast); }
 
 private:
-    [[nodiscard]] std::vector<TableColumn<Property>> columns() const;
+    [[nodiscard]] std::vector<TableColumn<Property>> columns(const std::vector<Property>& properties) const;
 
     std::function<bool()> m_isPast;
 };

@@ -58,9 +58,12 @@ double valueIn(const Row& row, int column) {
 constexpr int kDistanceDecimals = 1; // of mm
 constexpr int kTurnDecimals = 2;     // of degrees
 
-DifferenceColumn numbers(const QString& title, const QString& help, int column, int decimals) {
+DifferenceColumn numbers(const QString& title, const QString& help, int column, int decimals,
+                         int order = ColumnRoom::kOnChoice) {
     return DifferenceColumn::numbers(
-        title, help, [column, decimals](const Row& row) { return fixed(valueIn(row, column), decimals); });
+               title, help,
+               [column, decimals](const Row& row) { return fixed(valueIn(row, column), decimals); })
+        .in({.usual = QStringLiteral("9999.9"), .order = order});
 }
 
 } // namespace
@@ -75,19 +78,22 @@ std::vector<DifferenceColumn> DifferenceModel::columns() {
     auto name = DifferenceColumn::words(
         tr("Segment"), tr("Segments that both bodies have; the colour is that in the viewport"),
         [](const Row& row) { return segmentOfSlot(row.slot); });
+    name.room = {.usual = QStringLiteral("■ Right Upper Arm"), .isOpen = true};
     name.more = [](const Row& row, int role) {
         return role == kSwatchRole && row.colour.isValid() ? QVariant(row.colour) : QVariant();
     };
     return withHelpInCells(std::vector<DifferenceColumn>{
         std::move(name),
         numbers(tr("Now mm"), tr("Between the origins of the segment, at the moment that is shown"), kNow,
-                kDistanceDecimals),
-        numbers(tr("Mean mm"), tr("Mean distance of the origins over the range"), kMean, kDistanceDecimals),
-        numbers(tr("Worst mm"), tr("Largest distance of the origins in the range"), kMost, kDistanceDecimals),
+                kDistanceDecimals, 0),
+        numbers(tr("Mean mm"), tr("Mean distance of the origins over the range"), kMean, kDistanceDecimals,
+                0),
+        numbers(tr("Worst mm"), tr("Largest distance of the origins in the range"), kMost, kDistanceDecimals,
+                4),
         numbers(tr("Now °"), tr("Turn from one orientation to the other, at the moment that is shown"),
-                kNowTurn, kTurnDecimals),
-        numbers(tr("Mean °"), tr("Mean turn over the range"), kMeanTurn, kTurnDecimals),
-        numbers(tr("Worst °"), tr("Largest turn in the range"), kMostTurn, kTurnDecimals),
+                kNowTurn, kTurnDecimals, 3),
+        numbers(tr("Mean °"), tr("Mean turn over the range"), kMeanTurn, kTurnDecimals, 2),
+        numbers(tr("Worst °"), tr("Largest turn in the range"), kMostTurn, kTurnDecimals, 1),
         numbers(tr("Median mm"), tr("Half of the distances in the range are below"), kMedian,
                 kDistanceDecimals),
         numbers(tr("95 % mm"), tr("95 of 100 distances in the range are below"), kP95, kDistanceDecimals),

@@ -49,8 +49,12 @@ QColor countColour(const FaultRow& row, int column) {
 }
 
 FaultColumn countColumn(int column, const QString& title, const QString& help) {
+    // Shares give way to names.
+    const QString mark = column == FaultModel::kLost ? QStringLiteral("▲ ") : QString();
     FaultColumn made =
-        FaultColumn::numbers(title, help, [column](const FaultRow& row) { return countText(row, column); });
+        FaultColumn::numbers(title, help, [column](const FaultRow& row) {
+            return countText(row, column);
+        }).in({.usual = mark + QStringLiteral("9 999"), .wish = mark + QStringLiteral("9 999 <0.1 %")});
     made.colour = [column](const FaultRow& row) { return QVariant(countColour(row, column)); };
     made.more = [column](const FaultRow& row, int role) {
         const std::uint64_t lost = lostIn(row, column);
@@ -76,6 +80,7 @@ std::vector<TableColumn<FaultRow>> FaultModel::columns(const FaultModel& model) 
         tr("Character"),
         tr("Each character is one row through restarts of its sender; its streams are below it"),
         [&model](const FaultRow& row) { return model.nameOf(row); });
+    name.room = {.usual = QStringLiteral("      All characters"), .isOpen = true, .whole = 16};
     name.more = [&model](const FaultRow& row, int role) { return model.marksOf(row, role); };
     name.spoken = [&model](const FaultRow& row) {
         return row.kind == FaultRow::Character ? nameApart(model.m_view, row.current) : model.nameOf(row);
@@ -89,7 +94,9 @@ std::vector<TableColumn<FaultRow>> FaultModel::columns(const FaultModel& model) 
         countColumn(kSender, tr("Sender"), tr("Samples that the sender never sent")),
         countColumn(kUnknown, tr("Unknown"), tr("Samples lost without evidence of the cause")),
         countColumn(kLost, tr("Lost"), tr("Samples of which nothing or not all came, whatever the cause")),
-        std::move(expected).dimmed()});
+        std::move(expected)
+            .in({.usual = QStringLiteral("99 999 999"), .order = ColumnRoom::kOnChoice})
+            .dimmed()});
 }
 
 QString FaultModel::nameOf(const FaultRow& row) const {
@@ -170,6 +177,7 @@ void FaultModel::refresh() {
     }
     if (std::ranges::equal(rows, m_rows, &FaultRow::isSame)) {
         m_rows = std::move(rows);
+        chooseCauses();
         announceChange();
         return;
     }
@@ -181,6 +189,31 @@ void FaultModel::refresh() {
         place(static_cast<int>(i), parents[i]);
     }
     endResetModel();
+    chooseCauses();
+}
+
+void FaultModel::chooseCauses() {
+    constexpr std::size_t kMostLeaving = 2;
+    std::vector<int> leaving;
+    for (const int column : {kThisComputer, kUnknown, kSender}) {
+        if (!m_rows.empty() && lostIn(m_rows.front(), column) == 0 && leaving.size() < kMostLeaving) {
+            leaving.push_back(column);
+        }
+    }
+    if (std::exchange(m_leaving, leaving) != leaving) {
+        emit headerDataChanged(Qt::Horizontal, kThisComputer, kUnknown);
+    }
+}
+
+ColumnRoom FaultModel::room(int column) const {
+    ColumnRoom given = ColumnModel::room(column);
+    const auto place = std::ranges::find(m_leaving, column);
+    if (column == kLost) {
+        given.order = 1;
+    } else if (place != m_leaving.end()) {
+        given.order = 2 + static_cast<int>(place - m_leaving.begin());
+    }
+    return given;
 }
 
 QModelIndex FaultModel::indexOf(const FaultRow& like, int column) const {

@@ -51,6 +51,10 @@ public:
 
     [[nodiscard]] QVariant data(const QModelIndex& index, int role = Qt::DisplayRole) const override;
 
+protected:
+    /// In a narrow dock causes of nothing leave before those of something, two at most.
+    [[nodiscard]] ColumnRoom room(int column) const override;
+
 private:
     [[nodiscard]] static std::vector<TableColumn<FaultRow>> columns(const FaultModel& model);
     [[nodiscard]] QString nameOf(const FaultRow& row) const;
@@ -58,7 +62,10 @@ private:
     /// -1 for those at the top.
     [[nodiscard]] std::vector<int> parentsOf(const std::vector<FaultRow>& rows) const;
 
+    void chooseCauses();
+
     model::SessionView& m_view;
+    std::vector<int> m_leaving; ///< columns of causes, the first one first
     std::optional<model::TimeRange> m_range;
     std::vector<FaultRow> m_rows; ///< by node; streams follow their character
 };

@@ -51,6 +51,38 @@ std::vector<TableColumn<std::int32_t>> FieldModel::columns(const FieldModel& mod
     return columns;
 }
 
+/// A narrow tree shows fields and values; a wide one all there is, or two packets beside each other. Without
+/// room for a vector, its components below it can still be read.
+ColumnRoom FieldModel::room(int column) const {
+    const bool isComparing = m_other != nullptr;
+    const int onCompare = isComparing ? 0 : ColumnRoom::kOnChoice;
+    const QString value =
+        isComparing ? QStringLiteral("−0.00  −0.00 m") : QStringLiteral("−0.000  −0.000  −0.000 m");
+    const QString least = QStringLiteral("23 × 736 bytes");
+    switch (column) {
+    case kField:
+        return {.usual = QStringLiteral("Segment 10 · Right Upper Armxx"),
+                .least = QStringLiteral("12345678"),
+                .isOpen = true};
+    case kValue:
+        return {.usual = value, .least = least};
+    case kWire:
+        return {.usual = QStringLiteral("-0.00000001  -0.0000"),
+                .wish = QStringLiteral("-0.00000001  -0.00000001  -0.00000001 m"),
+                .least = least,
+                .order = isComparing ? ColumnRoom::kOnChoice : 3};
+    case kOther:
+        return {.usual = value, .least = least, .order = onCompare};
+    case kDifference:
+        return {.usual = QStringLiteral("−0.0000 m"), .least = QStringLiteral("−0.0 m"), .order = onCompare};
+    case kMeaning:
+        return {
+            .usual = QStringLiteral("quaternion w x y z, not of unit length"), .order = 2, .isOpen = true};
+    default:
+        return {.usual = QStringLiteral("§ N 2.5.10"), .order = 1};
+    }
+}
+
 void FieldModel::setDocument(std::shared_ptr<const FieldDocument> document) {
     if (m_other == nullptr && m_document->hasSameRows(*document) && !document->isEmpty()) {
         m_document = std::move(document);

@@ -30,6 +30,9 @@ public:
 
     [[nodiscard]] QVariant data(const QModelIndex& index, int role) const override;
 
+protected:
+    [[nodiscard]] ColumnRoom room(int column) const override;
+
 private:
     void match();
     void arrange();

@@ -107,6 +107,7 @@ IncidentColumn severityColumn() {
                    ? tr("provisional")
                    : PropertyValue{severityWord(severity), healthOf(severity)}.display();
     });
+    column.room = {.usual = QStringLiteral("    ▲ warning"), .least = QStringLiteral("Severity")};
     column.colour = [](const IncidentLine& line) {
         const model::IncidentSeverity severity = line.incident().severity();
         const bool isQuiet = line.state == State::Provisional || severity == model::IncidentSeverity::Info;
@@ -136,11 +137,19 @@ std::vector<IncidentColumn> textColumns(model::SessionView& view) {
                                     return timeOfDay(view.wallOf(line.isPart ? line.part()->from
                                                                              : line.incident().firstStamp));
                                 })
+            .in({.usual = QStringLiteral("10:42:17.508"), .order = 5})
             .withToolTip([&view](const IncidentLine& line) { return fromTo(view, line); }),
         IncidentColumn::words(tr("Whose"), tr("Character and stream, or the sender"), whose)
+            .in({.usual = QStringLiteral("Mira Lindqvist · 02"),
+                 .wish = QStringLiteral("Mira Lindqvist · 02 Pose, quaternion"),
+                 .least = QStringLiteral("20 c")})
             .withToolTip(whose),
         // Whose fault it was stands beside it, in a column of its own.
         IncidentColumn::words(tr("What happened"), {}, words)
+            .in({.usual = QStringLiteral("11509 samples lost in 11293 gaps"),
+                 .wish = QStringLiteral("1509 samples lost in 1293 gaps. 10 not yet here."),
+                 .least = QStringLiteral("1509 samples lost"),
+                 .isOpen = true})
             .withToolTip(words)
             .withMore([&view](const IncidentLine& line, int role) {
                 const bool isLong =
@@ -151,25 +160,32 @@ std::vector<IncidentColumn> textColumns(model::SessionView& view) {
     };
 }
 
+/// Whose fault it was stays longest beside what happened, which tells the rest.
 std::vector<IncidentColumn> figureColumns(const model::SessionView& view) {
     return {
-        IncidentColumn::numbers(tr("Lost"), tr("Samples lost for good"), lostWords),
-        IncidentColumn::words(tr("Cause"), tr("Whose loss it was"), causeWords),
+        IncidentColumn::numbers(tr("Lost"), tr("Samples lost for good"), lostWords)
+            .in({.usual = QStringLiteral("99 999"), .order = 4}),
+        IncidentColumn::words(tr("Cause"), tr("Whose loss it was"), causeWords)
+            .in({.usual = QStringLiteral("this computer"), .order = 7}),
         IncidentColumn::numbers(tr("Lasted"), tr("From its begin to its end"),
-                                [&view](const IncidentLine& line) { return lasted(view, line); }),
+                                [&view](const IncidentLine& line) { return lasted(view, line); })
+            .in({.usual = QStringLiteral("provisional"), .order = 6}),
         IncidentColumn::numbers(tr("Count"), tr("How often it happened in this incident"),
                                 [](const IncidentLine& line) {
                                     const auto* part = line.part();
                                     return grouped(part != nullptr ? part->count : line.incident().count);
-                                }),
+                                })
+            .in({.usual = QStringLiteral("99 999"), .order = 3}),
         IncidentColumn::words(tr("Kind"), {},
                               [](const IncidentLine& line) {
                                   return line.isPart ? QString() : fromUtf8(nameOf(line.incident().kind));
-                              }),
+                              })
+            .in({.usual = QStringLiteral("metadata change"), .order = 2}),
         IncidentColumn::words(tr("Group"), {},
                               [](const IncidentLine& line) {
                                   return line.isPart ? QString() : groupWord(line.incident().group());
-                              }),
+                              })
+            .in({.usual = QStringLiteral("Content"), .order = 1}),
     };
 }
 

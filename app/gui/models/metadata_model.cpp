@@ -52,7 +52,11 @@ MetadataColumn nameColumn() {
         const QString text = isTag(row) && role == kSuffixRole ? suffixOf(row) : QString();
         return text.isEmpty() ? QVariant() : text;
     };
-    return MetadataColumn::words(tr("Tag"), {}, labelOf).dimmed().withToolTip(toolTip).withMore(suffix);
+    return MetadataColumn::words(tr("Tag"), {}, labelOf)
+        .in({QStringLiteral("name · 22 changes")})
+        .dimmed()
+        .withToolTip(toolTip)
+        .withMore(suffix);
 }
 
 PropertyValue shownValue(const model::SessionView& view, const MetadataRow& row) {
@@ -85,12 +89,17 @@ MetadataColumn sentColumn(model::SessionView& view) {
     const auto span = [](const MetadataRow& row, int role) {
         return role == kSpanRole && row.fact != nullptr ? QVariant(true) : QVariant();
     };
-    return MetadataColumn::numbers(tr("Sent"), {}, text).dimmed().withToolTip(toolTip).withMore(span);
+    return MetadataColumn::numbers(tr("Sent"), {}, text)
+        .in({.usual = QStringLiteral("99 min"), .order = 1})
+        .dimmed()
+        .withToolTip(toolTip)
+        .withMore(span);
 }
 
 std::vector<MetadataColumn> metadataColumns(model::SessionView& view) {
     const auto read = [&view](const MetadataRow& row) { return shownValue(view, row); };
     MetadataColumn value = valueColumn(MetadataColumn{.title = tr("Value"), .isNumber = true}, read);
+    value.room = {.usual = QStringLiteral("12345678"), .isOpen = true};
     value.colour = [read](const MetadataRow& row) {
         return row.isEarlier ? QVariant(theme().dim) : read(row).colour();
     };

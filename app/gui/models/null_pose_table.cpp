@@ -45,7 +45,8 @@ QString matrixText(const wire::Mat3& matrix, const QString& betweenRows) {
 template <class Row, class Read>
 TableColumn<Row> coordinateColumn(const QString& title, const QString& help, int axis, Read read) {
     return TableColumn<Row>::numbers(
-        title, help, [axis, read](const Row& row) { return fixed(read(row, axis), kMetreDecimals); });
+               title, help, [axis, read](const Row& row) { return fixed(read(row, axis), kMetreDecimals); })
+        .in({QStringLiteral("−9.9999")});
 }
 
 /// "31, 2, 0": the bits that are set, highest first; "–" for none.
@@ -98,7 +99,8 @@ TableColumn<SegmentRow> positionColumn(const QString& title, const QString& help
 }
 
 TableColumn<SegmentRow> distanceColumn(const QString& title, const QString& help,
-                                       std::optional<Eigen::Vector3d> SegmentRow::*distance, bool isChange) {
+                                       std::optional<Eigen::Vector3d> SegmentRow::*distance, int order,
+                                       bool isChange) {
     const auto text = [distance](const SegmentRow& row) {
         return millimetres(row.*distance ? std::optional((row.*distance)->norm()) : std::nullopt);
     };
@@ -107,6 +109,7 @@ TableColumn<SegmentRow> distanceColumn(const QString& title, const QString& help
         return QVariant(isChange && hasMoved ? theme().warning : theme().dim);
     };
     return TableColumn<SegmentRow>::numbers(title, help, text)
+        .in({.usual = QStringLiteral("999.9"), .order = order})
         .withColour(colour)
         .withToolTip([distance](const SegmentRow& row) { return placeText(row.*distance); });
 }
@@ -116,20 +119,22 @@ std::vector<TableColumn<SegmentRow>> segmentColumns() {
     return {
         Column::numbers(tr("ID"), tr("Place in the message, from 1: type 13 sends no IDs"),
                         [](const auto& row) { return QString::number(row.place + 1); })
+            .in({.usual = QStringLiteral("99"), .order = 3})
             .dimmed(),
         Column::words(tr("Segment"), tr("Name in the specification; as sent where it has none such"),
-                      [](const auto& row) { return fromUtf8(row.segment.title()); }),
+                      [](const auto& row) { return fromUtf8(row.segment.title()); })
+            .in({.usual = QStringLiteral("Right Upper Arm"), .isOpen = true}),
         positionColumn(tr("x m"), tr("Origin of the segment: x forward, Z-up"), 0),
         positionColumn(tr("y m"), tr("Origin of the segment: y to the left, Z-up"), 1),
         positionColumn(tr("z m"), tr("Origin of the segment: height over the balls of the feet"), 2),
         distanceColumn(
             tr("Δ last mm"),
             tr("How far the segment moved since the newest message that said something else, as sent"),
-            &SegmentRow::fromBefore, true),
+            &SegmentRow::fromBefore, 2, true),
         distanceColumn(tr("Δ ref mm"),
                        tr("How far the segment is from that of the reference body of the same height, which "
                           "stands on the same balls of the feet with its pelvis above them"),
-                       &SegmentRow::fromReference, false),
+                       &SegmentRow::fromReference, 1, false),
     };
 }
 
@@ -157,10 +162,12 @@ std::vector<TableColumn<PointRow>> pointColumns() {
     };
     return {
         Column::numbers(tr("ID"), tr("Segment and point within it"), id)
+            .in({.usual = QStringLiteral("99.99"), .order = 3})
             .withColour(valueColour)
             .withToolTip(whose),
         Column::words(tr("Point"), tr("Name as sent; joints begin with j"),
                       [](const auto& row) { return shown(row.point.name); })
+            .in({.usual = QStringLiteral("jRightUpperArm"), .isOpen = true})
             .withColour(pointColour)
             .withToolTip(whose),
         coordinate(tr("x m"), 0),
@@ -172,11 +179,13 @@ std::vector<TableColumn<PointRow>> pointColumns() {
                         [](const PointRow& row) {
                             return QStringLiteral("0x%1").arg(row.point.flags, 8, 16, QLatin1Char('0'));
                         })
+            .in({.usual = QStringLiteral("0x00000000"), .order = 2})
             .withColour(valueColour),
         Column::numbers(tr("Bits"),
                         tr("Bits of the flags that are set, 0 being the lowest; their meaning is not "
                            "published"),
                         [](const PointRow& row) { return bitsText(row.point.flags); })
+            .in({.usual = QStringLiteral("31, 30"), .order = 1})
             .withColour(valueColour),
     };
 }
@@ -195,19 +204,22 @@ std::vector<TableColumn<Length>> lengthColumns() {
     using Column = TableColumn<Length>;
     const QString extent = tr("From the segment's origin to the next one's, or to its end point");
     return {
-        Column::words(tr("Length"), {}, [](const auto& length) { return fromUtf8(length.name); }),
+        Column::words(tr("Length"), {}, [](const auto& length) { return fromUtf8(length.name); })
+            .in({.usual = QStringLiteral("12345678"), .isOpen = true}),
         Column::numbers(tr("Left mm"), extent,
                         [](const auto& length) {
                             return millimetres(length.left >= 0 ? length.leftMetres : length.rightMetres);
-                        }),
-        Column::numbers(tr("Right mm"), extent,
-                        [](const auto& length) {
-                            return length.left >= 0 ? millimetres(length.rightMetres) : QString();
-                        }),
+                        })
+            .in({QStringLiteral("9999.9")}),
+        Column::numbers(
+            tr("Right mm"), extent,
+            [](const auto& length) { return length.left >= 0 ? millimetres(length.rightMetres) : QString(); })
+            .in({QStringLiteral("9999.9")}),
         Column::numbers(
             tr("L − R mm"),
             tr("Left minus right; marked from 5 mm, since bodies that MVN measured are symmetric"),
             differenceText)
+            .in({QStringLiteral("▲ −999.9")})
             .withColour([](const Length& length) {
                 return QVariant(length.isAsymmetric() ? theme().warning : theme().dim);
             }),
@@ -225,14 +237,17 @@ std::vector<TableColumn<SegmentScale>> scaleColumns() {
     const QString help = tr("Offset from the default position; the specification names no unit");
     return {
         Column::numbers(tr("ID"), {}, [](const auto& segment) { return QString::number(segment.id); })
+            .in({QStringLiteral("99")})
             .dimmed(),
         Column::words(tr("Segment"), {},
-                      [](const auto& segment) { return segmentText(static_cast<int>(segment.id)); }),
+                      [](const auto& segment) { return segmentText(static_cast<int>(segment.id)); })
+            .in({QStringLiteral("Right Upper Arm")}),
         coordinateColumn<SegmentScale>(tr("x"), help, 0, offset),
         coordinateColumn<SegmentScale>(tr("y"), help, 1, offset),
         coordinateColumn<SegmentScale>(tr("z"), help, 2, offset),
         Column::words(tr("Matrix"), tr("Rotation and scale relative to the default, row by row as sent"),
                       matrix(QStringLiteral(" ; ")))
+            .in({.usual = QStringLiteral("12345678"), .isOpen = true})
             .withToolTip(matrix(QStringLiteral("\n"))),
     };
 }

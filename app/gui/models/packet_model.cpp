@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace posewire::gui {
 
@@ -94,6 +95,20 @@ std::vector<PacketColumn> PacketModel::columns(const PacketModel& model) {
             .withColour(noteColour)
             .withToolTip(note),
     };
+    const auto give = [&columns](Column column, ColumnRoom room) { columns[column].room = std::move(room); };
+    give(kNumber, {.usual = grouped(9'999'999)});
+    give(kTime, {.usual = QStringLiteral("9999.9999"), .order = 4});
+    give(kDelta, {.usual = QStringLiteral("9999.99"), .order = 3});
+    give(kSender, {.usual = QStringLiteral("192.168.10.21:52011")});
+    give(kType, {.usual = QStringLiteral("22 Angular kinematics"), .least = QStringLiteral("22 Angula")});
+    give(kCharacter, {.usual = QStringLiteral("● 0 Mira Lin"),
+                      .wish = QStringLiteral("● 10 Mira Lindqvist"),
+                      .least = QStringLiteral("● 10 Mi")});
+    give(kSample, {.usual = grouped(99'999), .order = 5});
+    give(kPart, {.usual = QStringLiteral("1/1"), .order = 1});
+    give(kSize, {.usual = QStringLiteral("9 999"), .order = 2});
+    give(kNote,
+         {.usual = QStringLiteral("▲ network: 1 lost"), .least = QStringLiteral("123456"), .isOpen = true});
     columns[kCharacter].more = [&model](const PacketFacts& facts, int role) {
         return model.characterMark(facts, role);
     };
@@ -111,6 +126,7 @@ void PacketModel::refresh() {
     m_facts.reset();
     removeDropped();
     insertNew();
+    noteSenders();
     const model::Annotations& annotations = m_view.annotations();
     const model::Cursor& cursor = m_view.cursor();
     const bool isChanged =
@@ -120,6 +136,24 @@ void PacketModel::refresh() {
         m_cursor = cursor;
         announceChange();
     }
+}
+
+/// If everything comes from one sender, its address says nothing, and the note has the room.
+void PacketModel::noteSenders() {
+    const bool hasSenders = m_view.senders().size() > 1;
+    if (std::exchange(m_hasSenders, hasSenders) != hasSenders) {
+        emit headerDataChanged(Qt::Horizontal, kSender, kSender);
+    }
+}
+
+ColumnRoom PacketModel::room(int column) const {
+    ColumnRoom given = ColumnModel::room(column);
+    if (column == kTime && m_timeMode == TimeMode::TimeOfDay) {
+        given.usual = QStringLiteral("2026-11-21 10:42:17.508123");
+    } else if (column == kSender && !m_hasSenders) {
+        given.order = ColumnRoom::kOnChoice;
+    }
+    return given;
 }
 
 void PacketModel::removeDropped() {

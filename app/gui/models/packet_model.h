@@ -62,8 +62,12 @@ public:
     [[nodiscard]] QVariant data(const QModelIndex& index, int role = Qt::DisplayRole) const override;
     [[nodiscard]] QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
 
+protected:
+    [[nodiscard]] ColumnRoom room(int column) const override;
+
 private:
     const PacketFacts* facts(int row) const;
+    void noteSenders();
     void removeDropped();
     void insertNew();
     /// With those that are yet to be inserted.
@@ -83,6 +87,7 @@ private:
     std::uint64_t m_begin = 0;   ///< without a filter: the packet of the first row
     PacketNumbers m_matches;     ///< with a filter; the first m_rows of them are rows
     PacketNumbers m_problems;    ///< those of m_matches that are problems
+    bool m_hasSenders = false;   ///< more than one
     std::uint64_t m_removed = 0; ///< rows that went at the front
     TimeMode m_timeMode = TimeMode::SinceFirst;
     DeltaMode m_deltaMode = DeltaMode::Stream;

@@ -145,7 +145,8 @@ namespace {
 /// A figure of an input that is open.
 InputColumn figureColumn(const QString& title, const QString& help, QString (*figure)(const PortState&)) {
     return InputColumn::numbers(
-        title, help, [figure](const PortState& input) { return input.id ? figure(input) : dash(); });
+               title, help, [figure](const PortState& input) { return input.id ? figure(input) : dash(); })
+        .in({QStringLiteral("100 000")});
 }
 
 InputColumn hostColumn() {
@@ -155,23 +156,29 @@ InputColumn hostColumn() {
     };
     return InputColumn::words(tr("Host"), tr("Where it is heard; for a connection to a sender, that sender"),
                               [](const PortState& input) { return hostText(input.port); })
+        .in({QStringLiteral("this computer · every address")})
         .withMore(suffix);
 }
 
 std::vector<InputColumn> inputColumns() {
     return {
         InputColumn::words(tr("Protocol"), {},
-                           [](const PortState& input) { return protocolText(input.port); }),
+                           [](const PortState& input) { return protocolText(input.port); })
+            .in({tr("TCP, connecting")}),
         hostColumn(),
         InputColumn::numbers(tr("Port"), {},
-                             [](const PortState& input) { return QString::number(input.port.port); }),
-        valueColumn(InputColumn{.title = tr("State")}, inputState),
+                             [](const PortState& input) { return QString::number(input.port.port); })
+            .in({QStringLiteral("65535")}),
+        valueColumn(InputColumn{.title = tr("State"),
+                                .room = {.usual = tr("listening, nobody has connected"), .isOpen = true}},
+                    inputState),
         figureColumn(tr("Datagrams/s"), tr("Over the last second, foreign ones included"),
                      [](const PortState& input) {
                          return grouped(static_cast<std::uint64_t>(std::lround(input.datagramsPerSecond)));
                      }),
         figureColumn(tr("Datagrams"), tr("Since it was opened, foreign ones included"),
-                     [](const PortState& input) { return grouped(input.status.datagrams); }),
+                     [](const PortState& input) { return grouped(input.status.datagrams); })
+            .in({QStringLiteral("100 000 000")}),
         figureColumn(tr("Dropped here"),
                      tr("Datagrams that reached this computer and found its receive buffer full; TCP makes "
                         "the sender wait instead"),
@@ -193,7 +200,8 @@ std::vector<InputColumn> inputColumns() {
 using RelayColumn = TableColumn<RelayState>;
 
 RelayColumn relayCount(const QString& title, const QString& help, std::uint64_t RelayState::*count) {
-    return RelayColumn::numbers(title, help, [count](const auto& relay) { return grouped(relay.*count); });
+    return RelayColumn::numbers(title, help, [count](const auto& relay) { return grouped(relay.*count); })
+        .in({QStringLiteral("100 000")});
 }
 
 RelayColumn troubleColumn(const QString& title, const QString& help, std::uint64_t RelayState::*count) {
@@ -208,11 +216,17 @@ std::vector<RelayColumn> relayColumns() {
                                           : QVariant();
     };
     return {
-        RelayColumn::words(tr("Host"), {}, [](const auto& relay) { return relay.target.host; }).withMore(box),
+        RelayColumn::words(tr("Host"), {}, [](const auto& relay) { return relay.target.host; })
+            .in({QStringLiteral("☑ motion-capture.studio")})
+            .withMore(box),
         RelayColumn::numbers(tr("Port"), {},
-                             [](const auto& relay) { return QString::number(relay.target.port); }),
-        valueColumn(RelayColumn{.title = tr("State")}, relayStage),
-        relayCount(tr("Sent"), tr("Datagrams forwarded"), &RelayState::sent),
+                             [](const auto& relay) { return QString::number(relay.target.port); })
+            .in({QStringLiteral("65535")}),
+        valueColumn(
+            RelayColumn{.title = tr("State"), .room = {.usual = tr("looking up studio"), .isOpen = true}},
+            relayStage),
+        relayCount(tr("Sent"), tr("Datagrams forwarded"), &RelayState::sent)
+            .in({QStringLiteral("100 000 000")}),
         troubleColumn(
             tr("Refused"),
             tr("Datagrams that this system did not take (no way there, or too long for UDP), or that "

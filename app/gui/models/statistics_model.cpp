@@ -21,18 +21,21 @@ using enum model::Figure;
 
 struct Column {
     std::optional<model::Figure> figure;
-    const char* sample = "9999.99"; ///< as wide as its content may become
+    const char* usual = "9999.99";
+    int order = ColumnRoom::kOnChoice;
 };
 
+/// Shown are those that decide whether a stream is good, and whose fault it is if not; the others on choice.
+/// Whose fault it was stays longest; other docks have the rate and what was dropped here, too.
 constexpr std::array<Column, kStatisticsColumns> kColumns{{
-    {std::nullopt, ""},
-    {Rate, "9999.9"},
-    {LossShare, "▲ 99.99"},
-    {LostHere, "▲ 9999"},
-    {LostOnNetwork, "▲ 9999"},
-    {LostAtSender, "▲ 9999"},
-    {LostUnknown, "▲ 9999"},
-    {Jitter, "999.99"},
+    {std::nullopt, "    02 Pose, quaternion", 0},
+    {Rate, "9999.9", 2},
+    {LossShare, "▲ 99.99", 7},
+    {LostHere, "▲ 9999", 3},
+    {LostOnNetwork, "▲ 9999", 6},
+    {LostAtSender, "▲ 9999", 5},
+    {LostUnknown, "▲ 9999", 4},
+    {Jitter, "999.99", 1},
     {Lost, "▲ 9999"},
     {Reordered, "99999"},
     {std::nullopt, "0000000"},
@@ -127,10 +130,6 @@ int columnOf(model::Figure figure) {
     return found == kColumns.end() ? -1 : static_cast<int>(found - kColumns.begin());
 }
 
-QString statisticsSample(int column) {
-    return QString::fromUtf8(kColumns[static_cast<std::size_t>(column)].sample);
-}
-
 StatisticsModel::StatisticsModel(model::SessionView& view, QObject* parent)
     : StreamTreeModel(view, columns(*this), parent), m_losses(std::in_place, view, m_range) {}
 
@@ -151,6 +150,10 @@ std::vector<TableColumn<StreamRow>> StatisticsModel::columns(const StatisticsMod
                 return row.kind == Kind::Stream ? model.nameOf(row) : QString();
             },
         .more = [&model](const StreamRow& row, int role) { return model.marksOf(row, role); }};
+    for (std::size_t column = 0; column < columns.size(); ++column) {
+        const auto [figure, usual, order] = kColumns[column];
+        columns[column].room = {.usual = QString::fromUtf8(usual), .order = order, .isOpen = column == 0};
+    }
     return columns;
 }
 

@@ -14,21 +14,15 @@
 
 namespace posewire::gui {
 
-/// The columns of the statistics: the name of a row, then figures, and among them the curve of the rate. The
-/// first are shown as they fit, the others where they are chosen.
+/// The columns of the statistics: the name of a row, then figures, and among them the curve of the rate.
 inline constexpr int kStatisticsColumns = 36;
 inline constexpr int kNameColumn = 0;
 inline constexpr int kCurveColumn = 10;
-/// Those before it are shown until the operator chooses others: what decides whether a stream is good, and
-/// whose fault it is where it is not.
-inline constexpr int kUsualStatistics = 8;
 
 /// The figure of a column; nothing for the name and the curve.
 [[nodiscard]] std::optional<model::Figure> figureIn(int column);
 /// -1 for figures that are not shown.
 [[nodiscard]] int columnOf(model::Figure figure);
-/// As long as the content of a column may become.
-[[nodiscard]] QString statisticsSample(int column);
 
 /// Every figure of every stream, with sums for each character and sender, over the range that is chosen.
 /// Without one they keep counting while the display is paused. Figures are made when they are asked for, once

@@ -145,10 +145,12 @@ namespace {
 using TrackerColumn = TableColumn<wire::Tracker>;
 
 TrackerColumn normColumn(const QString& title, const QString& help, wire::Vec3 wire::Tracker::*quantity,
-                         std::function<bool()> isSent) {
-    return TrackerColumn::numbers(title, help, [quantity, isSent](const wire::Tracker& tracker) {
-        return isSent() ? fixed(norm(tracker.*quantity), 2) : dash();
-    });
+                         int order, std::function<bool()> isSent) {
+    return TrackerColumn::numbers(title, help,
+                                  [quantity, isSent](const wire::Tracker& tracker) {
+                                      return isSent() ? fixed(norm(tracker.*quantity), 2) : dash();
+                                  })
+        .in({.usual = QStringLiteral("99.99"), .order = order});
 }
 
 /// Reads the model only where a cell is asked for.
@@ -156,15 +158,16 @@ std::vector<TrackerColumn> trackerColumns(const TrackerModel& trackers) {
     const auto always = [] { return true; };
     const auto isInertial = [&trackers] { return trackers.hasInertialData(); };
     std::vector<TrackerColumn> columns{
-        TrackerColumn::words(tr("Tracker"), {}, [](const auto& tracker) { return trackerName(tracker.id); }),
+        TrackerColumn::words(tr("Tracker"), {}, [](const auto& tracker) { return trackerName(tracker.id); })
+            .in({QStringLiteral("Right Upper Arm")}),
         normColumn(tr("|f| m/s²"), tr("Norm of the free acceleration: gravity taken away, global"),
-                   &wire::Tracker::freeAcceleration, always),
+                   &wire::Tracker::freeAcceleration, 4, always),
         normColumn(tr("|a| m/s²"), tr("Norm of the acceleration: 9.81 at rest, in the tracker's axes"),
-                   &wire::Tracker::acceleration, isInertial),
+                   &wire::Tracker::acceleration, 3, isInertial),
         normColumn(tr("|ω| rad/s"), tr("Norm of the angular velocity, in the tracker's axes"),
-                   &wire::Tracker::angularVelocity, isInertial),
+                   &wire::Tracker::angularVelocity, 2, isInertial),
         normColumn(tr("|m|"), tr("Norm of the magnetic field, without unit: about 1 where it is undisturbed"),
-                   &wire::Tracker::magneticField, always),
+                   &wire::Tracker::magneticField, 1, always),
         valueColumn(
             TrackerColumn{
                 .title = tr("Flags"),
@@ -172,7 +175,8 @@ std::vector<TrackerColumn> trackerColumns(const TrackerModel& trackers) {
                     tr("Magnetic disturbance: the norm is more than 15 % off its own median of the last "
                        "minute. Saturation: a component of the acceleration was above 156 m/s² or of the "
                        "angular velocity above 34 rad/s in the last 10 s; full scale is assumed to be 16 g "
-                       "and 2000 °/s.")},
+                       "and 2000 °/s."),
+                .room = {.usual = QStringLiteral("▲ magnetic"), .isOpen = true}},
             [&trackers](const wire::Tracker& tracker) { return trackers.state(tracker); }),
     };
     for (TrackerColumn& column : columns) {

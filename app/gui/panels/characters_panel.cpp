@@ -56,12 +56,6 @@ QToolButton* toggle(const QString& name, const QString& text, const QString& too
     return button;
 }
 
-std::vector<QString> figureSamples() {
-    return {QStringLiteral("240"),   QStringLiteral("240.0"), QStringLiteral("9 999"),
-            QStringLiteral("9 999"), QStringLiteral("9 999"), QStringLiteral("9 999"),
-            QStringLiteral("99.9")};
-}
-
 } // namespace
 
 /// Cells of lines that are lower where all have room then.
@@ -111,17 +105,6 @@ CharactersPanel::CharactersPanel(model::SessionView& view, Commands& commands,
     m_table->setObjectName(QStringLiteral("board"));
     m_table->setModel(&m_model);
     m_table->setItemDelegate(m_rows);
-    std::vector<QString> samples{QStringLiteral("         Mira Lindqvist · 10"), QString()};
-    std::ranges::copy(figureSamples(), std::back_inserter(samples));
-    samples.push_back(QStringLiteral("none"));
-    m_table->setColumnSamples(std::move(samples), QStringLiteral("■ 10.0 % lost"));
-    m_table->columns().setGivingWay({CharacterModel::kPose, CharacterModel::kNominal, CharacterModel::kAge,
-                                     CharacterModel::kMeasured, CharacterModel::kLostUnknown,
-                                     CharacterModel::kLostHere, CharacterModel::kLostAtSender,
-                                     CharacterModel::kLostOnNetwork});
-    m_table->columns().addElastic(CharacterModel::kName, QStringLiteral("         Mira Li"),
-                                  QStringLiteral("         Performer with a name · 10"),
-                                  QStringLiteral("         Mira Li"));
     m_table->viewport()->installEventFilter(this);
     column->addWidget(m_table, 1);
 
@@ -131,10 +114,6 @@ CharactersPanel::CharactersPanel(model::SessionView& view, Commands& commands,
     detail->addWidget(m_history);
     m_streams->setObjectName(QStringLiteral("characterStreams"));
     m_streams->setModel(&m_detailModel);
-    samples = {QString()};
-    std::ranges::copy(figureSamples(), std::back_inserter(samples));
-    m_streams->setColumnSamples(std::move(samples), QStringLiteral("02 Pose, quaternion"));
-    m_streams->setOptionalColumns(1);
     detail->addWidget(m_streams);
     column->addWidget(m_detail);
     m_detail->hide();
@@ -177,8 +156,6 @@ void CharactersPanel::addEnded() {
     row->addWidget(forget);
     column->addLayout(row);
     m_endedTable->setModel(&m_endedModel);
-    m_endedTable->setColumnSamples(
-        {QStringLiteral("255.255.255.255:65535"), QString(), QStringLiteral("00:00:00")});
     column->addWidget(m_endedTable);
     m_endedTable->hide();
     m_ended->hide();
@@ -208,34 +185,10 @@ void CharactersPanel::showEmptyState() {
             .arg(port));
 }
 
-/// For names and verdicts, before figures: once there, it stays, so that words shift nothing.
-void CharactersPanel::keepRoom() {
-    constexpr qsizetype kMostOfVerdict = 26; // characters
-    constexpr qsizetype kMostOfName = 16;
-    // Whose loss it is must be read somewhere: beside the verdict, or in it.
-    const bool isCauseBeside = !m_table->columns().isSectionHidden(CharacterModel::kLostOnNetwork);
-    QString verdict;
-    QString name;
-    for (int row = 0; row < m_model.rowCount(); ++row) {
-        const QString said = m_model.index(row, CharacterModel::kVerdict)
-                                 .data(isCauseBeside ? kShortTextRole : Qt::DisplayRole)
-                                 .toString();
-        const QModelIndex who = m_model.index(row, CharacterModel::kName);
-        const QString called =
-            who.data().toString().left(kMostOfName) + QLatin1Char(' ') + who.data(kSuffixRole).toString();
-        verdict = said.size() > verdict.size() ? said : verdict;
-        name = called.size() > name.size() ? called : name;
-    }
-    m_table->columns().keepFigures();
-    m_table->columns().keepOpenFor(verdict.left(kMostOfVerdict));
-    m_table->columns().keepElasticFor(CharacterModel::kName, QStringLiteral("         ") + name);
-}
-
 void CharactersPanel::refresh() {
     m_isFollowing = true;
     m_model.refresh();
     showEmptyState();
-    keepRoom();
     followSelection();
     m_isFollowing = false;
     const model::Unproven unproven = m_view.unproven();

@@ -60,7 +60,6 @@ private:
     void addActions(QMenu& menu, const QModelIndex& index);
     void addEndedActions(QMenu& menu, const QModelIndex& index);
     void showEmptyState();
-    void keepRoom();
     void showEnded();
     void showDetail();
     void fitRows();

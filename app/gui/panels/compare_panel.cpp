@@ -77,14 +77,6 @@ ComparePanel::ComparePanel(model::SessionView& view, Commands& commands, Playbac
     setBackgroundRole(QPalette::Base);
     setAutoFillBackground(true);
     m_table->setModel(&m_differences);
-    const QString number = QStringLiteral("9999.9");
-    m_table->setColumnSamples({QString(), number, number, number, number, number, number,
-                               QStringLiteral("Median mm"), number, QStringLiteral("Median °"), number},
-                              QStringLiteral("■ Right Upper Arm"));
-    m_table->setOptionalColumns(DifferenceModel::kMost);
-    m_table->columns().setUsual({DifferenceModel::kName, DifferenceModel::kNow, DifferenceModel::kMean,
-                                 DifferenceModel::kMost, DifferenceModel::kNowTurn,
-                                 DifferenceModel::kMeanTurn, DifferenceModel::kMostTurn});
     m_table->sortByColumn(DifferenceModel::kMean, Qt::DescendingOrder);
     m_table->setSortingEnabled(true);
     layOut();

@@ -34,68 +34,10 @@ FaultsPanel::FaultsPanel(model::SessionView& view, Commands& commands, QWidget* 
     m_table->setRootIsDecorated(true);
     m_table->setSelectionBehavior(QAbstractItemView::SelectItems);
     m_table->setAllColumnsShowFocus(false);
-    fitColumns();
     m_table->setEmptyText(tr("No stream received yet.\nWhat each character lost, and whose fault it was, is "
                              "counted here: this computer, the network, the sender, or not known."));
     connectParts();
     refresh();
-}
-
-void FaultsPanel::fitColumns() {
-    const QString count = m_number + QStringLiteral(" <0.1 %");
-    m_table->setColumnSamples(
-        {QString(), count, count, count, count, QStringLiteral("▲ ") + count, QStringLiteral("99 999 999")},
-        QStringLiteral("    ● All characters"));
-    // Shares give way to names; whose fault it was stays longest.
-    for (const int column : {FaultModel::kThisComputer, FaultModel::kUnknown, FaultModel::kSender,
-                             FaultModel::kNetwork, FaultModel::kLost}) {
-        const QString title = m_faults.headerData(column, Qt::Horizontal, Qt::DisplayRole).toString();
-        const QString least = column == FaultModel::kLost      ? QStringLiteral("▲ ") + m_number
-                              : title.size() > m_number.size() ? title
-                                                               : m_number;
-        m_table->columns().addElastic(column, least, count, least);
-    }
-    m_givingWay.clear();
-    chooseCauses();
-    m_table->columns().setUsual({FaultModel::kName, FaultModel::kThisComputer, FaultModel::kNetwork,
-                                 FaultModel::kSender, FaultModel::kUnknown, FaultModel::kLost});
-}
-
-/// In a narrow dock causes of nothing are left out before those of something, two at most.
-void FaultsPanel::chooseCauses() {
-    constexpr std::size_t kMostLeftOut = 2;
-    std::vector<int> givingWay{FaultModel::kExpected, FaultModel::kLost};
-    const QModelIndex all = m_faults.index(0, 0);
-    for (const int column : {FaultModel::kThisComputer, FaultModel::kUnknown, FaultModel::kSender}) {
-        const auto cause = static_cast<std::size_t>(column - FaultModel::kThisComputer);
-        const bool isNothing = all.isValid() && m_faults.row(all).counts.lost[cause] == 0;
-        if (isNothing && givingWay.size() < 2 + kMostLeftOut) {
-            givingWay.push_back(column);
-        }
-    }
-    if (givingWay != m_givingWay) {
-        m_givingWay = std::move(givingWay);
-        m_table->columns().setGivingWay(m_givingWay);
-    }
-}
-
-/// Once a number needs it, there is room for all of it, and stays.
-void FaultsPanel::keepNumbers() {
-    const QModelIndex all = m_faults.index(0, 0);
-    const QString most = all.isValid() ? grouped(m_faults.row(all).counts.total()) : QString();
-    if (most.size() > m_number.size()) {
-        m_number = most;
-        fitColumns();
-    }
-}
-
-/// Names are whole before shares are shown, but for very long ones.
-void FaultsPanel::keepNames() {
-    constexpr qsizetype kLongest = 16;
-    for (int row = 0; row < m_faults.rowCount(); ++row) {
-        const QString name = m_faults.index(row, 0).data().toString().left(kLongest);
-        m_table->columns().keepOpenFor(QStringLiteral("    ● %1 · 9").arg(name));
-    }
 }
 
 void FaultsPanel::connectParts() {
@@ -111,9 +53,6 @@ void FaultsPanel::connectParts() {
 void FaultsPanel::refresh() {
     m_choice->refresh();
     m_faults.refresh();
-    keepNumbers();
-    chooseCauses();
-    keepNames();
     const QString span = spanText(m_view);
     m_span->setText(tr("Samples lost"), span.isEmpty() ? QString() : QStringLiteral(" · ") + span);
     m_span->setAccessibleName(m_span->text());

@@ -33,10 +33,6 @@ protected:
 
 private:
     void connectParts();
-    void fitColumns();
-    void keepNumbers();
-    void chooseCauses();
-    void keepNames();
     void addActions(QMenu& menu, const QModelIndex& index);
     void select(const QModelIndex& index);
     void keepPlace();
@@ -47,8 +43,6 @@ private:
     SpanBar* m_choice;
     TableView* m_table;
     PassingMessage* m_message;
-    QString m_number = QStringLiteral("9 999"); ///< as long as numbers have become
-    std::vector<int> m_givingWay;               ///< columns, the first one first
     // While the model is reset:
     std::vector<FaultRow> m_opened;
     std::optional<FaultRow> m_current;

@@ -58,7 +58,7 @@ FieldView::FieldView(FieldModel& model, Commands& commands, QWidget* parent)
         m_wasReset = true;
         m_hovered = {};
     });
-    fitToWidth();
+    columns().setContextMenuPolicy(Qt::NoContextMenu); // its columns follow from the packets
 }
 
 std::int32_t FieldView::currentNode() const {
@@ -82,7 +82,6 @@ void FieldView::change(const std::function<void()>& carryOut) {
         }
         doItemsLayout();
         verticalScrollBar()->setValue(scrolled);
-        fitToWidth();
     }
     m_isChanging = false;
 }
@@ -155,45 +154,6 @@ bool FieldView::viewportEvent(QEvent* event) {
         emit nodeEntered(-1);
     }
     return TableView::viewportEvent(event);
-}
-
-void FieldView::resizeEvent(QResizeEvent* event) {
-    TableView::resizeEvent(event);
-    fitToWidth();
-}
-
-/// A narrow tree shows fields and what they mean to say; a wide one all there is.
-void FieldView::fitToWidth() {
-    const int character = std::max(1, fontMetrics().averageCharWidth());
-    const int width = viewport()->width() / character;
-    const bool isComparing = m_fields.other() != nullptr;
-    const bool isNarrow = width < 52;
-    const int form =
-        (width >= 96 ? 1 : 0) + (width >= 120 ? 2 : 0) + (isComparing ? 4 : 0) + (isNarrow ? 8 : 0);
-    if (form == m_form) {
-        return;
-    }
-    m_form = form;
-    const bool hasMeaning = width >= 120;
-    columns().setUseful(FieldModel::kWire, !isComparing && width >= 96);
-    columns().setUseful(FieldModel::kOther, isComparing);
-    columns().setUseful(FieldModel::kDifference, isComparing);
-    columns().setUseful(FieldModel::kMeaning, hasMeaning);
-    columns().setUseful(FieldModel::kSection, hasMeaning);
-    // Where there is no room for a vector, its components below it can still be read.
-    const QString vector =
-        isNarrow ? QStringLiteral("23 × 736 bytes") : QStringLiteral("−0.000  −0.000  −0.000 m");
-    std::vector<QString> samples(FieldModel::kColumnCount);
-    const QString field = QStringLiteral("Segment 10 · Right Upper Armxx");
-    samples[FieldModel::kField] = hasMeaning ? field : QString();
-    samples[FieldModel::kValue] = isComparing ? QStringLiteral("−0.00  −0.00 m") : vector;
-    samples[FieldModel::kWire] = width >= 120 ? QStringLiteral("-0.00000001  -0.00000001  -0.00000001 m")
-                                              : QStringLiteral("-0.00000001  -0.0000");
-    samples[FieldModel::kOther] = samples[FieldModel::kValue];
-    samples[FieldModel::kDifference] = QStringLiteral("−0.0000 m");
-    samples[FieldModel::kMeaning] = hasMeaning ? QString() : QStringLiteral("x");
-    samples[FieldModel::kSection] = QStringLiteral("§ N 2.5.10");
-    setColumnSamples(std::move(samples));
 }
 
 void FieldView::showMenu(const QPoint& at, const QString& displayFilter) {

@@ -43,10 +43,8 @@ protected:
                  const QModelIndex& index) const override;
     void contextMenuEvent(QContextMenuEvent* event) override;
     bool viewportEvent(QEvent* event) override;
-    void resizeEvent(QResizeEvent* event) override;
 
 private:
-    void fitToWidth();
     void addFilters(QMenu& menu, const QString& displayFilter);
     void restore(const QModelIndex& parent);
     [[nodiscard]] std::string pathOf(const QModelIndex& index) const {
@@ -58,7 +56,6 @@ private:
     std::set<std::string> m_open;
     std::string m_currentPath;
     QModelIndex m_hovered;
-    int m_form = -1;
     bool m_isChanging = false;
     bool m_wasReset = false;
 };

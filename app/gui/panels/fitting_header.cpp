@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/panels/fitting_header.h"
 
+#include "app/gui/models/column.h"
 #include "app/gui/panels/cell_delegate.h"
 #include "app/gui/theme/plain_text.h"
 
@@ -10,23 +11,84 @@
 #include <QScopedValueRollback>
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 
 namespace posewire::gui {
 
+/// A column's part of the width, in pixels.
+struct FittingHeader::Share {
+    int least;
+    int usual;
+    int wish;
+    int order;
+    bool isOpen;
+    bool isShown;
+    int width = 0;
+};
+
 namespace {
+
+using Share = FittingHeader::Share;
 
 /// The style sheet pads titles by 6 pixels at either side.
 constexpr int kTitleSpace = 14;
 
+int widthOf(const std::vector<Share>& shares, int Share::*width) {
+    return std::accumulate(shares.begin(), shares.end(), 0, [width](int sum, const Share& one) {
+        return sum + (one.isShown ? one.*width : 0);
+    });
+}
+
+void leaveInOrder(std::vector<Share>& shares, int room) {
+    std::vector<Share*> leaving;
+    for (Share& one : shares) {
+        if (one.isShown && one.order > 0) {
+            leaving.push_back(&one);
+        }
+    }
+    std::ranges::stable_sort(leaving, {}, [](const Share* one) { return one->order; });
+    for (auto next = leaving.begin(); next != leaving.end() && widthOf(shares, &Share::usual) > room;
+         ++next) {
+        (*next)->isShown = false;
+    }
+}
+
+/// What takes the room left gets what it wishes before others do, and those from the right.
+void shareOut(std::vector<Share>& shares, int room) {
+    const auto open = std::find_if(shares.rbegin(), shares.rend(),
+                                   [](const Share& one) { return one.isOpen && one.isShown; });
+    const int needed = widthOf(shares, &Share::usual);
+    const int slack = needed - widthOf(shares, &Share::least);
+    const double cut = slack == 0 ? 0 : std::clamp((needed - room) / static_cast<double>(slack), 0.0, 1.0);
+    int spare = std::max(0, room - needed);
+    if (open != shares.rend()) {
+        spare = std::max(0, spare - (open->wish - open->usual));
+    }
+    for (auto one = shares.rbegin(); one != shares.rend(); ++one) {
+        const int more = one->isShown && one != open ? std::clamp(one->wish - one->usual, 0, spare) : 0;
+        spare -= more;
+        one->width = one->usual + more - static_cast<int>(std::ceil(cut * (one->usual - one->least)));
+    }
+    if (open != shares.rend()) {
+        open->width = std::max(open->least, room - (widthOf(shares, &Share::width) - open->width));
+    }
+}
+
 } // namespace
 
-FittingHeader::FittingHeader(QAbstractItemView* table, QFont (*cellFont)(), int room, Kept kept)
-    : QHeaderView(Qt::Horizontal, table), m_table(table), m_font(cellFont), m_room(room), m_kept(kept) {
+FittingHeader::FittingHeader(QAbstractItemView* table, QFont (*cellFont)(), int space, Kept kept)
+    : QHeaderView(Qt::Horizontal, table), m_table(table), m_font(cellFont), m_space(space), m_kept(kept) {
     setStretchLastSection(false);
     setMinimumSectionSize(0);
     setHighlightSections(false);
     setTextElideMode(Qt::ElideRight);
     setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
+    connect(this, &QHeaderView::sectionResized, this, [this](int column, int /*before*/, int width) {
+        if (!m_isFitting) {
+            m_dragged[column] = width;
+        }
+    });
     connect(this, &QWidget::customContextMenuRequested, this, [this](const QPoint& at) {
         QMenu menu(this);
         addColumnActions(menu);
@@ -34,78 +96,28 @@ FittingHeader::FittingHeader(QAbstractItemView* table, QFont (*cellFont)(), int 
     });
 }
 
-void FittingHeader::setSamples(std::vector<QString> samples, const QString& leastOpen) {
-    m_samples = std::move(samples);
-    m_leastOpen = leastOpen;
-    while (model() != nullptr && m_names.size() < columns()) {
-        m_names += model()->headerData(static_cast<int>(m_names.size()), Qt::Horizontal).toString();
+void FittingHeader::setModel(QAbstractItemModel* model) {
+    {
+        const QScopedValueRollback guard(m_isFitting, true);
+        QHeaderView::setModel(model);
     }
-    measure();
-}
-
-void FittingHeader::keepOpenFor(const QString& text) {
-    if (textWidth(text) > leastOpenWidth()) {
-        m_leastOpen = text;
-        fit();
+    m_names.clear();
+    m_dragged.clear();
+    m_whole.assign(static_cast<std::size_t>(count()), {});
+    if (model == nullptr) {
+        return;
     }
-}
-
-void FittingHeader::keepFigures() {
-    bool isWider = false;
-    const QAbstractItemModel& rows = *model();
-    for (int column = 0; column < columns(); ++column) {
-        if (isSectionHidden(column) || column == openColumn() || isElastic(column) || !isOfFigures(column)) {
-            continue;
-        }
-        QString& sample = m_samples[static_cast<std::size_t>(column)];
-        for (int row = 0; row < rows.rowCount(); ++row) {
-            const QString text = rows.data(rows.index(row, column), Qt::DisplayRole).toString();
-            if (text.size() > sample.size() && textWidth(text) > sampleWidth(column)) {
-                sample = text;
-                isWider = true;
-            }
-        }
+    for (int column = 0; column < count(); ++column) {
+        m_names += model->headerData(column, Qt::Horizontal).toString();
     }
-    if (isWider) {
-        measure();
-    }
-}
-
-void FittingHeader::wishOpenFor(const QString& text) {
-    m_wishedOpen = text;
+    setContextMenuPolicy(isChoosable() ? Qt::CustomContextMenu : Qt::DefaultContextMenu);
+    connect(model, &QAbstractItemModel::headerDataChanged, this,
+            [this](Qt::Orientation /*orientation*/, int first, int last) {
+                std::fill(m_whole.begin() + first, m_whole.begin() + last + 1, QString());
+                fit();
+            });
+    connect(model, &QAbstractItemModel::modelReset, this, &FittingHeader::fit);
     fit();
-}
-
-void FittingHeader::setUseful(int column, bool isUseful) {
-    if (m_useless.contains(column) == isUseful) {
-        isUseful ? static_cast<void>(m_useless.removeAll(column)) : m_useless.append(column);
-        measure();
-    }
-}
-
-void FittingHeader::setGivingWay(std::vector<int> columns) {
-    m_givingWay = std::move(columns);
-    setContextMenuPolicy(Qt::CustomContextMenu);
-    measure();
-}
-
-void FittingHeader::addElastic(int column, const QString& least, const QString& most, const QString& soon) {
-    std::erase_if(m_elastic, [column](const Elastic& one) { return one.column == column; });
-    m_elastic.push_back({column, least, most, soon});
-    measure();
-}
-
-void FittingHeader::keepElasticFor(int column, const QString& text) {
-    const auto elastic = std::ranges::find(m_elastic, column, &Elastic::column);
-    if (elastic != m_elastic.end() && textWidth(text) > soonWidth(column)) {
-        elastic->soon = text;
-        fit();
-    }
-}
-
-void FittingHeader::setUsual(std::vector<int> columns) {
-    m_usual = std::move(columns);
-    measure();
 }
 
 void FittingHeader::restore(const QJsonObject& state) {
@@ -123,7 +135,7 @@ void FittingHeader::setChosen(const QStringList& columns) {
             m_chosen += name;
         }
     }
-    measure();
+    fit();
 }
 
 QJsonObject FittingHeader::state() const {
@@ -131,120 +143,135 @@ QJsonObject FittingHeader::state() const {
                               : QJsonObject{{"columns", QJsonArray::fromStringList(m_chosen)}};
 }
 
-int FittingHeader::openColumn() const {
-    const auto open = std::ranges::find(m_samples, QString());
-    return open == m_samples.end() ? -1 : static_cast<int>(open - m_samples.begin());
+ColumnRoom FittingHeader::room(int column) const {
+    return model()->headerData(column, Qt::Horizontal, kRoomRole).value<ColumnRoom>();
+}
+
+bool FittingHeader::isChoosable() const {
+    for (int column = 0; column < count(); ++column) {
+        if (room(column).order != 0) {
+            return true;
+        }
+    }
+    return false;
 }
 
 int FittingHeader::textWidth(const QString& text) const {
-    const int margins = 2 * CellDelegate::margin(m_table->fontMetrics()) + m_room;
+    const int margins = 2 * CellDelegate::margin(m_table->fontMetrics()) + m_space;
     return QFontMetrics(m_font()).horizontalAdvance(text) + margins;
 }
 
-int FittingHeader::sampleWidth(int column) const {
+int FittingHeader::usualWidth(int column, const QString& usual) const {
     const QString title = model()->headerData(column, Qt::Horizontal, Qt::DisplayRole).toString();
     const int titleWidth = isHidden() ? 0 : m_table->fontMetrics().horizontalAdvance(title) + kTitleSpace;
-    return std::max(textWidth(m_samples[static_cast<std::size_t>(column)]), titleWidth);
+    const QString& whole = m_whole[static_cast<std::size_t>(column)];
+    return std::max({textWidth(usual), titleWidth, whole.isEmpty() ? 0 : textWidth(whole)});
 }
 
-int FittingHeader::soonWidth(int column) const {
-    const auto elastic = std::ranges::find(m_elastic, column, &Elastic::column);
-    const bool isSoon = elastic != m_elastic.end() && !elastic->soon.isEmpty();
-    return isSoon ? textWidth(elastic->soon) : sampleWidth(column);
-}
-
-int FittingHeader::leastOpenWidth() const {
-    return m_leastOpen.isEmpty() ? m_table->fontMetrics().averageCharWidth() * 22 : textWidth(m_leastOpen);
+FittingHeader::Share FittingHeader::share(int column) const {
+    const ColumnRoom given = room(column);
+    if (const auto dragged = m_dragged.find(column); dragged != m_dragged.end() && !given.isOpen) {
+        return {dragged->second, dragged->second, dragged->second, given.order, false, isWanted(column)};
+    }
+    const int usual = usualWidth(column, given.usual);
+    const int least = given.least.isEmpty() ? usual : std::min(usual, textWidth(given.least));
+    const int wish = given.wish.isEmpty() ? usual : std::max(usual, textWidth(given.wish));
+    return {least, usual, wish, given.order, given.isOpen, isWanted(column)};
 }
 
 bool FittingHeader::isWanted(int column) const {
-    const int kept = m_kept == Kept::First ? 0 : openColumn();
-    if (!m_chosen.isEmpty()) {
-        return column == kept || m_chosen.contains(m_names[column]);
-    }
-    const bool isUsual = m_usual.empty() || std::ranges::find(m_usual, column) != m_usual.end();
-    return column == kept || (isUsual && !m_useless.contains(column));
+    const bool isChosen =
+        m_chosen.isEmpty() ? room(column).order != ColumnRoom::kOnChoice : m_chosen.contains(m_names[column]);
+    return isChosen || isKept(column);
 }
 
-bool FittingHeader::isElastic(int column) const {
-    return std::ranges::find(m_elastic, column, &Elastic::column) != m_elastic.end();
+bool FittingHeader::isKept(int column) const {
+    return m_kept == Kept::First ? column == 0 : room(column).isOpen;
 }
 
 bool FittingHeader::isOfFigures(int column) const {
     return model()->headerData(column, Qt::Horizontal, Qt::TextAlignmentRole).isValid();
 }
 
-void FittingHeader::measure() {
+void FittingHeader::fit() {
     if (model() == nullptr || m_isFitting) {
         return; // sections that change their size ask for this again
     }
-    {
-        const QScopedValueRollback guard(m_isFitting, true);
-        for (int column = 0; column < columns(); ++column) {
-            // What fit() sizes is not sized twice: scroll bars would come and go, and begin all over.
-            if (column != openColumn() && !isElastic(column)) {
-                resizeSection(column, sampleWidth(column));
-            }
-        }
+    std::vector<Share> shares;
+    for (int column = 0; column < count(); ++column) {
+        shares.push_back(share(column));
     }
-    fit();
-}
-
-void FittingHeader::fit() {
-    const int open = openColumn();
-    if (model() == nullptr || open < 0 || m_isFitting) {
+    if (std::ranges::none_of(shares, &Share::isOpen)) {
         return;
     }
     {
         const QScopedValueRollback guard(m_isFitting, true);
-        shareOut(open);
+        const int width = m_table->viewport()->width();
+        if (m_chosen.isEmpty()) {
+            leaveInOrder(shares, width);
+        }
+        shareOut(shares, width);
+        m_isBare =
+            std::ranges::none_of(shares, [](const Share& one) { return one.isShown && one.order > 0; });
+        for (int column = 0; column < count(); ++column) {
+            const Share& one = shares[static_cast<std::size_t>(column)];
+            if (isSectionHidden(column) == one.isShown) {
+                setSectionHidden(column, !one.isShown);
+            }
+            if (one.isShown) {
+                resizeSection(column, one.width);
+            }
+        }
     }
     emit fitted();
 }
 
-void FittingHeader::shareOut(int open) {
-    const int width = m_table->viewport()->width();
-    std::vector<bool> isShown;
-    int needed = leastOpenWidth();
-    for (int column = 0; column < columns(); ++column) {
-        isShown.push_back(isWanted(column));
-        needed += isShown.back() && column != open ? soonWidth(column) : 0;
+void FittingHeader::keepWhole() {
+    if (model() == nullptr) {
+        return;
     }
-    for (const int column : m_givingWay) {
-        const auto place = static_cast<std::size_t>(column);
-        if (m_chosen.isEmpty() && needed > width && isShown[place] && column != open) {
-            isShown[place] = false;
-            needed -= soonWidth(column);
+    for (int y = 1; y < m_table->viewport()->height();) {
+        const QModelIndex row = m_table->indexAt(QPoint(1, y));
+        if (!row.isValid()) {
+            return;
         }
+        keepWhole(row);
+        y = std::max(y, m_table->visualRect(row).bottom()) + 1;
     }
-    for (int column = 0; column < columns(); ++column) {
-        if (isSectionHidden(column) == isShown[static_cast<std::size_t>(column)]) {
-            setSectionHidden(column, !isSectionHidden(column));
-        }
-    }
-    for (const Elastic& one : m_elastic) {
-        const bool isThere = isShown[static_cast<std::size_t>(one.column)];
-        needed += isThere ? sampleWidth(one.column) - soonWidth(one.column) : 0;
-    }
-    const int spare = width - needed;
-    const int wished = std::max(0, textWidth(m_wishedOpen) - leastOpenWidth());
-    fitElastic(spare > 0 ? std::max(0, spare - wished) : spare);
-    const int others = length() - sectionSize(open);
-    // One that is kept for what it says gets narrower before all of it is scrolled away.
-    const int least = m_kept == Kept::Open ? textWidth(QStringLiteral("123456")) : leastOpenWidth();
-    resizeSection(open, std::max(least, width - others));
 }
 
-/// `spare` is what is left of the width, less than 0 where it is too small.
-void FittingHeader::fitElastic(int spare) {
-    for (const Elastic& one : m_elastic) {
-        if (!isSectionHidden(one.column)) {
-            const int usual = sampleWidth(one.column);
-            const int fitting = std::clamp(usual + spare, textWidth(one.least), textWidth(one.most));
-            resizeSection(one.column, fitting);
-            spare -= fitting - usual;
+void FittingHeader::keepWhole(const QModelIndex& row) {
+    bool isWider = false;
+    for (int column = 0; column < count(); ++column) {
+        if (isSectionHidden(column)) {
+            continue;
+        }
+        const QString text = growing(row.siblingAtColumn(column));
+        QString& whole = m_whole[static_cast<std::size_t>(column)];
+        if (text.size() > whole.size() && textWidth(text) > usualWidth(column, room(column).usual)) {
+            whole = text;
+            isWider = true;
         }
     }
+    if (isWider) {
+        fit();
+    }
+}
+
+/// What a cell says that its column has to be wide enough for; empty where it may be cut.
+QString FittingHeader::growing(const QModelIndex& cell) const {
+    const ColumnRoom given = room(cell.column());
+    if (given.whole == 0) {
+        const bool isWhole = isOfFigures(cell.column()) && !given.isOpen && given.least.isEmpty();
+        return isWhole ? cell.data().toString() : QString();
+    }
+    // While columns beside it say the rest, the short form is enough.
+    const QVariant brief = cell.data(kShortTextRole);
+    const QString words = (brief.isValid() && !m_isBare ? brief : cell.data()).toString().left(given.whole);
+    const QString suffix = brief.isValid() ? QString() : cell.data(kSuffixRole).toString();
+    const auto letter = std::ranges::find_if_not(given.usual, [](QChar one) { return one.isSpace(); });
+    const QString before(letter - given.usual.begin(), QLatin1Char(' '));
+    return before + (suffix.isEmpty() ? words : words + QLatin1Char(' ') + suffix);
 }
 
 int FittingHeader::titlesEnd() const {
@@ -282,19 +309,18 @@ int FittingHeader::columnBeside(int column, int direction) const {
 }
 
 void FittingHeader::addColumnActions(QMenu& menu) {
-    QAction* fitting =
-        menu.addAction(m_usual.empty() ? tr("As many columns as fit") : tr("The usual columns"));
+    QAction* fitting = menu.addAction(tr("The usual columns, as they fit"));
     fitting->setCheckable(true);
     fitting->setChecked(m_chosen.isEmpty());
     connect(fitting, &QAction::triggered, this, [this] { setChosen({}); });
     menu.addSeparator();
-    for (int column = m_kept == Kept::First ? 1 : 0; column < columns(); ++column) {
+    for (int column = m_kept == Kept::First ? 1 : 0; column < count(); ++column) {
         QAction* action = menu.addAction(model()->headerData(column, Qt::Horizontal).toString());
         action->setToolTip(
             toolTipText(model()->headerData(column, Qt::Horizontal, Qt::ToolTipRole).toString()));
         action->setCheckable(true);
         action->setChecked(!isSectionHidden(column));
-        action->setEnabled(m_kept == Kept::First || column != openColumn());
+        action->setEnabled(!isKept(column));
         connect(action, &QAction::toggled, this, [this, column](bool isShown) { choose(column, isShown); });
     }
     menu.setToolTipsVisible(true);
@@ -302,7 +328,7 @@ void FittingHeader::addColumnActions(QMenu& menu) {
 
 void FittingHeader::choose(int column, bool isShown) {
     QStringList chosen;
-    for (int each = 0; each < columns(); ++each) {
+    for (int each = 0; each < count(); ++each) {
         if (each == column ? isShown : !isSectionHidden(each)) {
             chosen += m_names[each];
         }

@@ -112,39 +112,9 @@ IncidentsPanel::IncidentsPanel(model::SessionView& view, Commands& commands, QWi
     m_chip->setToolTip(tr("Go to the newest incident and follow (Ctrl+End)"));
     m_chip->hide();
     m_table->setModel(&m_incidents);
-    fitColumns();
     m_table->setRootIsDecorated(true);
-    // Whose fault it was stays longest beside what happened, which tells the rest.
-    m_table->columns().setGivingWay({IncidentModel::kGroup, IncidentModel::kKind, IncidentModel::kCount,
-                                     IncidentModel::kLost, IncidentModel::kTime, IncidentModel::kLasted,
-                                     IncidentModel::kCause});
-    m_table->columns().addElastic(IncidentModel::kSeverity, QStringLiteral("Severity"),
-                                  QStringLiteral("    ▲ warning"));
-    m_table->columns().addElastic(IncidentModel::kWho, QStringLiteral("20 c"),
-                                  QStringLiteral("Mira Lindqvist · 02 Pose, quaternion"));
-    m_table->columns().wishOpenFor(QStringLiteral("1509 samples lost in 1293 gaps. 10 not yet here."));
     connectParts();
     showEmptyState();
-}
-
-/// What happened has the room before other columns do, as long as there is enough for the few that stay.
-void IncidentsPanel::fitColumns() {
-    m_table->setColumnSamples({QStringLiteral("    ▲ warning"), QStringLiteral("10:42:17.508"),
-                               QStringLiteral("Mira Lindqvist · 02"), QString(), QStringLiteral("99 999"),
-                               QStringLiteral("this computer"), QStringLiteral("provisional"),
-                               QStringLiteral("99 999"), QStringLiteral("metadata change"),
-                               QStringLiteral("Content")},
-                              m_isNarrow ? QStringLiteral("1509 samples lost")
-                                         : QStringLiteral("11509 samples lost in 11293 gaps"));
-}
-
-void IncidentsPanel::resizeEvent(QResizeEvent* event) {
-    constexpr int kNarrow = 60; // characters
-    Panel::resizeEvent(event);
-    const bool isNarrow = width() < kNarrow * fontMetrics().averageCharWidth();
-    if (std::exchange(m_isNarrow, isNarrow) != isNarrow) {
-        fitColumns();
-    }
 }
 
 std::span<const ActionInfo> IncidentsPanel::actionTable() {

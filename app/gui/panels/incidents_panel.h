@@ -90,10 +90,8 @@ public:
 
 protected:
     bool eventFilter(QObject* watched, QEvent* event) override;
-    void resizeEvent(QResizeEvent* event) override;
 
 private:
-    void fitColumns();
     void connectParts();
     void addActions(QMenu& menu, const QModelIndex& index);
     void applyFilter(const IncidentModel::Filter& filter);
@@ -113,7 +111,6 @@ private:
     int m_missed = 0;                       ///< came since following ended
     bool m_isFollowing = true;
     bool m_isRefreshing = false;
-    bool m_isNarrow = false;
 };
 
 } // namespace posewire::gui

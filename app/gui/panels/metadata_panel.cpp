@@ -175,8 +175,6 @@ MetadataPanel::MetadataPanel(model::SessionView& view, Commands& commands, QWidg
     layout->addWidget(m_detection);
     m_table->setModel(&m_model);
     m_table->setRootIsDecorated(true);
-    m_table->setColumnSamples({QStringLiteral("name · 22 changes"), QString(), QStringLiteral("99 min")});
-    m_table->setOptionalColumns(2);
     m_table->setEmptyText(
         tr("No character selected.\nMetadata (type 12) appears here as soon as a character arrives."));
 }

@@ -111,27 +111,11 @@ NullPosePanel::NullPosePanel(model::SessionView& view, Commands& commands, QWidg
 }
 
 void NullPosePanel::makeTables() {
-    const QString number = QStringLiteral("−9.9999");
-    const QString distance = QStringLiteral("999.9");
     m_segmentTable->setModel(&m_segments);
-    m_segmentTable->setColumnSamples(
-        {QStringLiteral("99"), QString(), number, number, number, distance, distance},
-        QStringLiteral("Right Upper Arm"));
-    m_segmentTable->columns().setGivingWay(
-        {NullPoseSegmentModel::kFromReference, NullPoseSegmentModel::kFromBefore, NullPoseSegmentModel::kId});
     m_pointTable->setModel(&m_points);
-    m_pointTable->setColumnSamples({QStringLiteral("99.99"), QString(), number, number, number,
-                                    QStringLiteral("0x00000000"), QStringLiteral("31, 30")},
-                                   QStringLiteral("jRightUpperArm"));
-    m_pointTable->columns().setGivingWay(
-        {NullPosePointModel::kBits, NullPosePointModel::kFlags, NullPosePointModel::kId});
     m_lengthTable->setModel(&m_lengths);
-    m_lengthTable->setColumnSamples(
-        {QString(), QStringLiteral("9999.9"), QStringLiteral("9999.9"), QStringLiteral("▲ −999.9")});
     m_scaleTable->setModel(&m_scale);
-    m_scaleTable->setColumnSamples(
-        {QStringLiteral("99"), QStringLiteral("Right Upper Arm"), number, number, number, QString()});
-    m_factTable->showFacts(m_facts, QStringLiteral("Props (11)"));
+    m_factTable->showFacts(m_facts);
     connect(m_segmentTable->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
             [this](const QModelIndex& index) { selectPlace(index.row()); });
     connect(m_pointTable->selectionModel(), &QItemSelectionModel::currentRowChanged, this,

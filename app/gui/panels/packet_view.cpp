@@ -77,7 +77,6 @@ void PacketView::setModel(QAbstractItemModel* model) {
     connect(model, &QAbstractItemModel::rowsRemoved, this,
             [this](const QModelIndex&, int first, int last) { onRowsRemoved(first, last - first + 1); });
     connect(model, &QAbstractItemModel::modelReset, this, &PacketView::onReset);
-    m_header->measure();
 }
 
 void PacketView::setEmptyText(const QString& text) {
@@ -146,6 +145,7 @@ void PacketView::dataChanged(const QModelIndex& topLeft, const QModelIndex& bott
 
 void PacketView::onRowsInserted(int count) {
     m_missed += m_isFollowing || m_isCatchingUp ? 0 : static_cast<std::uint64_t>(count);
+    m_header->keepWhole(model()->index(model()->rowCount() - 1, 0)); // which has the longest figures
     fitScrollBars();
     placeButton();
     describe();
@@ -368,14 +368,14 @@ void PacketView::scrollContentsBy(int dx, int /*dy*/) {
 
 void PacketView::resizeEvent(QResizeEvent* event) {
     QAbstractItemView::resizeEvent(event);
-    m_header->measure();
+    m_header->fit();
     updateGeometries();
 }
 
 void PacketView::changeEvent(QEvent* event) {
     QAbstractItemView::changeEvent(event);
     if (event->type() == QEvent::FontChange || event->type() == QEvent::StyleChange) {
-        m_header->measure();
+        m_header->fit();
         updateGeometries();
     }
 }

@@ -34,16 +34,9 @@ PacketsPanel::PacketsPanel(model::SessionView& view, Commands& commands, QWidget
     column->addWidget(m_list, 1);
     column->addWidget(m_message);
     m_list->setModel(&m_packets);
-    m_list->header().setGivingWay({PacketModel::kPart, PacketModel::kSize, PacketModel::kDelta,
-                                   PacketModel::kTime, PacketModel::kSample});
-    m_list->header().addElastic(PacketModel::kCharacter, QStringLiteral("● 10 Mi"),
-                                QStringLiteral("● 10 Mira Lindqvist"));
-    m_list->header().addElastic(PacketModel::kType, QStringLiteral("22 Angula"),
-                                QStringLiteral("22 Angular kinematics"));
     m_clear->setObjectName(QStringLiteral("clearFilter"));
     m_clear->hide();
     m_message->setObjectName(QStringLiteral("message"));
-    fitColumns();
     connectParts();
     showEmptyState();
 }
@@ -70,35 +63,6 @@ void PacketsPanel::connectParts() {
     connect(&m_poll, &QTimer::timeout, this, &PacketsPanel::takeFound);
 }
 
-void PacketsPanel::fitColumns() {
-    const bool isSinceFirst = m_packets.timeMode() == PacketModel::TimeMode::SinceFirst;
-    m_list->header().setSamples(
-        {grouped(m_greatestNumber),
-         isSinceFirst ? QStringLiteral("9999.9999") : QStringLiteral("2026-11-21 10:42:17.508123"),
-         QStringLiteral("9999.99"), QStringLiteral("192.168.10.21:52011"),
-         QStringLiteral("22 Angular kinematics"), QStringLiteral("● 0 Mira Lin"), grouped(m_greatestSample),
-         QStringLiteral("1/1"), QStringLiteral("9 999"), QString()},
-        QStringLiteral("▲ network: 1 lost"));
-}
-
-/// Numbers are whole, however many there are: one more digit, and the columns are fitted again.
-void PacketsPanel::keepNumbersWhole() {
-    const auto newest = m_view.end() == 0 ? std::nullopt : m_view.packet(m_view.end() - 1);
-    const auto header = newest ? wire::decodeHeader(newest->bytes) : tl::unexpected(wire::WireError{});
-    const auto grow = [](std::uint64_t& greatest, std::uint64_t number) {
-        const std::uint64_t before = greatest;
-        while (greatest < number) {
-            greatest = greatest * 10 + 9;
-        }
-        return greatest != before;
-    };
-    const bool isNumberLonger = grow(m_greatestNumber, m_view.end());
-    const bool isSampleLonger = grow(m_greatestSample, header ? header->sampleCounter : 0);
-    if (isNumberLonger || isSampleLonger) {
-        fitColumns();
-    }
-}
-
 void PacketsPanel::refresh() {
     const QScopedValueRollback guard(m_isFollowing, true);
     followFilter();
@@ -107,9 +71,6 @@ void PacketsPanel::refresh() {
         takeMatches();
     }
     m_packets.refresh();
-    keepNumbersWhole();
-    // Where everything comes from one sender its address says nothing, and the note has the room.
-    m_list->header().setUseful(PacketModel::kSender, m_view.senders().size() > 1);
     followSelection();
     followCursor();
     const bool isHeld = m_view.selection().packet || m_view.cursor().mode == model::Cursor::Mode::Paused;
@@ -298,11 +259,6 @@ void PacketsPanel::say(const QString& text) {
         layout()->activate(); // the list is lower from here on
         m_list->scrollTo(m_list->currentIndex());
     }
-}
-
-void PacketsPanel::setTimeMode(PacketModel::TimeMode mode) {
-    m_packets.setTimeMode(mode);
-    fitColumns();
 }
 
 QJsonObject PacketsPanel::state() const {

@@ -38,7 +38,7 @@ public:
     [[nodiscard]] const PacketModel& packets() const { return m_packets; }
     [[nodiscard]] PacketModel::TimeMode timeMode() const { return m_packets.timeMode(); }
     [[nodiscard]] PacketModel::DeltaMode deltaMode() const { return m_packets.deltaMode(); }
-    void setTimeMode(PacketModel::TimeMode mode);
+    void setTimeMode(PacketModel::TimeMode mode) { m_packets.setTimeMode(mode); }
     /// Goes to packetTarget() of the text; returns what is wrong with the text, empty for nothing.
     QString goTo(const QString& text);
     [[nodiscard]] const PacketFilterRun* filterRun() const { return m_run.get(); }
@@ -51,8 +51,6 @@ private:
     enum class ProblemsOf { Selected, Anybody }; ///< the selected character, where there is one
 
     void connectParts();
-    void fitColumns();
-    void keepNumbersWhole();
     void followFilter();
     /// The list holds to a range from when it is selected until a packet beyond it is.
     void followRange();
@@ -112,8 +110,6 @@ private:
     std::optional<model::TimeRange> m_range;       ///< that the list holds to
     std::optional<std::uint64_t> m_selectedPacket; ///< when the range was last followed
     std::optional<model::TimeRange> m_filterRange; ///< that the filter runs with
-    std::uint64_t m_greatestNumber = 9'999'999;    ///< that has room in its column
-    std::uint64_t m_greatestSample = 99'999;       ///< likewise
     bool m_comparesLengths = false;                ///< the filter that runs
     log::Stamp m_filterFirst{};
     PositionUnits m_filterUnits; ///< that it runs with

@@ -10,8 +10,6 @@
 #include <QMenu>
 #include <QSplitter>
 
-#include <numeric>
-
 namespace posewire::gui {
 
 namespace {
@@ -33,7 +31,7 @@ StatisticsPanel::StatisticsPanel(model::SessionView& view, Commands& commands,
       m_parts(new QSplitter(Qt::Vertical, this)),
       m_message(footMessage(this)) {
     setUpStreams();
-    m_facts->showFacts(m_computer, QStringLiteral("Foreign datagrams"));
+    m_facts->showFacts(m_computer);
     m_facts->setMinimumHeight(m_facts->heightForRows(1));
     m_facts->setMaximumHeight(m_facts->heightForRows(m_computer.rowCount()));
     auto* layout = tightColumn(this);
@@ -58,25 +56,6 @@ void StatisticsPanel::setUpStreams() {
     m_table->setObjectName(QStringLiteral("streams"));
     m_table->setModel(&m_streams);
     m_table->setRootIsDecorated(true);
-    std::vector<QString> samples;
-    for (int column = 0; column < kStatisticsColumns; ++column) {
-        samples.push_back(statisticsSample(column));
-    }
-    m_table->setColumnSamples(std::move(samples), QStringLiteral("    02 Pose, quaternion"));
-    // Whose fault it was stays longest; other docks have the rate and what was dropped here, too.
-    std::vector<int> givingWay;
-    for (int column = kStatisticsColumns - 1; column >= kUsualStatistics; --column) {
-        givingWay.push_back(column);
-    }
-    using enum model::Figure;
-    for (const model::Figure figure :
-         {Jitter, Rate, LostHere, LostUnknown, LostAtSender, LostOnNetwork, LossShare}) {
-        givingWay.push_back(columnOf(figure));
-    }
-    m_table->columns().setGivingWay(std::move(givingWay));
-    std::vector<int> usual(kUsualStatistics);
-    std::iota(usual.begin(), usual.end(), kNameColumn);
-    m_table->columns().setUsual(std::move(usual));
     m_table->setEmptyText(
         tr("No stream received yet.\nRates, jitter and losses of every stream appear here."));
     m_table->expandNew();
@@ -90,7 +69,6 @@ void StatisticsPanel::refresh() {
     m_range->refresh();
     m_filterToRange->setEnabled(m_view.range().has_value());
     m_streams.refresh();
-    m_table->columns().keepFigures();
     foldEnded();
     m_computer.refresh();
 }

@@ -55,12 +55,8 @@ TableView::TableView(const QString& name, QWidget* parent)
     setTabKeyNavigation(false);
     setExpandsOnDoubleClick(false);
     setHeader(m_columns);
-    setCornerWidget(new QWidget(this)); // else the style draws a box between the scroll bars
-}
-
-void TableView::setColumnSamples(std::vector<QString> samples, const QString& leastOpen) {
     setIndentation(fontMetrics().height() * 4 / 5);
-    m_columns->setSamples(std::move(samples), leastOpen);
+    setCornerWidget(new QWidget(this)); // else the style draws a box between the scroll bars
 }
 
 void TableView::expandNew() {
@@ -99,18 +95,9 @@ void TableView::describe() {
     }
 }
 
-void TableView::setOptionalColumns(int first) {
-    std::vector<int> givingWay;
-    for (int column = model()->columnCount() - 1; column >= first; --column) {
-        givingWay.push_back(column);
-    }
-    m_columns->setGivingWay(std::move(givingWay));
-}
-
-void TableView::showFacts(QAbstractItemModel& facts, const QString& name) {
-    setModel(&facts);
+void TableView::showFacts(QAbstractItemModel& facts) {
     setHeaderHidden(true);
-    setColumnSamples({name, QString()});
+    setModel(&facts);
 }
 
 void TableView::fixHeight() {
@@ -126,6 +113,7 @@ int TableView::heightForRows(int rows) const {
 void TableView::dataChanged(const QModelIndex& topLeft, const QModelIndex& bottomRight,
                             const QList<int>& roles) {
     QTreeView::dataChanged(topLeft, bottomRight, roles);
+    m_columns->keepWhole();
     viewport()->update();
 }
 
@@ -208,7 +196,7 @@ void TableView::changeEvent(QEvent* event) {
     QTreeView::changeEvent(event);
     if (event->type() == QEvent::FontChange || event->type() == QEvent::StyleChange) {
         setIndentation(fontMetrics().height() * 4 / 5);
-        m_columns->measure();
+        m_columns->fit();
     }
 }
 

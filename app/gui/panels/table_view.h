@@ -14,9 +14,8 @@ void drawEmptyText(QWidget& view, const QString& text);
 /// The lines of it from the first on that have room, wrapped; the first one cut where even that has none.
 [[nodiscard]] QString fittingLines(const QFontMetrics& metrics, const QString& text, const QSizeF& room);
 
-/// The one way in which docks show a model: rows of the theme's height, cells by CellDelegate, columns as
-/// wide as a sample of their content, a sentence where there are no rows, copying by keyboard and
-/// menu.
+/// The one way in which docks show a model: rows of the theme's height, cells by CellDelegate, columns by
+/// FittingHeader, a sentence if there are no rows, copying by keyboard and menu.
 class TableView : public QTreeView {
     Q_OBJECT
 
@@ -26,14 +25,8 @@ public:
 
     [[nodiscard]] FittingHeader& columns() const { return *m_columns; }
     void setModel(QAbstractItemModel* model) override;
-    /// Samples as FittingHeader has them, after the model.
-    void setColumnSamples(std::vector<QString> samples,
-                          const QString& leastOpen = QStringLiteral("12345678"));
-    /// From this column on, those that do not fit are left out, as long as the operator has not chosen
-    /// columns by the menu of the header.
-    void setOptionalColumns(int first);
-    /// Shows a list of properties, without column titles; `name` is as long as their names become.
-    void showFacts(QAbstractItemModel& facts, const QString& name);
+    /// Shows a list of properties, without column titles.
+    void showFacts(QAbstractItemModel& facts);
     /// As high as all rows of the model are.
     void fixHeight();
 

@@ -104,7 +104,7 @@ TimecodePanel::TimecodePanel(model::SessionView& view, Commands& commands, QWidg
     choices->addStretch();
     layout->addLayout(choices);
     layout->addWidget(m_table);
-    m_table->showFacts(m_facts, QStringLiteral("Frame rate mm"));
+    m_table->showFacts(m_facts);
     connect(m_large, &ClockWidget::fullScreenToggled, this, [this] { setFullScreen(true); });
     showClock();
 }

@@ -80,15 +80,11 @@ TrackersPanel::TrackersPanel(model::SessionView& view, Commands& commands, QWidg
     m_splitter->setChildrenCollapsible(true);
     m_detail->hide();
     m_table->setModel(&m_trackers);
-    const QString number = QStringLiteral("99.99");
-    m_table->setColumnSamples({QStringLiteral("Right Upper Arm"), number, number, number, number, QString()},
-                              QStringLiteral("▲ magnetic"));
-    m_table->setOptionalColumns(TrackerModel::kFree);
     m_table->setMinimumWidth(fontMetrics().averageCharWidth() * kTableCharacters);
     m_table->setEmptyText(tr("No tracker data on the air.\nIn MVN: Network Streamer > enable Motion Tracker "
                              "Kinematics (type 23)."));
     m_facts.dimWhile([this] { return m_trackers.isStale(); });
-    m_factTable->showFacts(m_facts, QStringLiteral("Free acceleration m/s²"));
+    m_factTable->showFacts(m_facts);
     m_factTable->fixHeight();
     connect(m_table->selectionModel(), &QItemSelectionModel::currentRowChanged, this, &TrackersPanel::select);
 }

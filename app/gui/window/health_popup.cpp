@@ -257,10 +257,7 @@ HealthList::HealthList(model::SessionView& session, Commands& commands, QWidget*
     m_model.refresh();
     m_table->setModel(&m_model);
     m_table->setHeaderHidden(true);
-    m_table->setColumnSamples({QStringLiteral("    Performer name · 10"), QString()});
-    for (int column = CharacterModel::kVerdict + 1; column < m_model.columnCount(); ++column) {
-        m_table->columns().setUseful(column, false);
-    }
+    m_table->columns().setChosen({m_model.headerData(CharacterModel::kVerdict, Qt::Horizontal).toString()});
     constexpr int kMostRows = 25;
     m_table->setFixedHeight(m_table->heightForRows(std::min(kMostRows, m_model.rowCount())));
     setFixedWidth(fontMetrics().averageCharWidth() * 64);

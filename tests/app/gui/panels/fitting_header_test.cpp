@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/panels/fitting_header.h"
 
+#include "app/gui/models/column.h"
 #include "app/gui/panels/table_view.h"
 #include "app/gui/theme/theme.h"
 
@@ -18,12 +19,20 @@ protected:
 
     FittingHeaderTest() {
         m_model.setHorizontalHeaderLabels({"Name", "Verdict", "Rate", "Age"});
+        give(kName, {"A performer's name", "A performer's name that is long", "A perf"});
+        give(kVerdict, {.usual = kVerdictSample, .isOpen = true});
+        give(kRate, {.usual = "1000.0", .order = 2});
+        give(kAge, {.usual = "99.9", .order = 1});
         m_table.setModel(&m_model);
         m_table.setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-        m_table.setColumnSamples({"A performer's name", QString(), "1000.0", "99.9"}, kVerdictSample);
-        m_table.columns().setGivingWay({kAge, kRate});
-        m_table.columns().addElastic(kName, "A perf", "A performer's name that is long");
         m_table.show();
+    }
+    void give(Column column, const ColumnRoom& room) {
+        m_model.setHeaderData(column, Qt::Horizontal, QVariant::fromValue(room), kRoomRole);
+    }
+    void addRow(const QString& verdict, const QString& rate) {
+        m_model.appendRow({new QStandardItem("Name"), new QStandardItem(verdict), new QStandardItem(rate),
+                           new QStandardItem("0.1")});
     }
     void makeWide(int width) { m_table.resize(width, 200); }
     [[nodiscard]] static int widthOf(const QString& text) {
@@ -48,7 +57,7 @@ TEST_F(FittingHeaderTest, GivesUpFiguresBeforeItMakesNamesNarrower) {
 }
 
 TEST_F(FittingHeaderTest, MakesNamesNarrowerBeforeItGivesUpFiguresWhereThatIsWanted) {
-    m_table.columns().addElastic(kName, "A perf", "A performer's name that is long", "A perf");
+    give(kName, {.usual = "A perf", .wish = "A performer's name that is long"});
     makeWide(2000);
     int width = 2000;
     while (!m_table.isColumnHidden(kAge)) {
@@ -68,17 +77,13 @@ TEST_F(FittingHeaderTest, MakesNamesNarrowerBeforeItCutsTheVerdict) {
 
 TEST_F(FittingHeaderTest, NeverCutsAFigure) {
     m_model.setHeaderData(kRate, Qt::Horizontal, QVariant(Qt::AlignRight), Qt::TextAlignmentRole);
-    m_model.appendRow({new QStandardItem("Name"), new QStandardItem("good"), new QStandardItem("60.0"),
-                       new QStandardItem("0.1")});
     makeWide(800);
     const int usual = m_table.columnWidth(kRate);
-    m_table.columns().keepFigures();
+    addRow("good", "60.0");
     EXPECT_EQ(m_table.columnWidth(kRate), usual);
     m_model.item(0, kRate)->setText("10 062 457.0");
-    m_table.columns().keepFigures();
     EXPECT_GE(m_table.columnWidth(kRate), widthOf("10 062 457.0"));
     m_model.item(0, kRate)->setText("1.0");
-    m_table.columns().keepFigures();
     EXPECT_GE(m_table.columnWidth(kRate), widthOf("10 062 457.0")) << "nothing jumps";
 }
 
@@ -92,7 +97,7 @@ TEST_F(FittingHeaderTest, MakesTheVerdictWiderBeforeNamesWhereThatIsWished) {
     }
     makeWide(width + 1 + room);
     EXPECT_LT(m_table.columnWidth(kVerdict), widthOf(words)) << "names have the room";
-    m_table.columns().wishOpenFor(words);
+    give(kVerdict, {.usual = kVerdictSample, .wish = words, .isOpen = true});
     EXPECT_GE(m_table.columnWidth(kVerdict), widthOf(words));
     EXPECT_GE(m_table.columnWidth(kName), widthOf("A performer's name"));
     makeWide(2000);
@@ -100,11 +105,13 @@ TEST_F(FittingHeaderTest, MakesTheVerdictWiderBeforeNamesWhereThatIsWished) {
 }
 
 TEST_F(FittingHeaderTest, KeepsTheVerdictAsWideAsItOnceHadToBe) {
+    give(kVerdict, {.usual = kVerdictSample, .isOpen = true, .whole = 26});
     makeWide(300);
     const char* words = "10.0 % lost, network, over";
-    m_table.columns().keepOpenFor(words);
+    addRow("Good", "60.0");
+    m_model.item(0, kVerdict)->setText(words);
     EXPECT_GE(m_table.columnWidth(kVerdict), widthOf(words));
-    m_table.columns().keepOpenFor("Good");
+    m_model.item(0, kVerdict)->setText("Good");
     EXPECT_GE(m_table.columnWidth(kVerdict), widthOf(words));
 }
 
