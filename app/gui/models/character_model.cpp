@@ -262,10 +262,6 @@ std::vector<TableColumn<BoardRow>> CharacterModel::columns(model::SessionView& v
             return QVariant(view.isHidden(row.key) ? Qt::Unchecked : Qt::Checked);
         case kSuffixRole:
             return QVariant(idWords(view, row.key));
-        case kShortSuffixRole: {
-            const QString sender = senderApart(view, row.key);
-            return sender.isEmpty() ? QVariant() : QVariant(QStringLiteral("· ") + sender);
-        }
         case kDotRole:
             return QVariant::fromValue(characterMark(view, row.key));
         default:
@@ -290,12 +286,8 @@ std::vector<TableColumn<BoardRow>> CharacterModel::columns(model::SessionView& v
                     const PropertyValue what{fromUtf8(row.verdict.what), healthOf(row.verdict.state)};
                     return QVariant(what.display() + (row.verdict.isOver ? tr(", over") : QString()));
                 }
-                if (row.restarts == 0) {
-                    return QVariant();
-                }
-                return role == kSuffixRole ? QVariant(QStringLiteral("↻ ") + restartWords(row.restarts))
-                       : role == kShortSuffixRole
-                           ? QVariant(QStringLiteral("↻ %1 ×").arg(grouped(row.restarts)))
+                return role == kSuffixRole && row.restarts != 0
+                           ? QVariant(QStringLiteral("↻ ") + restartWords(row.restarts))
                            : QVariant();
             })};
     addFigureColumns(columns);

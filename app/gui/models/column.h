@@ -19,11 +19,10 @@
 namespace posewire::gui {
 
 /// What a cell may have besides its text; CellDelegate paints it.
-inline constexpr int kDotRole = Qt::UserRole + 1;         ///< CharacterMark before the text
-inline constexpr int kSwatchRole = Qt::UserRole + 2;      ///< QColor: a square before the text
-inline constexpr int kSuffixRole = Qt::UserRole + 3;      ///< QString: dim text after the text
-inline constexpr int kShortSuffixRole = Qt::UserRole + 7; ///< QString: instead of a suffix without room
-inline constexpr int kShortTextRole = Qt::UserRole + 8;   ///< QString: instead of a text without room
+inline constexpr int kDotRole = Qt::UserRole + 1;       ///< CharacterMark before the text
+inline constexpr int kSwatchRole = Qt::UserRole + 2;    ///< QColor: a square before the text
+inline constexpr int kSuffixRole = Qt::UserRole + 3;    ///< QString: dim text after the text
+inline constexpr int kShortTextRole = Qt::UserRole + 8; ///< QString: instead of a text without room
 /// bool: the text of the cell before stretches over this one too.
 inline constexpr int kSpanRole = Qt::UserRole + 5;
 inline constexpr int kSeriesRole = Qt::UserRole + 4; ///< QList<float>: a small curve; NaN breaks it

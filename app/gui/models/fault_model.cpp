@@ -128,12 +128,12 @@ QVariant FaultModel::marksOf(const FaultRow& row, int role) const {
                other.first.character == row.first.character;
     });
     const QString id = QStringLiteral("· %1").arg(row.current.character);
-    if (!isTwice || (role != kSuffixRole && role != kShortSuffixRole)) {
+    if (!isTwice || role != kSuffixRole) {
         return role == kSuffixRole ? QVariant(id) : QVariant();
     }
     const QString apart = senderApart(m_view, row.current);
     const QString sender = apart.isEmpty() ? shown(m_view.addressOf(row.current.sender)) : apart;
-    return role == kSuffixRole ? tr("%1 · %2").arg(id, sender) : QStringLiteral("· ") + sender;
+    return tr("%1 · %2").arg(id, sender);
 }
 
 std::vector<int> FaultModel::parentsOf(const std::vector<FaultRow>& rows) const {

@@ -9,7 +9,7 @@ namespace posewire::gui {
 /// "Segment 7 · Head", "Free acceleration".
 [[nodiscard]] QString fieldTitle(const FieldDocument& document, std::int32_t node);
 
-/// Names, in field_names.cpp: "Segment 7 · Head", "Point 1.13 · pSacrum", "Tracker 11 · Right Hand".
+/// Names: "Segment 7 · Head", "Point 1.13 · pSacrum", "Tracker 11 · Right Hand".
 [[nodiscard]] QString itemTitle(const FieldDocument& document, std::int32_t item);
 /// "7 · Head", "1.13 · pSacrum".
 [[nodiscard]] QString identifierText(const FieldDocument& document, std::int32_t node);

@@ -2,7 +2,7 @@
 #include "app/gui/models/packet_jump.h"
 
 #include "app/gui/models/display_filter.h"
-#include "app/gui/models/position_units.h"
+#include "app/gui/models/packet_search.h"
 #include "app/gui/models/shown_character.h"
 #include "app/gui/theme/words.h"
 #include "core/filter/filter.h"

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "app/gui/models/packet_numbers.h"
-#include "app/gui/models/position_units.h"
 #include "core/filter/filter.h"
 #include "core/log/log_reader.h"
 #include "core/log/packet_log.h"
@@ -20,12 +19,23 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <thread>
 #include <vector>
 
 namespace posewire::gui {
+
+/// What senders' positions come in, by sender and message type, as far as that is another unit than usual.
+/// A copy: a thread may have one while the session follows the log.
+using PositionUnits = std::map<std::pair<log::SenderId, std::uint8_t>, model::LengthUnit>;
+
+[[nodiscard]] PositionUnits unusualPositionUnits(const model::SessionView& view);
+
+/// Empty for the usual one.
+[[nodiscard]] std::optional<model::LengthUnit> unitIn(const PositionUnits& units, log::SenderId sender,
+                                                      std::uint8_t type);
 
 /// What is looked for in the bytes of packets.
 struct BytePattern {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/models/span_text.h"
+#include "app/gui/models/shown_character.h"
 #include "app/gui/theme/character_mark.h"
 #include "core/model/accounting/range_figures.h"
 #include "core/model/session/losses.h"

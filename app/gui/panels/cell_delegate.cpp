@@ -179,8 +179,8 @@ void paintText(QPainter& painter, QRect rect, const QStyleOptionViewItem& option
         painter.drawText(rect, Qt::AlignRight | Qt::AlignVCenter, shown);
         return;
     }
-    // A short suffix, such as an ID, distinguishes equal names: the text gives way. A long one gives
-    // way itself, to its short form if it has one.
+    // A short suffix, such as an ID, distinguishes equal names: the text gives way. A long one gives way
+    // itself.
     const auto widthWith = [&metrics](const QString& words) {
         return words.isEmpty() ? 0 : metrics.horizontalAdvance(QLatin1Char(' ') + words);
     };
@@ -189,10 +189,6 @@ void paintText(QPainter& painter, QRect rect, const QStyleOptionViewItem& option
     const bool isWhole =
         !shorter.isValid() || metrics.elidedText(option.text, Qt::ElideRight, rect.width()) == option.text;
     const QString whole = isWhole ? option.text : shorter.toString();
-    if (widthWith(suffix) > rect.width() - metrics.horizontalAdvance(whole)) {
-        const QString brief = index.data(kShortSuffixRole).toString();
-        suffix = brief.isEmpty() ? suffix : brief;
-    }
     if (shorter.isValid() && widthWith(suffix) > rect.width() - metrics.horizontalAdvance(whole)) {
         suffix.clear(); // what it is added to matters more
     }
@@ -201,7 +197,7 @@ void paintText(QPainter& painter, QRect rect, const QStyleOptionViewItem& option
     const QString text = metrics.elidedText(whole, Qt::ElideRight, std::max(0, rect.width() - reserved));
     painter.drawText(rect, Qt::AlignLeft | Qt::AlignVCenter, text);
     rect.setLeft(rect.left() + metrics.horizontalAdvance(text + QLatin1Char(' ')));
-    const QString added = metrics.elidedText(suffix, Qt::ElideRight, rect.width());
+    const QString added = metrics.elidedText(suffix, Qt::ElideLeft, rect.width()); // ports, counts
     if (added.size() > 1) { // an ellipsis alone says nothing
         painter.setPen(isSelected ? onSelection(theme().dim) : theme().dim);
         painter.drawText(rect, Qt::AlignLeft | Qt::AlignVCenter, added);

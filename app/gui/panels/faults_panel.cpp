@@ -3,7 +3,6 @@
 
 #include "app/gui/base/saving.h"
 #include "app/gui/models/shown_character.h"
-#include "app/gui/models/span_text.h"
 #include "app/gui/models/text.h"
 #include "app/gui/panels/cell_delegate.h"
 

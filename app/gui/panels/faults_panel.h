@@ -3,7 +3,7 @@
 
 #include "app/gui/base/panel.h"
 #include "app/gui/models/fault_model.h"
-#include "app/gui/panels/span_bar.h"
+#include "app/gui/panels/range_bar.h"
 #include "app/gui/panels/table_view.h"
 #include "app/gui/theme/widgets.h"
 

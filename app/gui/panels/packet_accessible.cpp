@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/panels/packet_accessible.h"
+#include "app/gui/panels/packet_view.h"
 
 #include "app/gui/models/column.h"
 #include "app/gui/panels/fitting_header.h"
-#include "app/gui/panels/packet_view.h"
 
 #include <QAccessible>
 #include <QAccessibleWidget>

@@ -6,7 +6,6 @@
 #include "app/gui/models/text.h"
 #include "app/gui/panels/cell_delegate.h"
 #include "app/gui/panels/fitting_header.h"
-#include "app/gui/panels/packet_accessible.h"
 #include "app/gui/theme/theme.h"
 
 #include <QContextMenuEvent>
@@ -145,7 +144,7 @@ void PacketView::dataChanged(const QModelIndex& topLeft, const QModelIndex& bott
 
 void PacketView::onRowsInserted(int count) {
     m_missed += m_isFollowing || m_isCatchingUp ? 0 : static_cast<std::uint64_t>(count);
-    m_header->keepWhole(model()->index(model()->rowCount() - 1, 0)); // which has the longest figures
+    keepFigures();
     fitScrollBars();
     placeButton();
     describe();
@@ -162,8 +161,14 @@ void PacketView::onRowsRemoved(int first, int count) {
     viewport()->update();
 }
 
+/// The newest row has the longest ones.
+void PacketView::keepFigures() {
+    m_header->keepWhole(model()->index(model()->rowCount() - 1, 0));
+}
+
 void PacketView::onReset() {
     m_missed = 0;
+    keepFigures();
     describe();
     fitScrollBars();
     placeButton();

@@ -78,6 +78,7 @@ private:
     void onRowsInserted(int count);
     void onRowsRemoved(int first, int count);
     void onReset();
+    void keepFigures();
     void describe();
     void fitScrollBars();
     void placeButton();
@@ -96,5 +97,10 @@ private:
     bool m_isCatchingUp = false;
     std::uint64_t m_missed = 0; ///< rows that came while not following
 };
+
+/// From now on screen readers find in a PacketView the rows that are in sight, with the titles of their
+/// columns, and in each cell what it says at that moment. Rows out of sight, which may be tens of millions,
+/// are not there until they are scrolled to.
+void installPacketAccessible();
 
 } // namespace posewire::gui

@@ -3,7 +3,6 @@
 
 #include "app/gui/models/text.h"
 #include "app/gui/panels/cell_delegate.h"
-#include "app/gui/panels/overview_painting.h"
 #include "app/gui/theme/plain_text.h"
 #include "app/gui/theme/theme.h"
 #include "app/gui/theme/widgets.h"
@@ -225,6 +224,94 @@ RangeBar::RangeBar(model::SessionView& view, Commands& commands, QWidget* parent
 void RangeBar::refresh() {
     m_strip->refresh();
     m_span->refresh();
+}
+
+namespace {
+
+double placeIn(const QRectF& rect, const model::TimeRange& span, log::Stamp stamp) {
+    const Nanoseconds length = std::max(log::Duration(1), span.to - span.from);
+    return std::clamp(rect.left() + (stamp - span.from) / length * rect.width(), rect.left(), rect.right());
+}
+
+void paintRate(QPainter& painter, const RangeOverview& overview, const QRectF& rect) {
+    const model::RangeParts& parts = overview.parts();
+    const auto& counted = overview.counted();
+    // The last part is still being filled: it would always look like a loss.
+    const std::size_t count =
+        parts.beginOf(parts.count) > overview.span().to && parts.count > 1 ? parts.count - 1 : parts.count;
+    std::uint32_t most = 1;
+    for (std::size_t i = 0; i < count; ++i) {
+        most = std::max(most, counted[i].datagrams);
+    }
+    const auto placeOf = [&](log::Stamp stamp) { return placeIn(rect, overview.span(), stamp); };
+    const double scale = (rect.height() - 4.0) / most;
+    QPolygonF area{{placeOf(parts.first), rect.bottom()}};
+    double right = rect.left();
+    for (std::size_t i = 0; i < count; ++i) {
+        const double y = rect.bottom() - counted[i].datagrams * scale;
+        right = i + 1 == count ? rect.right() : placeOf(parts.beginOf(i + 1));
+        area << QPointF(placeOf(parts.beginOf(i)), y) << QPointF(right, y);
+    }
+    area << QPointF(right, rect.bottom());
+    painter.setBrush(withAlpha(theme().accent, 0.35));
+    painter.drawPolygon(area);
+}
+
+void paintLosses(QPainter& painter, const RangeOverview& overview, const QRectF& rect) {
+    const model::RangeParts& parts = overview.parts();
+    const double high = rect.height() / 3;
+    painter.setBrush(theme().warning);
+    for (std::size_t i = 0; i < parts.count; ++i) {
+        if (overview.counted()[i].lost != 0) {
+            const double left = placeIn(rect, overview.span(), parts.beginOf(i));
+            const double right = placeIn(rect, overview.span(), parts.beginOf(i + 1));
+            painter.drawRect(QRectF(left, rect.bottom() - high, std::max(2.0, right - left), high));
+        }
+    }
+}
+
+} // namespace
+
+void paintOverview(QPainter& painter, const RangeOverview& overview, const QRectF& rect) {
+    painter.setPen(Qt::NoPen);
+    paintRate(painter, overview, rect);
+    paintLosses(painter, overview, rect);
+}
+
+SpanBar::SpanBar(model::SessionView& view, Commands& commands, QWidget* parent)
+    : QWidget(parent), m_view(view), m_commands(commands) {
+    static_cast<void>(spacedRow({}, CellDelegate::margin(fontMetrics()) / 2, this));
+    add(tr("10 s"), tr("Figures of the last ten seconds"),
+        model::RangeChoice{.last = std::chrono::seconds(10)});
+    add(tr("1 min"), tr("Figures of the last minute"), model::RangeChoice{.last = std::chrono::seconds(60)});
+    add(tr("Since reset"), tr("Figures since the reset before the take"),
+        model::RangeChoice{.isSinceReset = true});
+    add(tr("Selection"), tr("Figures of the range that was dragged in the strip; press to leave it"), {});
+    add(tr("All"), tr("Figures of everything received"), model::RangeChoice{});
+    refresh();
+}
+
+void SpanBar::add(const QString& text, const QString& toolTip,
+                  const std::optional<model::RangeChoice>& choice) {
+    QToolButton* button = framedButton(text, toolTip, this);
+    button->setCheckable(true);
+    button->setFocusPolicy(Qt::StrongFocus);
+    layout()->addWidget(button);
+    m_buttons.push_back({button, choice});
+    connect(button, &QToolButton::clicked, this, [this, choice] {
+        m_commands.selectRange(choice.value_or(model::RangeChoice{}));
+        refresh();
+    });
+}
+
+void SpanBar::refresh() {
+    const model::RangeChoice& chosen = m_view.rangeChoice();
+    for (const auto& [button, choice] : m_buttons) {
+        const bool isDragged = !choice && chosen.fixed;
+        const bool isThere = choice ? !choice->isSinceReset || m_view.reset() != log::Stamp() : isDragged;
+        button->setChecked(isDragged || choice == std::optional(chosen));
+        button->setVisible(isThere);
+    }
 }
 
 } // namespace posewire::gui

@@ -3,14 +3,21 @@
 
 #include "app/gui/base/commands.h"
 #include "app/gui/models/statistics_model.h"
-#include "app/gui/panels/span_bar.h"
 #include "core/log/time.h"
+#include "core/model/session/session_view.h"
 
+#include <QRectF>
 #include <QWidget>
 
 #include <optional>
+#include <vector>
+
+class QToolButton;
 
 namespace posewire::gui {
+
+/// The whole history in a rectangle: datagrams a second, and where samples were lost.
+void paintOverview(QPainter& painter, const RangeOverview& overview, const QRectF& rect);
 
 /// The whole history as a small picture, datagrams a second with the losses marked, in which a range is
 /// dragged: by the mouse, or by the arrow keys (they move it, with Shift its end, with Ctrl ten times as far;
@@ -58,6 +65,28 @@ private:
     std::optional<log::Stamp> m_anchor; ///< while dragging: the end that stays
     double m_pressed = 0;
     bool m_isMoved = false;
+};
+
+/// The choice of the time that figures are of: one for the session, so that all docks show the same.
+class SpanBar final : public QWidget {
+    Q_OBJECT
+
+public:
+    SpanBar(model::SessionView& view, Commands& commands, QWidget* parent);
+
+    void refresh();
+
+private:
+    struct Button {
+        QToolButton* button;
+        std::optional<model::RangeChoice> choice; ///< nothing: the range that was dragged
+    };
+
+    void add(const QString& text, const QString& toolTip, const std::optional<model::RangeChoice>& choice);
+
+    model::SessionView& m_view;
+    Commands& m_commands;
+    std::vector<Button> m_buttons;
 };
 
 /// The strip of the history, and the choice of the time that figures are of.

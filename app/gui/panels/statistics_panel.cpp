@@ -5,7 +5,6 @@
 #include "app/gui/models/computer_facts.h"
 #include "app/gui/models/display_filter.h"
 #include "app/gui/models/shown_character.h"
-#include "app/gui/models/span_text.h"
 
 #include <QMenu>
 #include <QSplitter>

@@ -2,8 +2,10 @@
 #pragma once
 
 #include "app/gui/base/panel.h"
-#include "app/gui/panels/timeline_thumbnail.h"
+#include "app/gui/models/statistics_model.h"
 #include "app/gui/panels/timeline_view.h"
+
+#include <QWidget>
 
 class QAction;
 
@@ -11,6 +13,38 @@ namespace posewire::gui {
 
 class CommandBar;
 class ElidedLabel;
+
+class TimelineView;
+
+/// The whole history below the timeline, losses marked, with a lens around what the timeline shows: a click
+/// or a drag moves it there.
+class TimelineThumbnail final : public QWidget {
+    Q_OBJECT
+
+public:
+    /// The timeline must outlive it.
+    TimelineThumbnail(model::SessionView& view, TimelineView& timeline, QWidget* parent);
+
+    void refresh();
+
+    /// Where the history is drawn, and the lens in it.
+    [[nodiscard]] QRectF strip() const;
+    [[nodiscard]] QRectF lens() const;
+
+    [[nodiscard]] QSize sizeHint() const override;
+    [[nodiscard]] QSize minimumSizeHint() const override { return {0, sizeHint().height()}; }
+
+protected:
+    void paintEvent(QPaintEvent* event) override;
+    void mousePressEvent(QMouseEvent* event) override;
+    void mouseMoveEvent(QMouseEvent* event) override;
+
+private:
+    void moveTo(double place);
+
+    TimelineView& m_timeline;
+    RangeOverview m_overview;
+};
 
 /// Dock `timeline`: the whole history, in which the display is moved through time and ranges are selected.
 class TimelinePanel : public Panel {

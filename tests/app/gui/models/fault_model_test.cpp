@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/models/fault_model.h"
 
-#include "app/gui/models/span_text.h"
+#include "app/gui/models/shown_character.h"
 #include "core/filter/filter.h"
 #include "core/performer/datagram_damage.h"
 #include "tests/app/gui/models/stage.h"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/panels/timeline_panel.h"
-#include "app/gui/panels/timeline_thumbnail.h"
 #include "app/gui/panels/timeline_view.h"
 #include "app/gui/theme/theme.h"
 #include "tests/app/gui/models/stage.h"
