@@ -208,7 +208,7 @@ std::vector<IncidentColumn> incidentColumns(model::SessionView& view, const Inci
 } // namespace
 
 IncidentModel::IncidentModel(model::SessionView& view, QObject* parent)
-    : ColumnModel(incidentColumns(view, *this), parent), m_view(view) {}
+    : KeyedTreeModel(incidentColumns(view, *this), parent), m_view(view) {}
 
 std::optional<IncidentLine> IncidentModel::whole(Key key) const {
     const auto pending = m_pending.find(key);
@@ -308,58 +308,25 @@ void IncidentModel::refresh() {
     m_version = incidents.version();
     m_isFilterNew = false;
     std::ranges::sort(keys);
-    show(std::move(keys));
+    show(keys);
     std::ranges::for_each(changed, [this](Key key) { showStreams(key); });
     announceChange();
 }
 
-void IncidentModel::insert(const Keys& keys, std::size_t from, std::size_t to) {
-    for (std::size_t i = from; i < to; ++i) {
-        if (auto streams = streamsOf(keys[i]); !streams.empty()) {
-            m_streams.insert_or_assign(keys[i], std::move(streams));
-        }
-    }
-    m_keys.insert(m_keys.begin() + static_cast<std::ptrdiff_t>(from),
-                  keys.begin() + static_cast<std::ptrdiff_t>(from),
-                  keys.begin() + static_cast<std::ptrdiff_t>(to));
-}
-
-/// Row by row as far as both agree, then what goes or comes until they do again.
-void IncidentModel::show(Keys keys) {
+void IncidentModel::show(const Keys& keys) {
     constexpr std::size_t kMostRuns = 16;
-    std::size_t at = 0;
-    for (std::size_t runs = 0; m_keys != keys; ++runs) {
-        if (runs == kMostRuns) {
-            beginResetModel();
-            m_keys.clear();
-            m_streams.clear();
-            insert(keys, 0, keys.size());
-            endResetModel();
-            return;
+    const auto forget = [this](Key key) { m_streams.erase(key); };
+    const auto read = [this](Key key) {
+        if (auto streams = streamsOf(key); !streams.empty()) {
+            m_streams.insert_or_assign(key, std::move(streams));
         }
-        while (at < m_keys.size() && at < keys.size() && m_keys[at] == keys[at]) {
-            ++at;
-        }
-        std::size_t end = at;
-        if (at < m_keys.size() && (at == keys.size() || m_keys[at] < keys[at])) {
-            while (end < m_keys.size() && (at == keys.size() || m_keys[end] < keys[at])) {
-                ++end;
-            }
-            beginRemoveRows({}, static_cast<int>(at), static_cast<int>(end) - 1);
-            std::for_each(m_keys.begin() + static_cast<std::ptrdiff_t>(at),
-                          m_keys.begin() + static_cast<std::ptrdiff_t>(end),
-                          [this](Key key) { m_streams.erase(key); });
-            m_keys.erase(m_keys.begin() + static_cast<std::ptrdiff_t>(at),
-                         m_keys.begin() + static_cast<std::ptrdiff_t>(end));
-            endRemoveRows();
-        } else {
-            while (end < keys.size() && (at == m_keys.size() || keys[end] < m_keys[at])) {
-                ++end;
-            }
-            beginInsertRows({}, static_cast<int>(at), static_cast<int>(end) - 1);
-            insert(keys, at, end);
-            endInsertRows();
-        }
+    };
+    if (!mergeRows({}, m_keys, keys, kMostRuns, forget, read)) {
+        beginResetModel();
+        m_streams.clear();
+        m_keys = keys;
+        std::ranges::for_each(keys, read);
+        endResetModel();
     }
 }
 
@@ -389,20 +356,8 @@ void IncidentModel::showStreams(Key key) {
         return;
     }
     std::vector<Stream>& shown = m_streams[key];
-    const QModelIndex above = index(row, 0);
-    for (std::size_t i = 0; i < shown.size() || i < now.size();) {
-        if (i < shown.size() && i < now.size() && shown[i] == now[i]) {
-            ++i;
-        } else if (i < shown.size() && (i == now.size() || shown[i] < now[i])) {
-            beginRemoveRows(above, static_cast<int>(i), static_cast<int>(i));
-            shown.erase(shown.begin() + static_cast<std::ptrdiff_t>(i));
-            endRemoveRows();
-        } else {
-            beginInsertRows(above, static_cast<int>(i), static_cast<int>(i));
-            shown.insert(shown.begin() + static_cast<std::ptrdiff_t>(i), now[i]);
-            endInsertRows();
-        }
-    }
+    const auto nothing = [](const Stream&) {};
+    mergeRows(index(row, 0), shown, now, shown.size() + now.size(), nothing, nothing);
     if (shown.empty()) {
         m_streams.erase(key);
     }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/models/column.h"
 #include "app/gui/models/incident_words.h"
+#include "app/gui/models/tree_model.h"
 #include "core/model/session/verdict.h"
 
 #include <array>
@@ -36,7 +36,7 @@ struct IncidentLine {
 /// The incidents of the session with its notes, or those that are asked for, in the order in which they
 /// began; below each that touched several streams, these. What is not settled yet is a row of its own, which
 /// keeps its place when it is, or is told in the row of what it seems to belong to.
-class IncidentModel : public ColumnModel<IncidentLine, QAbstractItemModel> {
+class IncidentModel : public KeyedTreeModel<IncidentLine> {
 public:
     enum Column : int {
         kSeverity,
@@ -113,8 +113,7 @@ private:
     [[nodiscard]] std::optional<Key> hostOf(const model::Incident& pending) const;
     /// Reads what may change without the list: whether any did.
     bool readUnsettled();
-    void show(Keys keys);
-    void insert(const Keys& keys, std::size_t from, std::size_t to);
+    void show(const Keys& keys);
     [[nodiscard]] std::vector<Stream> streamsOf(Key key) const;
     /// Those below an incident.
     void showStreams(Key key);

@@ -12,6 +12,47 @@
 
 namespace posewire::gui {
 
+/// A tree whose rows come and go by keys.
+template <class Row>
+class KeyedTreeModel : public ColumnModel<Row, QAbstractItemModel> {
+protected:
+    using ColumnModel<Row, QAbstractItemModel>::ColumnModel;
+
+    /// Makes the keys that are shown below a row the wanted ones, both sorted, run by run; calls `remove` and
+    /// `add` with each key that goes and comes. False, and not all done, if it takes more than `most` runs.
+    template <class Key, class Remove, class Add>
+    bool mergeRows(const QModelIndex& above, std::vector<Key>& shown, const std::vector<Key>& wanted,
+                   std::size_t most, Remove remove, Add add) {
+        std::size_t at = 0;
+        for (std::size_t runs = 0; shown != wanted; ++runs) {
+            if (runs == most) {
+                return false;
+            }
+            while (at < shown.size() && at < wanted.size() && shown[at] == wanted[at]) {
+                ++at;
+            }
+            const bool isGone = at < shown.size() && (at == wanted.size() || shown[at] < wanted[at]);
+            const std::vector<Key>& run = isGone ? shown : wanted;
+            const std::vector<Key>& other = isGone ? wanted : shown;
+            const auto begin = run.begin() + static_cast<std::ptrdiff_t>(at);
+            const auto end = at == other.size() ? run.end() : std::lower_bound(begin, run.end(), other[at]);
+            const auto last = static_cast<int>(end - run.begin()) - 1;
+            if (isGone) {
+                this->beginRemoveRows(above, static_cast<int>(at), last);
+                std::for_each(begin, end, remove);
+                shown.erase(begin, end);
+                this->endRemoveRows();
+            } else {
+                this->beginInsertRows(above, static_cast<int>(at), last);
+                std::for_each(begin, end, add);
+                shown.insert(shown.begin() + static_cast<std::ptrdiff_t>(at), begin, end);
+                this->endInsertRows();
+            }
+        }
+        return true;
+    }
+};
+
 /// A tree whose rows are nodes, counted from 0, each at the top, which is -1, or below another.
 template <class Row>
 class TreeModel : public ColumnModel<Row, QAbstractItemModel> {
