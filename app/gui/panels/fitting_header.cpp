@@ -6,6 +6,7 @@
 #include "app/gui/theme/plain_text.h"
 
 #include <QAbstractButton>
+#include <QGuiApplication>
 #include <QJsonArray>
 #include <QMenu>
 #include <QScopedValueRollback>
@@ -85,10 +86,13 @@ FittingHeader::FittingHeader(QAbstractItemView* table, QFont (*cellFont)(), int 
     setTextElideMode(Qt::ElideRight);
     setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
     connect(this, &QHeaderView::sectionResized, this, [this](int column, int /*before*/, int width) {
-        if (!m_isFitting) {
+        // A new style resizes all sections, too.
+        if (!m_isFitting && QGuiApplication::mouseButtons() != Qt::NoButton) {
             m_dragged[column] = width;
         }
     });
+    connect(this, &QHeaderView::sectionCountChanged, this,
+            [this](int /*before*/, int count) { m_whole.resize(static_cast<std::size_t>(count)); });
     connect(this, &QWidget::customContextMenuRequested, this, [this](const QPoint& at) {
         QMenu menu(this);
         addColumnActions(menu);
