@@ -107,8 +107,7 @@ std::vector<PacketColumn> PacketModel::columns(const PacketModel& model) {
     give(kSample, {.usual = grouped(99'999), .order = 5});
     give(kPart, {.usual = QStringLiteral("1/1"), .order = 1});
     give(kSize, {.usual = QStringLiteral("9 999"), .order = 2});
-    give(kNote,
-         {.usual = QStringLiteral("▲ network: 1 lost"), .least = QStringLiteral("123456"), .isOpen = true});
+    give(kNote, {.usual = QStringLiteral("▲ network: 1 lost"), .isOpen = true});
     columns[kCharacter].more = [&model](const PacketFacts& facts, int role) {
         return model.characterMark(facts, role);
     };

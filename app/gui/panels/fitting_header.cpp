@@ -19,6 +19,7 @@ namespace posewire::gui {
 
 /// A column's part of the width, in pixels.
 struct FittingHeader::Share {
+    int floor; ///< of the one that takes the room left, if the least of all is too much
     int least;
     int usual;
     int wish;
@@ -72,7 +73,7 @@ void shareOut(std::vector<Share>& shares, int room) {
         one->width = one->usual + more - static_cast<int>(std::ceil(cut * (one->usual - one->least)));
     }
     if (open != shares.rend()) {
-        open->width = std::max(open->least, room - (widthOf(shares, &Share::width) - open->width));
+        open->width = std::max(open->floor, room - (widthOf(shares, &Share::width) - open->width));
     }
 }
 
@@ -175,12 +176,15 @@ int FittingHeader::usualWidth(int column, const QString& usual) const {
 FittingHeader::Share FittingHeader::share(int column) const {
     const ColumnRoom given = room(column);
     if (const auto dragged = m_dragged.find(column); dragged != m_dragged.end() && !given.isOpen) {
-        return {dragged->second, dragged->second, dragged->second, given.order, false, isWanted(column)};
+        const int width = dragged->second;
+        return {width, width, width, width, given.order, false, isWanted(column)};
     }
     const int usual = usualWidth(column, given.usual);
     const int least = given.least.isEmpty() ? usual : std::min(usual, textWidth(given.least));
+    // One that is kept for what it says gets narrower before all of it is scrolled away.
+    const int floor = m_kept == Kept::Open ? textWidth(QStringLiteral("123456")) : least;
     const int wish = given.wish.isEmpty() ? usual : std::max(usual, textWidth(given.wish));
-    return {least, usual, wish, given.order, given.isOpen, isWanted(column)};
+    return {floor, least, usual, wish, given.order, given.isOpen, isWanted(column)};
 }
 
 bool FittingHeader::isWanted(int column) const {

@@ -257,7 +257,8 @@ HealthList::HealthList(model::SessionView& session, Commands& commands, QWidget*
     m_model.refresh();
     m_table->setModel(&m_model);
     m_table->setHeaderHidden(true);
-    m_table->columns().setChosen({m_model.headerData(CharacterModel::kVerdict, Qt::Horizontal).toString()});
+    m_table->columns().setChosen(
+        {m_table->model()->headerData(CharacterModel::kVerdict, Qt::Horizontal).toString()});
     constexpr int kMostRows = 25;
     m_table->setFixedHeight(m_table->heightForRows(std::min(kMostRows, m_model.rowCount())));
     setFixedWidth(fontMetrics().averageCharWidth() * 64);
