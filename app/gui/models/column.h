@@ -40,8 +40,8 @@ struct ColumnRoom {
     QString least{};     ///< gets so narrow if no other column can leave; empty for the usual width
     int order = 0;       ///< leaves n-th if not all fit; 0: never; kOnChoice: shown only if chosen
     bool isOpen = false; ///< takes the room left; of several the last one that is shown
-    int whole = 0;       ///< its words in sight count as usual up to so many characters; blanks that begin
-                         ///< `usual` are room for what is before them
+    int whole = 0;       ///< its words in sight count as usual up to so many characters, after what `usual`
+                         ///< has before its first letter if that begins with a blank
 };
 
 /// What one cell says, made whenever it is painted: in shape, colour and text.

@@ -277,8 +277,9 @@ QString FittingHeader::growing(const QModelIndex& cell) const {
     const QVariant brief = cell.data(kShortTextRole);
     const QString words = (brief.isValid() && !m_isBare ? brief : cell.data()).toString().left(given.whole);
     const QString suffix = brief.isValid() ? QString() : cell.data(kSuffixRole).toString();
-    const auto letter = std::ranges::find_if_not(given.usual, [](QChar one) { return one.isSpace(); });
-    const QString before(letter - given.usual.begin(), QLatin1Char(' '));
+    const auto letter = std::ranges::find_if(given.usual, [](QChar one) { return one.isLetterOrNumber(); });
+    const bool isIndented = given.usual.startsWith(QLatin1Char(' '));
+    const QString before = isIndented ? given.usual.left(letter - given.usual.begin()) : QString();
     return before + (suffix.isEmpty() ? words : words + QLatin1Char(' ') + suffix);
 }
 
