@@ -8,6 +8,7 @@
 #include "core/model/session/losses.h"
 #include "core/wire/text.h"
 #include "core/wire/type_table.h"
+#include "core/words/say.h"
 
 #include <algorithm>
 #include <cmath>
@@ -172,7 +173,7 @@ std::vector<std::string> cellsOf(const model::SessionView& session, const model:
             std::to_string(gap.fromSample) + "–" + std::to_string(gap.toSample),
             fixed(log::millisecondsOf(gap.toStamp - gap.fromStamp), 1),
             escaped(model::nameOf(gap.cause)),
-            escaped(gap.evidenceText())};
+            escaped(say(gap.evidenceFact(), words::Form::Sentence))};
 }
 
 using enum model::Figure;
@@ -383,7 +384,7 @@ std::string eventSection(const model::SessionView& session, const ReportSteps& s
                                            std::string(severityMark(event->severity())) + "</span> ";
         table.add({secondsAfter(event->firstStamp, steps), secondsAfter(event->lastStamp, steps),
                    mark + escaped(model::nameOf(event->kind)), escaped(whose(session, *event)),
-                   grouped(event->count), escaped(event->text())});
+                   grouped(event->count), escaped(say(event->fact(), words::Form::Sentence))});
     });
     return "<h2>Incidents</h2>\n" + listed("newest", std::min(all, kMostEvents), all, "incident") +
            table.html();

@@ -7,6 +7,7 @@
 #include "core/wire/byte_order.h"
 #include "core/wire/text.h"
 #include "core/wire/type_table.h"
+#include "core/words/say.h"
 
 #include <algorithm>
 #include <array>
@@ -91,7 +92,7 @@ JsonValue objectOf(const model::SessionView& session, const Incident& event) {
         object["cause"] = model::nameOf(*event.cause);
     }
     object["current"] = event.isCurrent;
-    object["text"] = event.text();
+    object["text"] = say(event.fact(), words::Form::Sentence);
     return object;
 }
 
@@ -200,7 +201,7 @@ std::string eventsCsv(const EventSheet& sheet) {
             std::to_string(event->samples),
             event->cause ? std::string(model::nameOf(*event->cause)) : std::string(),
             event->isCurrent ? "yes" : "no",
-            model::csvText(event->text())};
+            model::csvText(say(event->fact(), words::Form::Sentence))};
         text += csvLine(cells);
     }
     return text;

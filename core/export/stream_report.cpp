@@ -7,6 +7,7 @@
 #include "core/model/session/losses.h"
 #include "core/model/session/verdict.h"
 #include "core/model/text.h"
+#include "core/words/say.h"
 
 #include <algorithm>
 #include <chrono>
@@ -94,7 +95,7 @@ Finding verdictFinding(const model::SessionView& session, const std::optional<mo
     const auto severity = verdict.state == State::Good      ? IncidentSeverity::Info
                           : verdict.state == State::Warning ? IncidentSeverity::Warning
                                                             : IncidentSeverity::Error;
-    return {severity, verdict.text + '.'};
+    return {severity, say(verdict.said, words::Form::Headline) + '.'};
 }
 
 Finding lossFinding(const model::StreamFigures& sum) {

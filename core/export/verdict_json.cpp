@@ -2,6 +2,7 @@
 #include "core/export/verdict_json.h"
 
 #include "core/wire/type_table.h"
+#include "core/words/say.h"
 
 #include <functional>
 #include <utility>
@@ -47,13 +48,14 @@ JsonValue characterJson(const model::SessionView& session, const model::Characte
 JsonValue verdictJson(const model::SessionView& session, const model::TakeVerdict& verdict) {
     const bool isNone = verdict.state == model::TakeVerdict::State::None;
     return {{"state", model::nameOf(verdict.state)},
-            {"text", verdict.text},
+            {"text", say(verdict.said, words::Form::Headline)},
             {"sinceNs", isNone ? JsonValue() : timeJson(session, verdict.since)}};
 }
 
 JsonValue incidentJson(const model::SessionView& session, const model::ListedIncident& listed) {
     const model::Incident& incident = listed.incident;
     const bool isOver = listed.state == model::ListedIncident::State::Over;
+    const words::Fact fact = factOf(session, listed);
     return {{"id", incident.number},
             {"kind", model::wordOf(incident.kind)},
             {"cause", causeJson(incident.cause)},
@@ -68,8 +70,8 @@ JsonValue incidentJson(const model::SessionView& session, const model::ListedInc
                                  [](std::uint8_t type) { return JsonValue(wire::typeDigits(type)); })},
             {"samples", incident.samples},
             {"count", incident.count},
-            {"text", model::headlineOf(session, listed)},
-            {"evidence", model::evidenceOf(listed)}};
+            {"text", say(fact, words::Form::Headline)},
+            {"evidence", say(fact, words::Form::Sentence)}};
 }
 
 JsonValue incidentsJson(const model::SessionView& session) {

@@ -94,7 +94,7 @@ void SessionDriver::tickTables(log::Stamp now) {
     for (const Relaying::Loop& loop : m_receiving.relaying().takeLoops()) {
         model::Occurrence one = model::Occurrence::at(model::IncidentKind::RelayLoop, loop.returner, now,
                                                       m_live.end() == 0 ? 0 : m_live.end() - 1);
-        one.detail = loop.text.toStdString();
+        one.detail = {words::Kind::RelayStopped, {{"problem", loop.text.toStdString()}}};
         m_live.report(one);
         emit relayStopped();
     }

@@ -5,6 +5,7 @@
 #include "app/gui/base/logging.h"
 #include "app/gui/driver/history.h"
 #include "core/model/session/listed_incidents.h"
+#include "core/words/say.h"
 
 #include <QCoreApplication>
 #include <QDateTime>
@@ -56,9 +57,9 @@ void Takes::follow(log::Stamp now) {
     }
     model::Occurrence one = model::Occurrence::at(model::IncidentKind::RecordingEnded, log::kNoSender, now,
                                                   m_live.end() == 0 ? 0 : m_live.end() - 1);
-    one.detail = "The recording has ended: " + problem + '.';
+    one.detail = {words::Kind::RecordingEnded, {{"problem", problem}}};
     m_live.report(one);
-    emit changed(QString::fromStdString(one.detail));
+    emit changed(QString::fromStdString(say(one.detail, words::Form::Sentence)));
 }
 
 QString Takes::start(const RecordingChoice& choice) {
@@ -146,7 +147,9 @@ std::vector<std::string> Takes::notesAtEnd() const {
     std::vector<std::string> notes{log::receptionText(reception())};
     for (const model::ListedIncident& listed : model::listedIncidents(m_live, m_fromStamp)) {
         if (listed.incident.lastStamp >= m_fromStamp && !model::isOnlyComing(listed)) {
-            notes.push_back(headlineOf(m_live, listed) + whenOf(m_live, listed));
+            notes.push_back(say(
+                {words::Kind::Dated, {{"what", factOf(m_live, listed)}, {"when", whenOf(m_live, listed)}}},
+                words::Form::Headline));
         }
     }
     notes.resize(std::min(notes.size(), kMostNotes));

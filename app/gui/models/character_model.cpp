@@ -283,8 +283,9 @@ std::vector<TableColumn<BoardRow>> CharacterModel::columns(model::SessionView& v
             .in({.usual = QStringLiteral("■ 10.0 % lost"), .isOpen = true, .whole = 26})
             .withMore([](const BoardRow& row, int role) {
                 if (role == kShortTextRole) { // whose loss it is stands beside it, in the columns of losses
-                    const PropertyValue what{fromUtf8(row.verdict.what), healthOf(row.verdict.state)};
-                    return QVariant(what.display() + (row.verdict.isOver ? tr(", over") : QString()));
+                    return QVariant(
+                        PropertyValue{said(row.verdict.said, words::Form::Cell), healthOf(row.verdict.state)}
+                            .display());
                 }
                 return role == kSuffixRole && row.restarts != 0
                            ? QVariant(QStringLiteral("↻ ") + restartWords(row.restarts))

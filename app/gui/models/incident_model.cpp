@@ -42,48 +42,27 @@ QString pendingWords(const model::Incident::Part& part) {
     return part.samples != 0 ? tr("%1 not yet here").arg(grouped(part.samples)) : tr("no data");
 }
 
-QString wordsOf(model::SessionView& view, const IncidentLine& line) {
-    const auto settledWords = [&] {
-        return fromUtf8(line.isPart ? line.incident().text(*line.settledPart) : line.settled->text());
-    };
-    if (line.isPart) {
-        const auto type = line.part()->type;
-        QStringList words;
-        if (line.settledPart != nullptr) {
-            words += settledWords();
-        }
-        if (line.pendingPart != nullptr) {
-            words += pendingWords(*line.pendingPart);
-        }
-        const QString said = words.join(QStringLiteral(" · "));
-        return type ? tr("%1: %2").arg(QString::fromStdString(wire::typeTitle(*type)), said) : said;
+/// What happened, as far as it is settled, and what is still missing.
+QString wordsOf(model::SessionView& view, const IncidentLine& line, words::Form form) {
+    QStringList parts;
+    if (line.isPart && line.settledPart != nullptr) {
+        parts += said(line.incident().fact(*line.settledPart), words::Form::Line);
     }
-    if (line.settled == nullptr) {
-        return fromUtf8(headlineOf(view, {*line.pending, State::Provisional})) + QLatin1Char('.');
+    if (line.isPart && line.pendingPart != nullptr) {
+        parts += pendingWords(*line.pendingPart);
     }
-    return line.pending == nullptr
-               ? settledWords()
-               : tr("%1 %2.").arg(settledWords(),
-                                  fromUtf8(briefOf(view, {*line.pending, State::Provisional})));
-}
-
-/// Without whose loss it was, and what more there is to say of it.
-QString shortWordsOf(model::SessionView& view, const IncidentLine& line) {
-    if (line.settled->kind == model::IncidentKind::Conflict) {
-        const QString brief = fromUtf8(briefOf(view, {*line.settled, line.state}));
-        return brief.left(1).toUpper() + brief.mid(1);
+    if (!line.isPart && line.settled != nullptr) {
+        parts +=
+            said(form == words::Form::Line ? factOf(view, {*line.settled, line.state}) : line.settled->fact(),
+                 form);
     }
-    model::Incident bare = *line.settled;
-    bare.cause.reset();
-    bare.detail.clear();
-    if (bare.text().empty()) {
-        return wordsOf(view, line); // what there is to say of it is all there is
+    if (!line.isPart && line.pending != nullptr) {
+        const words::Fact pending = factOf(view, {*line.pending, State::Provisional});
+        parts += said(pending, line.settled == nullptr ? words::Form::Headline : words::Form::Brief);
     }
-    IncidentLine own = line;
-    own.settled = &bare;
-    QString words = wordsOf(view, own);
-    words.chop(words.endsWith(u'.') ? 1 : 0);
-    return words;
+    const QString all = parts.join(QStringLiteral(" · "));
+    const auto type = line.isPart ? line.part()->type : std::nullopt;
+    return type ? tr("%1: %2").arg(QString::fromStdString(wire::typeTitle(*type)), all) : all;
 }
 
 QString lostWords(const IncidentLine& line) {
@@ -130,7 +109,9 @@ std::vector<IncidentColumn> textColumns(model::SessionView& view) {
         return line.isPart ? whoseWords(view, line.incident(), *line.part())
                            : whoseWords(view, line.incident());
     };
-    const auto words = [&view](const IncidentLine& line) { return wordsOf(view, line); };
+    const auto words = [&view](const IncidentLine& line) {
+        return wordsOf(view, line, words::Form::Sentence);
+    };
     return {
         IncidentColumn::numbers(tr("Began"), tr("When it began"),
                                 [&view](const IncidentLine& line) {
@@ -139,12 +120,12 @@ std::vector<IncidentColumn> textColumns(model::SessionView& view) {
                                 })
             .in({.usual = QStringLiteral("10:42:17.508"), .order = 5})
             .withToolTip([&view](const IncidentLine& line) { return fromTo(view, line); }),
-        IncidentColumn::words(tr("Whose"), tr("Character and stream, or the sender"), whose)
+        IncidentColumn::words(tr("Affected"), tr("Character and stream, or the sender"), whose)
             .in({.usual = QStringLiteral("Mira Lindqvist · 02"),
                  .wish = QStringLiteral("Mira Lindqvist · 02 Pose, quaternion"),
                  .least = QStringLiteral("20 c")})
             .withToolTip(whose),
-        // Whose fault it was stands beside it, in a column of its own.
+        // The cause has a column of its own.
         IncidentColumn::words(tr("What happened"), {}, words)
             .in({.usual = QStringLiteral("11509 samples lost in 11293 gaps"),
                  .wish = QStringLiteral("1509 samples lost in 1293 gaps. 10 not yet here."),
@@ -155,7 +136,8 @@ std::vector<IncidentColumn> textColumns(model::SessionView& view) {
                 const bool isLong =
                     line.settled != nullptr &&
                     (line.settled->cause || line.settled->kind == model::IncidentKind::Conflict);
-                return role == kShortTextRole && isLong ? QVariant(shortWordsOf(view, line)) : QVariant();
+                return role == kShortTextRole && isLong ? QVariant(wordsOf(view, line, words::Form::Line))
+                                                        : QVariant();
             }),
     };
 }

@@ -15,25 +15,6 @@ namespace {
 
 using model::IncidentKind;
 
-/// An incident as if it were of one part alone.
-model::Incident partOf(const model::Incident& incident, const model::Incident::Part& part) {
-    model::Incident own = incident;
-    own.parts = {part};
-    own.firstStamp = part.from;
-    own.lastStamp = part.to;
-    return own;
-}
-
-QString lossWords(const model::Incident& incident) {
-    if (incident.samples == 0) {
-        return tr("%1 dropped here").arg(grouped(static_cast<std::uint64_t>(incident.value)));
-    }
-    const QString lost = tr("%1 lost").arg(grouped(incident.samples));
-    return incident.cause && *incident.cause != model::LossCause::Unknown
-               ? lost + QStringLiteral(" · ") + fromUtf8(model::nameOf(*incident.cause))
-               : lost;
-}
-
 /// The heading of that name.
 QString causePlace(std::string_view name) {
     return QStringLiteral("causes#") + fromUtf8(name).replace(u' ', u'-');
@@ -79,39 +60,6 @@ QString whoseWords(model::SessionView& view, const model::Incident& incident,
     return nameApart(view, {incident.sender, *part.character});
 }
 
-QString briefWords(const model::Incident& incident) {
-    switch (incident.kind) {
-    case IncidentKind::Loss:
-    case IncidentKind::Local:
-        return lossWords(incident);
-    case IncidentKind::Outage:
-        return tr("no data");
-    case IncidentKind::Reordered:
-        return tr("%1 reordered").arg(grouped(incident.count));
-    case IncidentKind::Duplicates:
-        return tr("%1 duplicated").arg(grouped(incident.count));
-    case IncidentKind::Malformed:
-        return tr("%1 malformed").arg(grouped(incident.count));
-    case IncidentKind::Foreign:
-        return tr("%1 foreign").arg(grouped(incident.count));
-    case IncidentKind::TimeCode:
-        return incident.value == 0 ? tr("time code stands still")
-                                   : tr("time code %1 ms").arg(signedFixed(incident.value, 0));
-    case IncidentKind::AgeLimit:
-        return tr("stale");
-    case IncidentKind::LossLimit:
-        return tr("loss %1 %").arg(fixed(incident.value, 1));
-    case IncidentKind::JitterLimit:
-        return tr("jitter %1 ms").arg(fixed(incident.value, 1));
-    case IncidentKind::GapLimit:
-        return tr("gap %1 ms").arg(fixed(incident.value, 0));
-    case IncidentKind::RateLimit:
-        return tr("rate off %1 %").arg(fixed(incident.value, 0));
-    default:
-        return fromUtf8(model::nameOf(incident.kind));
-    }
-}
-
 QString helpPlaceOf(const model::Incident& incident) {
     return incident.kind == IncidentKind::Loss && incident.cause ? helpPlaceOf(*incident.cause)
                                                                  : helpPlaceOf(incident.kind);
@@ -138,11 +86,12 @@ std::optional<std::uint64_t> incidentPacket(model::SessionView& view, const mode
 
 PacketsBehind packetsBehind(model::SessionView& view, const model::Incident& incident,
                             const model::Incident::Part* part) {
-    const model::Incident own = part != nullptr ? partOf(incident, *part) : incident;
+    const model::Incident own = part != nullptr ? incident.of(*part) : incident;
     PacketsBehind behind{packetFilterOf(view, own)};
     behind.type = own.type();
     behind.character = own.character();
-    const bool isSilence = own.kind == IncidentKind::Outage && (own.isCurrent || own.samples == 0);
+    const bool isSilence =
+        incident.kind == IncidentKind::Outage && (incident.isCurrent || incident.samples == 0);
     const bool isSettled = own.lastPacket != 0;
     if (isSilence || (isSettled && part == nullptr) || own.group() == model::IncidentGroup::Limit) {
         behind.packet = incidentPacket(view, own);

@@ -19,9 +19,6 @@ namespace posewire::gui {
 [[nodiscard]] QString whoseWords(model::SessionView& view, const model::Incident& incident,
                                  const model::Incident::Part& part);
 
-/// A few words for a cell or a chip: "31 lost · network", "jitter 12.1 ms", "stale".
-[[nodiscard]] QString briefWords(const model::Incident& incident);
-
 /// Where the guide says what it means and what to do about it: its cause where it is a loss, else its kind.
 [[nodiscard]] QString helpPlaceOf(const model::Incident& incident);
 [[nodiscard]] QString helpPlaceOf(model::IncidentKind kind);

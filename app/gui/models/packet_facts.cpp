@@ -106,7 +106,7 @@ QStringList sequenceFindings(model::SessionView& view, std::uint64_t number) {
                                 : missing + QLatin1Char(' ') +
                                       tr("Cause: %1. %2")
                                           .arg(fromUtf8(model::nameOf(gap->cause)),
-                                               QString::fromStdString(gap->evidenceText()));
+                                               said(gap->evidenceFact(), words::Form::Sentence));
     }
     if (digest->isDuplicate) {
         texts += tr("Duplicate: this datagram of this sample had come before.");

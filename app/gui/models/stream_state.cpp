@@ -52,7 +52,8 @@ Health healthOf(model::TakeVerdict::State state) {
 }
 
 PropertyValue verdictState(const model::TakeVerdict& verdict) {
-    return {fromUtf8(verdict.brief), healthOf(verdict.state), fromUtf8(verdict.text)};
+    return {said(verdict.said, words::Form::Brief), healthOf(verdict.state),
+            said(verdict.said, words::Form::Headline)};
 }
 
 PropertyValue streamState(model::SessionView& view, const model::Losses& losses,

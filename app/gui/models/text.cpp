@@ -3,6 +3,7 @@
 
 #include "core/model/text.h"
 
+#include <QCoreApplication>
 #include <QDateTime>
 
 #include <cmath>
@@ -14,6 +15,14 @@ namespace {
 /// The pictures of line end and tabulator, which hardly any font has, as arrows, which most have.
 QString withArrows(QString text) {
     return text.replace(QChar(0x240a), QChar(0x21b5)).replace(QChar(0x2409), QChar(0x21e5));
+}
+
+/// The catalogue has the plural of the table as its source.
+std::string translated(const words::Text& text, std::uint64_t number) {
+    const QString source = fromUtf8(text.text);
+    const QString own =
+        QCoreApplication::translate("posewire::words", text.text, nullptr, static_cast<int>(number));
+    return own == source ? words::english(text, number) : own.toStdString();
 }
 
 } // namespace
@@ -28,6 +37,10 @@ QString shown(const model::ForeignText& text) {
 
 QString shownText(std::string_view bytes) {
     return withArrows(fromUtf8(model::shownText(bytes)));
+}
+
+QString said(const words::Fact& fact, words::Form form) {
+    return fromUtf8(words::say(fact, form, translated));
 }
 
 QString readable(std::span<const std::byte> bytes) {

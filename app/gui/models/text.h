@@ -3,6 +3,7 @@
 
 #include "core/log/time.h"
 #include "core/model/foreign_text.h"
+#include "core/words/say.h"
 
 #include <QDateTime>
 #include <QString>
@@ -23,6 +24,9 @@ namespace posewire::gui {
 
 /// UTF-8 of the core's own words as a text of the window.
 [[nodiscard]] QString fromUtf8(std::string_view text);
+
+/// A fact in words, in the operator's language if there is a catalogue for it.
+[[nodiscard]] QString said(const words::Fact& fact, words::Form form);
 
 /// The bytes as letters of ASCII, with a dot for each that is none.
 [[nodiscard]] QString readable(std::span<const std::byte> bytes);

@@ -2,6 +2,7 @@
 #include "app/gui/panels/metadata_panel.h"
 
 #include "app/gui/models/shown_character.h"
+#include "app/gui/models/text.h"
 #include "app/gui/panels/cell_delegate.h"
 #include "app/gui/theme/theme.h"
 #include "app/gui/theme/widgets.h"
@@ -154,8 +155,8 @@ void DetectionBar::showSender(std::optional<log::SenderId> sender) {
 
 void DetectionBar::showContradictions(const model::Sender& sender) {
     QStringList lines;
-    for (const model::Contradiction& one : sender.contradictions()) {
-        lines += healthText(Health::Warning, QString::fromStdString(one.text));
+    for (const words::Fact& one : sender.contradictions()) {
+        lines += healthText(Health::Warning, said(one, words::Form::Sentence));
     }
     m_contradictions->setVisible(!lines.isEmpty());
     const QString text = lines.join(QLatin1Char('\n'));

@@ -308,7 +308,7 @@ const model::Incident* TimelineView::incidentAt(const QPoint& place) const {
 QString TimelineView::helpAt(const QPoint& place) {
     if (const model::Incident* incident = incidentAt(place)) {
         return tr("%1: %2").arg(timeOfDay(m_view.wallOf(incident->firstStamp)),
-                                QString::fromStdString(incident->text()));
+                                said(incident->fact(), words::Form::Sentence));
     }
     const auto row = rowAt(place);
     const model::RangeParts& parts = m_model.parts();

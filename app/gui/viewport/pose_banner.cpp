@@ -52,8 +52,8 @@ std::vector<Group> groupsOf(const model::SessionView& session) {
 
 QString sentences(const model::PoseRemark& remark) {
     QString text;
-    for (const std::string& line : remark.lines) {
-        text += (text.isEmpty() ? QString() : QStringLiteral(". ")) + QString::fromStdString(line);
+    for (const words::Fact& line : remark.lines) {
+        text += (text.isEmpty() ? QString() : QStringLiteral(". ")) + said(line, words::Form::Headline);
     }
     return text;
 }

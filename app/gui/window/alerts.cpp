@@ -2,6 +2,7 @@
 #include "app/gui/window/alerts.h"
 
 #include "app/gui/base/help_topics.h"
+#include "app/gui/models/text.h"
 #include "app/gui/theme/help_link.h"
 #include "app/gui/theme/plain_text.h"
 #include "app/gui/theme/widgets.h"
@@ -85,7 +86,7 @@ void VerdictNotifier::look(const model::TakeVerdict& verdict, bool isWanted) {
         makeTray();
     }
     QApplication::alert(m_window); // where the desktop has no place for notifications
-    m_tray->showMessage(m_window->windowTitle(), notificationText(QString::fromStdString(verdict.text)),
+    m_tray->showMessage(m_window->windowTitle(), notificationText(said(verdict.said, words::Form::Headline)),
                         QSystemTrayIcon::Warning);
 }
 

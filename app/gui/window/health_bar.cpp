@@ -44,7 +44,7 @@ QString historyText(model::SessionView& session) {
 
 /// Without whose loss it is.
 QString whatOf(const model::TakeVerdict& verdict) {
-    return fromUtf8(verdict.what) + (verdict.isOver ? HealthBar::tr(", over") : QString());
+    return said(verdict.said, words::Form::Cell);
 }
 
 /// Numbers grow and shrink; their neighbours stay.
@@ -176,7 +176,8 @@ void HealthBar::measure(const QFontMetrics& metrics) {
     grow(m_whatWidth, QStringLiteral("10.0 % lost"), QStringLiteral("10.0 % lost, over"));
     for (const model::CharacterKey& key : m_shown) {
         const model::TakeVerdict& verdict = m_session.verdict(key);
-        grow(m_stateWidth, fromUtf8(verdict.brief), QStringLiteral("10.0 % lost, network, over"));
+        grow(m_stateWidth, gui::said(verdict.said, words::Form::Brief),
+             QStringLiteral("10.0 % lost, network, over"));
         grow(m_whatWidth, whatOf(verdict), QStringLiteral("10.0 % lost, over"));
         grow(m_nameWidth, nameApart(m_session, key), QStringLiteral("Performer with a name"));
     }

@@ -152,13 +152,13 @@ private:
         QFont bold = title->font();
         bold.setWeight(QFont::DemiBold);
         title->setFont(bold);
-        auto* words = plainLabel(healthText(health, fromUtf8(verdict.brief)), this);
+        auto* words = plainLabel(healthText(health, said(verdict.said, words::Form::Brief)), this);
         setTextColour(*words, healthColour(health));
         auto* row = new QHBoxLayout;
         row->addWidget(title, 1);
         row->addWidget(words);
         column.addLayout(row);
-        auto* full = dimText(fromUtf8(verdict.text), this);
+        auto* full = dimText(said(verdict.said, words::Form::Headline), this);
         full->setObjectName(QStringLiteral("verdict"));
         column.addWidget(full);
         column.addWidget(dimText(lossText(m_session, m_key), this));
@@ -168,7 +168,7 @@ private:
         const auto troubles = m_session.troublesOf(m_key);
         for (std::size_t i = 0; i < std::min(kMostLines, troubles.size()); ++i) {
             const model::Incident& event = *troubles[i];
-            QString text = QString::fromStdString(event.of(m_key.character).text());
+            QString text = said(event.of(m_key.character).fact(), words::Form::Sentence);
             if (const auto type = event.type()) {
                 text.prepend(tr("Type %1: ").arg(*type, 2, 10, QLatin1Char('0')));
             }

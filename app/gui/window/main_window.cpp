@@ -5,6 +5,7 @@
 #include "app/gui/help/help_pages.h"
 #include "app/gui/inputs/inputs_page.h"
 #include "app/gui/models/comparison_text.h"
+#include "app/gui/models/text.h"
 #include "app/gui/theme/event_watch.h"
 #include "app/gui/theme/icons.h"
 #include "app/gui/theme/widgets.h"
@@ -308,7 +309,7 @@ void MainWindow::showVerdict() {
     ShownFile file;
     if (OpenedFile* opened = m_driver.files().file(); opened != nullptr && opened->session().end() != 0) {
         file = {opened->name(), m_driver.commands().isFileShown(),
-                QString::fromStdString(opened->verdict().text), opened->notes()};
+                said(opened->verdict().said, words::Form::Headline), opened->notes()};
     }
     file.comparison = comparisonText(comparison);
     const std::vector<PortState>& ports = m_driver.receiving().state().ports;

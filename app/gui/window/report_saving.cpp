@@ -6,6 +6,7 @@
 #include "app/gui/models/text.h"
 #include "app/gui/theme/widgets.h"
 #include "app/gui/theme/words.h"
+#include "core/words/say.h"
 
 #include <QApplication>
 #include <QDateTime>
@@ -25,7 +26,8 @@ exporting::StreamReportOptions optionsFor(model::SessionView& session,
     for (const model::Incident& event : session.incidents().all()) {
         const bool isInside = !range || (event.firstStamp < range->to && event.lastStamp >= range->from);
         if (isInside && event.group() == model::IncidentGroup::Limit) {
-            options.exceeded.push_back(whoseWords(session, event).toStdString() + ": " + event.text());
+            options.exceeded.push_back(whoseWords(session, event).toStdString() + ": " +
+                                       say(event.fact(), words::Form::Sentence));
         }
     }
     return options;

@@ -67,14 +67,14 @@ Headline::Headline(QWidget* parent) : QAbstractButton(parent) {
 }
 
 void Headline::setVerdict(const model::TakeVerdict& verdict, const QString& context) {
-    const QString text = context + QString::fromStdString(verdict.text);
+    const QString text = context + said(verdict.said, words::Form::Headline);
     const bool isTurn = !sayTheSame(verdict, m_verdict);
     m_verdict = verdict;
     if (!isTurn && text == this->text()) {
         return;
     }
     m_level = healthOf(verdict.state);
-    m_narrow = context + QString::fromStdString(verdict.narrow);
+    m_narrow = context + said(verdict.said, words::Form::Narrow);
     setText(text);
     setAccessibleName(text);
     if (isTurn) {
@@ -208,13 +208,13 @@ void VerdictBar::refresh(const ShownFile& file, bool hasInputs, const QString& b
 }
 
 void VerdictBar::showVerdict(bool isBehindFile, const QString& blocked) {
-    model::TakeVerdict said = m_verdict;
-    if (said.state == model::TakeVerdict::State::None && !blocked.isEmpty()) {
-        said.state = model::TakeVerdict::State::Bad;
-        said.text = said.narrow = blocked.toStdString();
+    model::TakeVerdict shown = m_verdict;
+    if (shown.state == model::TakeVerdict::State::None && !blocked.isEmpty()) {
+        shown.state = model::TakeVerdict::State::Bad;
+        shown.said = {words::Kind::Text, {{"text", blocked.toStdString()}}};
     }
     m_headline->setLarge(m_isLarge && !isBehindFile);
-    m_headline->setVerdict(said, isBehindFile ? tr("Live: ") : QString());
+    m_headline->setVerdict(shown, isBehindFile ? tr("Live: ") : QString());
     m_span->setText(spanOf(m_live));
     m_reset->setEnabled(m_live.end() != 0);
 }

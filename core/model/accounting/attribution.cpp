@@ -274,7 +274,7 @@ void Attribution::judgeMessage(Stream& stream, log::Stamp stamp, std::uint64_t f
                                           .to = stamp,
                                           .fromPacket = fromPacket,
                                           .toPacket = toPacket,
-                                          .evidence = "Only a part of a message arrived."});
+                                          .evidence = {words::Kind::PartOfMessage}});
     keepNewest(m_judgedPartials, partial, kMostJudged);
 }
 
@@ -303,15 +303,16 @@ void Attribution::judge(Partial& partial, std::uint64_t packet) {
     }
     partial.cause =
         causeOfPartial(stream->key, partial.packet, partial.nextPacket != 0 ? partial.nextPacket : packet);
-    partial.incident = attribute(
-        *stream, {.stream = stream->key,
-                  .cause = partial.cause,
-                  .samples = 1,
-                  .from = partial.stamp,
-                  .to = partial.stamp,
-                  .fromPacket = partial.packet,
-                  .toPacket = partial.packet,
-                  .evidence = "Only a part of sample " + std::to_string(partial.sample) + " arrived."});
+    partial.incident =
+        attribute(*stream, {.stream = stream->key,
+                            .cause = partial.cause,
+                            .samples = 1,
+                            .from = partial.stamp,
+                            .to = partial.stamp,
+                            .fromPacket = partial.packet,
+                            .toPacket = partial.packet,
+                            .evidence = {words::Kind::PartOfSample,
+                                         {{"sample", words::Number{static_cast<double>(partial.sample)}}}}});
     keepNewest(m_judgedPartials, partial, kMostJudged);
     m_judgedPartials.back().stream = stream;
 }
@@ -418,7 +419,7 @@ void Attribution::attributeRest(Stream& stream) {
                                                  .fromPacket = m_lastPacket,
                                                  .toPacket = m_lastPacket,
                                                  .incident = stream.restIncident,
-                                                 .evidence = "Lost as the stream began."});
+                                                 .evidence = {words::Kind::AsStreamBegan}});
         stream.restSamples += missing - told;
     } else if (const std::uint64_t less = std::min(told - missing, stream.restSamples); less != 0) {
         stream.restSamples -= less;
@@ -436,7 +437,7 @@ Loss Attribution::lossOf(const Gap& gap, std::uint64_t samples) {
             .fromPacket = gap.fromPacket,
             .toPacket = gap.toPacket,
             .incident = gap.incident,
-            .evidence = gap.evidenceText()};
+            .evidence = gap.evidenceFact()};
 }
 
 /// Counts again what a gap still lacks, in it and in the sums of its stream.

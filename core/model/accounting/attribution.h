@@ -26,7 +26,7 @@ struct Loss {
     std::uint64_t fromPacket = 0;
     std::uint64_t toPacket = 0;
     std::uint64_t incident = 0; ///< that some of it was told in; 0 for none
-    std::string evidence;       ///< one sentence
+    words::Fact evidence;
 };
 
 /// Told of every loss, and of what was not lost after all: the sums of what it is told are

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/accounting/gap.h"
 
-#include "core/model/text.h"
+#include "core/model/accounting/sample_window.h"
 #include "core/wire/type_table.h"
 
 namespace posewire::model {
@@ -10,40 +10,42 @@ bool Gap::isAround(std::uint32_t sample) const {
     return distance(sample, fromSample) > 0 && distance(toSample, sample) > 0;
 }
 
-std::string Gap::evidenceText() const {
-    const std::int64_t lastedMs = (toStamp - fromStamp) / std::chrono::milliseconds(1);
+words::Fact Gap::evidenceFact() const {
+    using K = words::Kind;
+    const auto lastedMs =
+        words::Number{static_cast<double>((toStamp - fromStamp) / std::chrono::milliseconds(1))};
+    const words::NamedValue sample{"sample", figure};
+    const words::NamedValue type{"type", wire::typeDigits(otherType)};
+    const words::NamedValue from{"from", fromPacket};
+    const words::NamedValue to{"to", toPacket};
+    const words::NamedValue samples{"samples", words::counted(K::Samples, lost)};
     switch (evidence) {
     case Evidence::Dropped:
-        return "This computer dropped " + counted(figure, "datagram") + " of the port between packets " +
-               grouped(fromPacket) + " and " + grouped(toPacket) + ".";
+        return {K::DroppedHere, {{"datagrams", words::counted(K::Datagrams, figure)}, from, to}};
     case Evidence::NotListening:
-        return "This computer did not listen to the port for a while: its input was removed and added again.";
+        return {K::NotListening};
     case Evidence::Overtaken:
-        return "This computer did not look at " + counted(figure, "packet") + " between packets " +
-               grouped(fromPacket) + " and " + grouped(toPacket) + " in time.";
+        return {K::OvertakenBetween, {{"packets", words::counted(K::Packets, figure)}, from, to}};
     case Evidence::Damaged:
-        return "Sample " + grouped(figure) + " arrived truncated or damaged.";
+        return {K::SampleDamaged, {sample}};
     case Evidence::Partial:
-        return "Only a part of sample " + grouped(figure) + ", next to the gap, arrived.";
+        return {K::PartNextToGap, {sample}};
     case Evidence::OtherStream:
-        return "Type " + wire::typeDigits(otherType) + " of the same sender brought sample " +
-               grouped(figure) + ", which is missing here.";
+        return {K::OtherStream, {type, sample}};
     case Evidence::Reliable:
-        return "TCP loses nothing: " + counted(lost, "sample was", "samples were") + " not sent.";
+        return {K::NotSentByTcp, {samples}};
     case Evidence::CutOff:
-        return "The silence cut through sample " + grouped(figure) + ": it came here, and not of type " +
-               wire::typeDigits(otherType) + ".";
+        return {K::CutOff, {sample, type}};
     case Evidence::Paused:
-        return (figure == 1 ? "The only stream of the sender paused for "
-                            : "All " + counted(figure, "stream") + " of the sender paused together for ") +
-               std::to_string(lastedMs) + " ms, and the time code moved by " + std::to_string(timeCodeMoved) +
-               " ms.";
+        return {K::Paused,
+                {{"streams", words::counted(K::Streams, figure)},
+                 {"lasted", lastedMs},
+                 {"moved", words::Number{static_cast<double>(timeCodeMoved)}}}};
     case Evidence::None:
         break;
     }
-    return isJudged ? "Nothing was dropped here, and no other stream of the sender shows where " +
-                          counted(lost, "sample") + " went in " + std::to_string(lastedMs) + " ms."
-                    : "Still waiting for late arrivals.";
+    return isJudged ? words::Fact{K::NoEvidence, {samples, {"lasted", lastedMs}}}
+                    : words::Fact{K::WaitingForLate};
 }
 
 } // namespace posewire::model

@@ -4,9 +4,9 @@
 #include "core/log/stream_index.h"
 #include "core/log/time.h"
 #include "core/model/accounting/stream_counts.h"
+#include "core/words/fact.h"
 
 #include <cstdint>
-#include <string>
 
 namespace posewire::model {
 
@@ -43,8 +43,7 @@ struct Gap {
     std::uint8_t otherType = 0;      ///< of the evidence OtherStream or CutOff
 
     [[nodiscard]] bool isAround(std::uint32_t sample) const;
-    /// One sentence with figures.
-    [[nodiscard]] std::string evidenceText() const;
+    [[nodiscard]] words::Fact evidenceFact() const;
 };
 
 /// Samples of a stream that are not there yet, and not yet lost.

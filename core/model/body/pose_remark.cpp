@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/body/pose_remark.h"
 
-#include "core/model/text.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace posewire::model {
 namespace {
@@ -14,12 +13,12 @@ bool holds(const CharacterPose& pose, std::uint8_t type) {
     return std::ranges::find(pose.types, type) != pose.types.end();
 }
 
-std::string namesOf(const CharacterPose& pose, const std::vector<int>& segments) {
+words::Fact ofSegments(words::Kind kind, const CharacterPose& pose, const std::vector<int>& segments) {
     std::vector<std::string> names;
     for (const int segment : segments) {
         names.emplace_back(segmentTitle(pose.layout, segment));
     }
-    return listed(names);
+    return {kind, {{"segments", std::move(names)}}};
 }
 
 std::vector<int> segmentsWhere(const CharacterPose& pose, const auto& isSo) {
@@ -32,24 +31,25 @@ std::vector<int> segmentsWhere(const CharacterPose& pose, const auto& isSo) {
     return segments;
 }
 
-/// What a message alone does not tell.
-std::string partsLine(const CharacterPose& pose) {
+/// What a message alone lacks.
+words::Kind partsKind(const CharacterPose& pose) {
+    using enum words::Kind;
     const bool hasPositions = holds(pose, wire::LinearKinematics::kType);
     const bool hasOrientations = holds(pose, wire::AngularKinematics::kType);
-    const bool hasMarkers = holds(pose, wire::PointPositions::kType);
     if (hasPositions && hasOrientations) {
-        return {};
+        return Nothing;
     }
-    if (hasMarkers) {
-        return hasOrientations ? "Positions are fitted to the markers of type 03"
-               : hasPositions  ? "Orientations are fitted to the markers of type 03"
-                               : "The body is fitted to the markers of type 03";
+    if (!holds(pose, wire::PointPositions::kType)) {
+        return hasOrientations ? NoPositions : NoOrientations;
     }
-    return hasOrientations ? "Type 22 alone has no positions: where the body stands is assumed"
-                           : "Type 21 alone has no orientations: they are solved from the joints";
+    if (hasOrientations) {
+        return PositionsFitted;
+    }
+    return hasPositions ? OrientationsFitted : BodyFitted;
 }
 
 void addMissing(const CharacterPose& pose, PoseRemark& remark) {
+    using enum words::Kind;
     const auto assumed = segmentsWhere(
         pose, [](const SegmentSource& source) { return source.weaker() == Provenance::Assumed; });
     const auto solved = segmentsWhere(
@@ -57,15 +57,16 @@ void addMissing(const CharacterPose& pose, PoseRemark& remark) {
     const bool isWhole = hasWholePoses(pose.type);
     // Type 05 is solved by design, and types in parts have said so.
     if (isWhole && pose.type != wire::PoseUnity::kType && !solved.empty()) {
-        remark.lines.push_back("Not sent, solved from the others: " + namesOf(pose, solved));
+        remark.lines.push_back(ofSegments(SegmentsSolved, pose, solved));
     }
     if (!assumed.empty() && !(pose.isPlaceAssumed && assumed.size() == 1)) {
-        remark.lines.push_back((isWhole ? "Not sent, assumed: " : "How these are turned is assumed: ") +
-                               namesOf(pose, assumed));
-        remark.reason = remark.reason.empty() ? remark.lines.back() : remark.reason;
+        remark.lines.push_back(ofSegments(isWhole ? SegmentsAssumed : TurnsAssumed, pose, assumed));
+        remark.reason = remark.reason.isNothing() ? remark.lines.back() : remark.reason;
     }
     remark.isAssumed = !assumed.empty() || pose.isPlaceAssumed;
-    remark.brief = remark.isAssumed ? "partly assumed" : !solved.empty() ? "partly solved" : "";
+    if (remark.isAssumed || !solved.empty()) {
+        remark.brief = {remark.isAssumed ? PartlyAssumed : PartlySolved};
+    }
 }
 
 /// How long arms and legs are between the joints that were sent, against the body: the median of their bones,
@@ -100,12 +101,10 @@ void addContradiction(const CharacterPose& pose, const BodyOrigins& body, PoseRe
     if (scale == 1) {
         return;
     }
-    remark.lines.push_back("The scale message is of another body: its arms and legs are " +
-                           std::string(scale < 1 ? "longer" : "shorter") +
-                           " than in the poses, in whose size it is drawn");
+    remark.lines.push_back({scale < 1 ? words::Kind::LongerThanScale : words::Kind::ShorterThanScale});
     remark.reason = remark.isAssumed ? remark.reason : remark.lines.back();
     remark.isAssumed = true;
-    remark.brief = "wrong scale";
+    remark.brief = {words::Kind::WrongScale};
 }
 
 void addBody(const CharacterPose& pose, const BodyOrigins& body, PoseRemark& remark) {
@@ -114,8 +113,7 @@ void addBody(const CharacterPose& pose, const BodyOrigins& body, PoseRemark& rem
         return;
     }
     const bool isMeasured = body.source == BodySource::Poses;
-    remark.lines.emplace_back(isMeasured ? "No scale message yet: bone lengths are measured on poses"
-                                         : "No scale message yet: the reference body of 1.75 m is drawn");
+    remark.lines.push_back({isMeasured ? words::Kind::BonesMeasured : words::Kind::ReferenceBody});
     // Where positions are sent, the reference body is only what the skin hangs on. Markers are fitted to it.
     const bool isOfMarkers = holds(pose, wire::PointPositions::kType) &&
                              !holds(pose, wire::LinearKinematics::kType) && !hasWholePoses(pose.type);
@@ -123,7 +121,7 @@ void addBody(const CharacterPose& pose, const BodyOrigins& body, PoseRemark& rem
     if (!isMeasured && restsOnBones) {
         remark.isAssumed = true;
         remark.reason = remark.lines.back();
-        remark.brief = "assumed body";
+        remark.brief = {words::Kind::AssumedBody};
     }
 }
 
@@ -146,25 +144,25 @@ bool isBelowFloor(const CharacterPose& pose) {
 PoseRemark remarkOn(const CharacterPose& pose, const BodyOrigins& body) {
     PoseRemark remark;
     if (pose.isObjects) {
-        remark.brief = counted(pose.segments.size(), "object");
-        remark.lines.push_back("Tracked objects, no body: " + counted(pose.segments.size(), "object"));
+        remark.brief = words::counted(words::Kind::Objects, pose.segments.size());
+        remark.lines.push_back({words::Kind::TrackedObjects, {{"objects", remark.brief}}});
         return remark;
     }
     if (!hasWholePoses(pose.type)) {
-        if (std::string line = partsLine(pose); !line.empty()) {
-            remark.lines.push_back(std::move(line));
+        if (const words::Kind kind = partsKind(pose); kind != words::Kind::Nothing) {
+            remark.lines.push_back({kind});
             remark.reason = remark.lines.back();
         }
     }
     addMissing(pose, remark);
     addBody(pose, body, remark);
     if (!remark.isAssumed) {
-        remark.reason.clear();
+        remark.reason = {};
     }
     if (pose.isLifted) {
-        remark.lines.emplace_back("Placed on the floor, since it was sent below it");
+        remark.lines.push_back({words::Kind::PlacedOnFloor});
     } else if (isBelowFloor(pose)) {
-        remark.lines.emplace_back("It was sent below the floor");
+        remark.lines.push_back({words::Kind::SentBelowFloor});
     }
     return remark;
 }

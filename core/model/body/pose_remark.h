@@ -2,21 +2,20 @@
 #pragma once
 
 #include "core/model/body/character_pose.h"
+#include "core/words/fact.h"
 
-#include <string>
 #include <vector>
 
 namespace posewire::model {
 
-/// What is to be said of a pose that was not sent as it is shown: the one place for these words.
+/// What is to be said of a pose that was not sent as it is shown.
 struct PoseRemark {
     /// Something of it rests on nothing that was sent, or on a scale message that contradicts it: it is not
     /// to be called good.
     bool isAssumed = false;
-    std::string reason; ///< why it is assumed: one of the lines
-    std::string brief;  ///< "assumed", "solved", "2 objects"; empty where there is nothing to say
-    /// What is missing and what is shown instead, in sentences without a stop at the end.
-    std::vector<std::string> lines;
+    words::Fact reason;             ///< why it is assumed: one of the lines
+    words::Fact brief;              ///< "partly assumed", "2 objects"; nothing if there is nothing to say
+    std::vector<words::Fact> lines; ///< what is missing and what is shown instead
 
     [[nodiscard]] bool isEmpty() const { return lines.empty(); }
 };

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/incidents/incident_follower.h"
 
-#include "core/model/text.h"
-
 #include <algorithm>
 #include <string>
 #include <utility>
@@ -64,7 +62,7 @@ void IncidentFollower::checkTakenOver(const CharacterKey& key, Character& charac
     }
     Occurrence one = Occurrence::at(IncidentKind::Restart, key.sender, tookOver.stamp, m_lastPacket);
     one.character = key.character;
-    one.detail = "Now sent from another port.";
+    one.detail = {words::Kind::OtherPort};
     m_incidents.report(one);
 }
 
@@ -110,10 +108,11 @@ void IncidentFollower::tellConflict(std::span<const Claim> claims, const log::Pa
                 others.push_back(found != m_sources.end() ? found->second.address : "a retired sender");
             }
         }
-        std::ranges::sort(others); // so that the text stays
+        std::ranges::sort(others); // so that the fact stays
         Occurrence one = Occurrence::at(IncidentKind::Conflict, own->sender, packet.stamp, packet.number);
         one.character = character;
-        one.detail = listed(others);
+        one.detail = {words::Kind::TwoSenders,
+                      {{"id", std::uint64_t{character}}, {"others", std::move(others)}}};
         m_incidents.report(one);
     }
 }

@@ -2,10 +2,9 @@
 #include "core/model/incidents/incident.h"
 
 #include "core/model/incidents/incident_kinds.h"
-#include "core/model/text.h"
-#include "core/wire/type_table.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace posewire::model {
@@ -14,56 +13,52 @@ namespace {
 /// A longer silence is more than a warning.
 constexpr double kLongSilenceS = 1;
 
-std::uint64_t wholeOf(double value) {
-    return static_cast<std::uint64_t>(std::max(0.0, value));
+bool losesSamples(IncidentKind kind) {
+    return kind == IncidentKind::Loss || kind == IncidentKind::Local || kind == IncidentKind::Outage;
 }
 
-std::string causeText(const Incident& incident) {
-    return incident.cause ? ", cause: " + std::string(nameOf(*incident.cause)) : std::string();
+/// What is missing: of samples, or of messages.
+words::Fact missingOf(const Incident& incident) {
+    const bool isOfMessages = incident.isOfMessages();
+    return {isOfMessages ? words::Kind::Incomplete : words::Kind::Lost,
+            {{"n", words::counted(isOfMessages ? words::Kind::Messages : words::Kind::Samples,
+                                  incident.samples)}}};
 }
 
-std::string withDetail(std::string text, const Incident& incident) {
-    return incident.detail.empty() ? text : std::move(text) + ' ' + incident.detail;
-}
-
-/// "12 samples lost".
-std::string missingText(const Incident& incident, std::uint64_t count) {
-    return counted(count, incident.noun()) + ' ' + std::string(incident.fate());
-}
-
-std::string lossText(const Incident& incident) {
-    const std::string gaps = incident.isOfMessages() ? "" : " in " + counted(incident.count, "gap");
-    return withDetail(missingText(incident, incident.samples) + gaps + causeText(incident) + '.', incident);
-}
-
-std::string localText(const Incident& incident) {
-    const std::uint64_t dropped = wholeOf(incident.value);
-    std::string text = dropped != 0 ? "This computer dropped " + counted(dropped, "datagram")
-                                    : "This computer did not look at everything in time";
-    text += incident.samples != 0 ? ": " + missingText(incident, incident.samples) + '.' : ".";
-    return withDetail(std::move(text), incident);
-}
-
-std::string outageText(const Incident& incident) {
-    if (incident.isCurrent) {
-        return "No data.";
+void addLosses(const Incident& incident, words::Fact& fact) {
+    if (incident.samples != 0 || incident.kind == IncidentKind::Loss) {
+        fact.values.push_back({"missing", missingOf(incident)});
+        fact.values.push_back({"amount", missingOf(incident)});
     }
-    std::string text =
-        "No data for " + fixedText(log::secondsOf(incident.lastStamp - incident.firstStamp), 2) + " s";
-    if (incident.samples != 0) {
-        text += ": " + counted(incident.samples, "sample") + " lost";
+    if (!incident.isOfMessages() && incident.count != 0) {
+        fact.values.push_back({"gaps", words::counted(words::Kind::Gaps, incident.count)});
     }
-    return withDetail(text + causeText(incident) + '.', incident);
+    if (incident.cause) {
+        fact.values.push_back({"cause", causeFact(*incident.cause)});
+    }
+    if (!incident.isCurrent) {
+        fact.values.push_back(
+            {"lasted", words::Number{log::secondsOf(incident.lastStamp - incident.firstStamp), 2}});
+    }
+    fact.values.push_back({"evidence", incident.detail});
 }
 
-std::string limitText(const Incident& incident, const char* what, const char* unit, int decimals) {
-    std::string limit = fixedText(incident.limit, decimals); // as somebody set it: "10", not "10.0"
-    if (limit.find('.') != std::string::npos) {
-        limit.erase(limit.find_last_not_of('0') + 1);
-        limit.erase(limit.find_last_not_of('.') + 1);
+/// What its value is: datagrams or packets that this computer missed, a figure and its limit, or a time.
+void addValue(const Incident& incident, words::Fact& fact) {
+    const IncidentKindFacts& facts = factsOf(incident.kind);
+    const auto whole = static_cast<std::uint64_t>(std::max(0.0, incident.value));
+    if (facts.sumsValue) {
+        if (whole != 0) {
+            fact.values.push_back({"dropped", words::counted(words::Kind::Datagrams, whole)});
+        }
+        fact.values.push_back({"packets", words::counted(words::Kind::Packets, whole)});
+    } else if (facts.group == IncidentGroup::Limit) {
+        fact.values.push_back({"value", words::Number{incident.value, facts.decimals}});
+        fact.values.push_back({"limit", words::Number{incident.limit, facts.decimals, true}});
+    } else if (incident.kind == IncidentKind::ClockSet) {
+        fact.values.push_back(
+            {incident.value < 0 ? "back" : "forward", words::Number{std::abs(incident.value), 3}});
     }
-    return std::string(what) + ' ' + fixedText(incident.value, decimals) + ' ' + unit + ", limit " + limit +
-           ' ' + unit + '.';
 }
 
 template <class Get>
@@ -121,12 +116,10 @@ std::string_view wordOf(IncidentKind kind) {
     return factsOf(kind).word;
 }
 
-std::string typesText(const std::vector<std::uint8_t>& types) {
-    std::vector<std::string> names;
-    for (const std::uint8_t type : types) {
-        names.push_back(wire::typeDigits(type));
-    }
-    return (types.size() == 1 ? "type " : "types ") + listed(names);
+words::Fact causeFact(LossCause cause) {
+    using enum words::Kind;
+    constexpr std::array kKinds{CauseThisComputer, CauseNetwork, CauseSender, CauseUnknown}; // by LossCause
+    return {kKinds[static_cast<std::size_t>(cause)]};
 }
 
 std::optional<std::uint8_t> Incident::character() const {
@@ -185,59 +178,25 @@ bool Incident::concerns(std::uint8_t which, std::uint8_t whichType) const {
     });
 }
 
-std::string Incident::text() const {
-    switch (kind) {
-    case IncidentKind::SourceUp:
-        return "A sender started sending.";
-    case IncidentKind::Loss:
-        return lossText(*this);
-    case IncidentKind::Local:
-        return localText(*this);
-    case IncidentKind::Outage:
-        return outageText(*this);
-    case IncidentKind::Reordered:
-        return counted(count, "datagram") + " came after a later one.";
-    case IncidentKind::Duplicates:
-        return counted(count, "datagram") + " came more than once.";
-    case IncidentKind::Malformed:
-        return counted(count, "datagram") + " could not be decoded.";
-    case IncidentKind::Foreign:
-        return counted(count, "datagram is", "datagrams are") + " not MXTP.";
-    case IncidentKind::Restart:
-        return detail.empty() ? "The sample counter restarted." : detail;
-    case IncidentKind::Overtaken:
-        return "This computer did not look at " + counted(wholeOf(value), "packet") + " in time.";
-    case IncidentKind::Step:
-    case IncidentKind::Scale:
-    case IncidentKind::MetadataChange:
-    case IncidentKind::RelayLoop:
-    case IncidentKind::RecordingEnded:
-        return detail;
-    case IncidentKind::ScaleChange:
-        return "The null pose changed.";
-    case IncidentKind::TimeCode:
-        return !detail.empty() ? detail : "The time code jumped by " + fixedText(value, 0) + " ms.";
-    case IncidentKind::Conflict:
-        return "Character " + std::to_string(character().value_or(0)) +
-               " comes from elsewhere at the same time: " + detail + '.';
-    case IncidentKind::ClockSet:
-        return std::string("The receiving computer's clock was set ") + (value < 0 ? "back" : "forward") +
-               " by " + fixedText(std::abs(value), 3) + " s.";
-    case IncidentKind::LossLimit:
-        return limitText(*this, "Loss", "%", 2);
-    case IncidentKind::JitterLimit:
-        return limitText(*this, "Jitter", "ms", 1);
-    case IncidentKind::GapLimit:
-        return limitText(*this, "Gap", "ms", 0);
-    case IncidentKind::AgeLimit:
-        return limitText(*this, "Age", "s", 1);
-    case IncidentKind::RateLimit:
-        return limitText(*this, "Rate off by", "%", 1);
+words::Fact Incident::fact() const {
+    const words::Kind says = factsOf(kind).says;
+    const bool isLoss = losesSamples(kind);
+    words::Fact fact = isLoss || detail.isNothing() ? words::Fact{says} : detail;
+    if (isLoss) {
+        addLosses(*this, fact);
     }
-    return {};
+    addValue(*this, fact);
+    fact.values.push_back({"count", words::counted(words::Kind::Datagrams, count)});
+    return fact;
 }
 
-std::string Incident::text(const Part& part) const {
+words::Fact Incident::fact(const Part& part) const {
+    words::Fact fact = of(part).fact();
+    fact.kind = losesSamples(kind) && part.samples != 0 ? words::Kind::Loss : fact.kind;
+    return fact;
+}
+
+Incident Incident::of(const Part& part) const {
     Incident own = *this;
     own.parts = {part};
     own.firstStamp = part.from;
@@ -245,18 +204,10 @@ std::string Incident::text(const Part& part) const {
     own.count = part.count;
     own.samples = part.samples;
     own.isCurrent = isCurrent && part.isCurrent;
-    const bool isSilence = kind == IncidentKind::Outage && part.samples == 0;
-    if (isSilence) {
+    if (kind == IncidentKind::Outage && part.samples == 0) {
         own.cause.reset();
     }
-    const bool isLoss =
-        kind == IncidentKind::Loss || kind == IncidentKind::Local || kind == IncidentKind::Outage;
-    std::string text = isLoss && !isSilence ? missingText(own, part.samples) : own.text();
-    if (isLoss && part.count != 0 && kind != IncidentKind::Outage && !own.isOfMessages()) {
-        text += ", " + counted(part.count, "gap");
-    }
-    text.erase(text.find_last_not_of('.') + 1);
-    return text;
+    return own;
 }
 
 } // namespace posewire::model

@@ -4,12 +4,12 @@
 #include "core/log/time.h"
 #include "core/model/accounting/stream_counts.h"
 #include "core/model/keys.h"
+#include "core/words/fact.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <string>
 #include <string_view>
 #include <vector>
 
@@ -52,8 +52,7 @@ enum class IncidentGroup : std::uint8_t { Sender, Loss, Content, Limit };
 /// Of the contract for scripts: "loss", "outage", "local" …; empty for a note, which is no incident there.
 [[nodiscard]] std::string_view wordOf(IncidentKind kind);
 
-/// "type 02", "types 02, 12 and 20".
-[[nodiscard]] std::string typesText(const std::vector<std::uint8_t>& types);
+[[nodiscard]] words::Fact causeFact(LossCause cause);
 
 /// One thing that happened to one stream, or to a character or sender as a whole.
 struct Occurrence {
@@ -70,7 +69,7 @@ struct Occurrence {
     double value = 0;          ///< limits: how bad; TimeCode: ms; ClockSet: s; Outage: s
     double limit = 0;          ///< limits: what must not be exceeded
     std::optional<LossCause> cause{};
-    std::string detail{};
+    words::Fact detail{};
     bool isOver = false; ///< of kinds that last until they are ended: for its stream or character
 
     /// One at one moment.
@@ -113,7 +112,7 @@ struct Incident {
     std::uint64_t samples = 0; ///< lost for good: Loss, Local, Outage
     double value = 0;          ///< the worst; see Occurrence
     double limit = 0;
-    std::string detail{};      ///< evidence of the newest loss; of a note what changed; of Conflict who else
+    words::Fact detail{};      ///< evidence of the newest loss; of other kinds what happened
     std::vector<Part> parts{}; ///< in the order in which they were touched
     bool isCurrent = true;     ///< lasts, or may
     std::uint64_t version = 0; ///< of the list when it last changed
@@ -128,20 +127,18 @@ struct Incident {
     [[nodiscard]] std::vector<std::uint8_t> types() const;
     /// All of it is of types that are sent again and again: what is missing are parts of messages.
     [[nodiscard]] bool isOfMessages() const;
-    /// "sample", or "message".
-    [[nodiscard]] std::string_view noun() const { return isOfMessages() ? "message" : "sample"; }
-    /// What became of it: "lost"; "incomplete" of messages.
-    [[nodiscard]] std::string_view fate() const { return isOfMessages() ? "incomplete" : "lost"; }
     /// What of it was to one character, or to some; as a whole where it is of no character.
     [[nodiscard]] Incident of(std::uint8_t character) const { return of(std::span(&character, 1)); }
     [[nodiscard]] Incident of(std::span<const std::uint8_t> characters) const;
     /// Whether a character is touched, or all of its sender; of what lasts, whether it still is.
     [[nodiscard]] bool concerns(std::uint8_t character) const;
     [[nodiscard]] bool concerns(std::uint8_t character, std::uint8_t type) const;
-    /// One line, without who and when.
-    [[nodiscard]] std::string text() const;
-    /// The same of one part: "12 samples lost, 3 gaps".
-    [[nodiscard]] std::string text(const Part& part) const;
+    /// What of it was to one stream.
+    [[nodiscard]] Incident of(const Part& part) const;
+    /// What happened, without who and when.
+    [[nodiscard]] words::Fact fact() const;
+    /// What happened to one stream: a silence is what it lost.
+    [[nodiscard]] words::Fact fact(const Part& part) const;
 };
 
 } // namespace posewire::model

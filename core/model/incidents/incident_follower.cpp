@@ -2,7 +2,6 @@
 #include "core/model/incidents/incident_follower.h"
 
 #include "core/log/ip_address.h"
-#include "core/model/text.h"
 
 #include <algorithm>
 #include <functional>
@@ -64,16 +63,15 @@ std::optional<std::uint8_t> characterOf(const log::Packet& packet,
                : std::optional(std::to_integer<std::uint8_t>(packet.bytes[kAt]));
 }
 
-/// "Types 02 and 20 are not sent any more …": one that ended now, and those of the incident before it.
-std::string endedText(const Incident* known, std::uint8_t type) {
+/// Those that ended: one now, and those of the incident before it.
+words::Fact endedFact(const Incident* known, std::uint8_t type) {
     std::vector<std::uint8_t> types = known != nullptr ? known->types() : std::vector<std::uint8_t>();
     if (const auto place = std::ranges::lower_bound(types, type); place == types.end() || *place != type) {
         types.insert(place, type);
     }
-    std::string text = typesText(types) + (types.size() == 1 ? " is" : " are") +
-                       " not sent any more while others of the character go on.";
-    text.front() = 'T';
-    return text;
+    words::Fact fact = words::typesFact(types);
+    fact.kind = words::Kind::TypesEnded;
+    return fact;
 }
 
 } // namespace
@@ -336,7 +334,7 @@ void IncidentFollower::excuse(const log::StreamKey& key, log::Stamp from) {
 }
 
 void IncidentFollower::takeChange(IncidentKind kind, const CharacterKey& key, const log::Packet& packet,
-                                  std::string detail) {
+                                  words::Fact detail) {
     Occurrence one = occurrenceOf(kind, packet);
     one.character = key.character;
     one.detail = std::move(detail);
@@ -344,14 +342,14 @@ void IncidentFollower::takeChange(IncidentKind kind, const CharacterKey& key, co
 }
 
 void IncidentFollower::takeContradiction(log::SenderId sender, std::optional<std::uint8_t> character,
-                                         log::Stamp stamp, const std::string& text) {
+                                         log::Stamp stamp, const words::Fact& found) {
     Occurrence one = Occurrence::at(IncidentKind::Scale, sender, stamp, m_lastPacket);
     one.character = character;
-    one.detail = text;
+    one.detail = found;
     const Incident* known = m_incidents.currentLike(one);
-    if (!text.empty() && (known == nullptr || known->detail != text)) {
+    if (!found.isNothing() && (known == nullptr || known->detail != found)) {
         m_incidents.report(one);
-    } else if (text.empty() && known != nullptr) {
+    } else if (found.isNothing() && known != nullptr) {
         m_incidents.end(known->number, stamp);
     }
 }
@@ -440,7 +438,7 @@ void IncidentFollower::checkEnded(log::Stamp stamp) {
                 one.character = key.character;
                 one.type = stream->key.type;
                 one.cause = LossCause::Unknown;
-                one.detail = endedText(m_incidents.currentLike(one), stream->key.type);
+                one.detail = endedFact(m_incidents.currentLike(one), stream->key.type);
                 m_incidents.report(one);
                 stream->isStalled = false;
                 stream->excusedUntil = log::Stamp::max();

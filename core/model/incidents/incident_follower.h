@@ -48,10 +48,10 @@ public:
                       const std::string& address);
     void takeVerdict(Stream& stream, const Verdict& verdict);
     void takeChange(IncidentKind kind, const CharacterKey& key, const log::Packet& packet,
-                    std::string detail);
-    /// What contradicts itself about a sender, or one character of it: one sentence, empty for nothing.
+                    words::Fact detail);
+    /// What contradicts itself about a sender, or one character of it.
     void takeContradiction(log::SenderId sender, std::optional<std::uint8_t> character, log::Stamp stamp,
-                           const std::string& text);
+                           const words::Fact& found);
 
     std::uint64_t takeLoss(const Loss& loss) override;
     void takeBack(std::uint64_t incident, const log::StreamKey& stream, std::uint64_t samples,

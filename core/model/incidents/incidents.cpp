@@ -2,7 +2,6 @@
 #include "core/model/incidents/incidents.h"
 
 #include "core/model/incidents/incident_kinds.h"
-#include "core/model/text.h"
 
 #include <algorithm>
 #include <utility>
@@ -93,7 +92,7 @@ std::size_t Incidents::memoryBytes() const {
     std::size_t bytes =
         m_incidents.size() * sizeof(Incident) + m_current.size() * (sizeof(*m_current.begin()) + kNode);
     for (const Incident& incident : m_incidents) {
-        bytes += incident.detail.capacity() + incident.parts.capacity() * sizeof(Incident::Part);
+        bytes += words::memoryBytes(incident.detail) + incident.parts.capacity() * sizeof(Incident::Part);
     }
     return bytes;
 }
@@ -152,8 +151,9 @@ void Incidents::add(Incident& incident, const Occurrence& one) {
                          ? one.value
                          : incident.value;
     incident.limit = std::max(incident.limit, one.limit);
-    if (!one.detail.empty()) {
-        incident.detail = clippedText(one.detail, kMostDetailBytes);
+    if (!one.detail.isNothing()) {
+        incident.detail = one.detail;
+        words::clip(incident.detail, kMostDetailBytes);
     }
     if (Incident::Part* part = partOf(incident, one)) {
         part->times += one.from > part->to + Incident::kApart ? 1 : 0;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/incidents/incident_follower.h"
 
-#include <string>
 #include <utility>
 
 /// What is told of the spacing of sample counters.
@@ -26,8 +25,7 @@ void IncidentFollower::noteStep(Stream& stream, const Verdict& verdict) {
     if (step == 0 && stream.toldStep != 0 && !stream.isUneven) {
         if (wasKnown) {
             Occurrence one = stepOf(stream.key, verdict); // until it has another one
-            one.detail = "The step of the sample counter is irregular; it was " +
-                         std::to_string(stream.toldStep) + '.';
+            one.detail = {words::Kind::StepIrregular, {{"before", std::uint64_t{stream.toldStep}}}};
             m_incidents.report(one);
         }
         stream.isUneven = wasKnown;
@@ -48,8 +46,8 @@ void IncidentFollower::noteStep(Stream& stream, const Verdict& verdict) {
         return; // nobody knew it before
     }
     Occurrence one = stepOf(stream.key, verdict);
-    one.detail = "The step of the sample counter is " + std::to_string(step) + " now; it was " +
-                 std::to_string(before) + '.';
+    one.detail = {words::Kind::StepChanged,
+                  {{"step", std::uint64_t{step}}, {"before", std::uint64_t{before}}}};
     m_incidents.report(one);
     excuse(stream.key, verdict.stamp);
     stream.usualHz = 0;

@@ -3,7 +3,6 @@
 
 #include "core/model/accounting/attribution.h"
 #include "core/model/incidents/loss_limit.h"
-#include "core/model/text.h"
 
 #include <algorithm>
 #include <array>
@@ -210,7 +209,8 @@ bool ThresholdWatch::noteRate(Stream& stream, log::Stamp to, log::Stamp now, Inc
     one.to = now;
     one.character = stream.key.character;
     one.type = stream.key.type;
-    one.detail = "The rate is " + fixedText(rateHz, 0) + " Hz now; it was " + fixedText(usualHz, 0) + " Hz.";
+    one.detail = {words::Kind::RateChanged,
+                  {{"rate", words::Number{rateHz}}, {"before", words::Number{usualHz}}}};
     incidents.report(one);
     stream.usualHz = rateHz;
     stream.excusedUntil = now + log::durationOf(m_thresholds.windowS); // the window has both rates

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/accounting/sender_clock.h"
 #include "core/model/incidents/incident_follower.h"
-#include "core/model/text.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -14,8 +13,8 @@ constexpr std::int64_t kJumpMs = 500;
 /// A time code that is back where it belongs sooner did not jump: one datagram was corrupt, or some were held
 /// up together on their way.
 constexpr log::Duration kJumped = std::chrono::milliseconds(200);
-/// A time code stands still that has not changed for three times as long as it ever took, at least and at
-/// most; at most until it has changed so often.
+/// A time code is frozen if it has not changed for three times as long as it ever took, at least and at most;
+/// at most until it has changed this often.
 constexpr log::Duration kStill = std::chrono::milliseconds(200);
 constexpr log::Duration kMostStill = std::chrono::seconds(2);
 constexpr std::uint32_t kKnown = 10;
@@ -69,7 +68,7 @@ void IncidentFollower::noteStill(const log::StreamKey& stream, const Verdict& ve
     Occurrence one = timeCodeOccurrence(stream, verdict);
     one.from = codes.moved;
     one.count = std::exchange(codes.isStill, true) ? 0 : 1;
-    one.detail = "The time code stands still while samples come.";
+    one.detail = {words::Kind::TimeCodeFrozen};
     m_incidents.report(one);
 }
 
@@ -92,7 +91,7 @@ bool IncidentFollower::noteChange(const Stream& stream, const Verdict& verdict, 
     if (isJump) {
         Occurrence one = timeCodeOccurrence(stream.key, verdict);
         one.value = static_cast<double>(jumpMs);
-        one.detail = "The time code jumped by " + fixedText(one.value, 0) + " ms.";
+        one.detail = {words::Kind::TimeCodeJumped, {{"value", words::Number{one.value}}}};
         if (!codes.jump) {
             codes.isPause = endsSilence && isAbout(-jumpMs, passedMs);
             codes.jump = one;
@@ -108,7 +107,7 @@ bool IncidentFollower::noteChange(const Stream& stream, const Verdict& verdict, 
     if (std::exchange(codes.isStill, false)) {
         Occurrence one = timeCodeOccurrence(stream.key, verdict);
         one.count = 0;
-        one.detail = "The time code stood still for " + fixedText(log::secondsOf(stood), 1) + " s.";
+        one.detail = {words::Kind::TimeCodeWasFrozen, {{"lasted", words::Number{log::secondsOf(stood), 1}}}};
         m_incidents.report(one);
     } else if (codes.moved != log::Stamp() && !isJump && passed < kStill) {
         codes.longest = std::max(codes.longest, stood);
@@ -130,7 +129,7 @@ void IncidentFollower::tellPause(std::uint64_t outage, std::uint8_t character) {
     one.character = character;
     one.count = 0;
     one.isOver = true;
-    one.detail = "The sender paused: its counter went on where it had stopped.";
+    one.detail = {words::Kind::SenderPaused};
     m_incidents.addTo(outage, one);
     m_incidents.setCause(outage, LossCause::Sender);
 }

@@ -14,6 +14,16 @@ namespace {
 /// Whether senders contradict themselves is looked at this often.
 constexpr log::Duration kContradictions = std::chrono::milliseconds(500);
 
+/// A sentence as it is said after a colon.
+std::string clauseOf(std::string text) {
+    const bool isWord = text.size() > 1 && text[1] >= 'a' && text[1] <= 'z';
+    if (isWord && text[0] >= 'A' && text[0] <= 'Z') {
+        text[0] = static_cast<char>(text[0] - 'A' + 'a');
+    }
+    text.erase(text.find_last_not_of('.') + 1);
+    return text;
+}
+
 } // namespace
 
 void Ingest::lookForContradictions() {
@@ -23,9 +33,9 @@ void Ingest::lookForContradictions() {
     m_nextContradictions = m_observed + kContradictions;
     for (const Sender& sender : m_senders) {
         if (sender.isPerforming()) {
-            const auto found = hasEnded(sender) ? std::vector<Contradiction>() : sender.contradictions();
+            const auto found = hasEnded(sender) ? std::vector<words::Fact>() : sender.contradictions();
             m_incidents->takeContradiction(sender.id, std::nullopt, m_observed,
-                                           found.empty() ? "" : found.front().text);
+                                           found.empty() ? words::Fact() : found.front());
         }
     }
 }
@@ -42,8 +52,12 @@ void Ingest::setOverride(log::SenderId sender, const SenderOverride& overrides) 
 void Ingest::lookAtNullPose(const NullPoseRecord& record, Character& character, const log::Packet& packet) {
     const bool isWhole = record.pose != nullptr && record.pose->isComplete();
     if (isWhole && record.changed != std::exchange(character.judgedNullPose, record.changed)) {
-        m_incidents->takeContradiction(packet.sender, character.key.character, packet.stamp,
-                                       gravestError(record));
+        const std::string error = gravestError(record);
+        m_incidents->takeContradiction(
+            packet.sender, character.key.character, packet.stamp,
+            error.empty()
+                ? words::Fact()
+                : words::Fact{words::Kind::Contradiction, {{"text", error}, {"clause", clauseOf(error)}}});
     }
 }
 

@@ -41,10 +41,6 @@ std::string typeText(std::uint8_t type) {
     return "type " + wire::typeDigits(type);
 }
 
-std::string declaredText(Revision revision) {
-    return "declared " + std::string(revisionName(revision));
-}
-
 } // namespace
 
 std::string_view revisionName(Revision revision) {
@@ -124,46 +120,41 @@ void Detector::addBody(const wire::Body& body) {
     std::visit(add, body);
 }
 
-std::optional<Contradiction> Detector::againstRevision(Revision declared) const {
-    const std::string said = declaredText(declared);
+std::optional<words::Fact> Detector::againstRevision(Revision declared) const {
+    using K = words::Kind;
+    const words::NamedValue said{"declared", std::string(revisionName(declared))};
     const bool hasCounts = (m_allForms & kCounted) != 0;
     if (declared != Revision::N && hasCounts) {
-        return Contradiction{said + ", sends counts", said + ", but header counts are filled"};
+        return words::Fact{K::SendsCounts, {said}};
     }
     if (declared == Revision::N && m_allForms == kReserved) {
-        return Contradiction{said + ", sends no counts", said + ", but header bytes 17 to 23 are zero"};
+        return words::Fact{K::SendsNoCounts, {said}};
     }
     if (declared == Revision::E && m_typeSinceJ) {
-        const std::string type = typeText(*m_typeSinceJ);
-        return Contradiction{said + ", sends " + type,
-                             said + ", but " + type + " is on the air, which came with J"};
+        return words::Fact{K::SendsTypeSinceJ, {said, {"type", wire::typeDigits(*m_typeSinceJ)}}};
     }
     return std::nullopt;
 }
 
-std::vector<Contradiction> Detector::contradictions(const SenderOverride& declared) const {
-    std::vector<Contradiction> found;
+std::vector<words::Fact> Detector::contradictions(const SenderOverride& declared) const {
+    using K = words::Kind;
+    std::vector<words::Fact> found;
     if (declared.revision) {
         if (auto one = againstRevision(*declared.revision)) {
             found.push_back(std::move(*one));
         }
     }
     if (m_typeOfBothForms) {
-        found.push_back({"header counts come and go",
-                         typeText(*m_typeOfBothForms) +
-                             " came with header counts and without: the sender has changed its revision"});
+        found.push_back({K::CountsComeAndGo, {{"type", wire::typeDigits(*m_typeOfBothForms)}}});
     }
-    const std::string looks = std::string(unitName(m_zUp.unit()));
+    const words::NamedValue looks{"looks", std::string(unitName(m_zUp.unit()))};
+    const words::NamedValue evidence{"evidence", m_zUp.evidence()};
     if (declared.positionUnit && !m_zUp.evidence().empty() && *declared.positionUnit != m_zUp.unit()) {
-        const std::string read = std::string(unitName(*declared.positionUnit));
-        found.push_back({"looks like " + looks + ", read as " + read, "positions look like " + looks + " (" +
-                                                                          m_zUp.evidence() + "), read as " +
-                                                                          read + " because you set it"});
+        found.push_back(
+            {K::ReadInOtherUnit, {looks, evidence, {"read", std::string(unitName(*declared.positionUnit))}}});
     }
     if (!m_zUp.before().empty()) {
-        found.push_back({"unit has changed to " + looks, "positions were in " + m_zUp.before() +
-                                                             " and are in " + looks + " now (" +
-                                                             m_zUp.evidence() + ')'});
+        found.push_back({K::UnitChanged, {looks, evidence, {"before", m_zUp.before()}}});
     }
     return found;
 }

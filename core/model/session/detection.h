@@ -3,6 +3,7 @@
 
 #include "core/model/body/units.h"
 #include "core/wire/codec.h"
+#include "core/words/fact.h"
 
 #include <array>
 #include <cstdint>
@@ -34,12 +35,6 @@ struct SenderOverride {
     std::optional<Revision> revision{}; ///< never Unknown
     std::optional<LengthUnit> positionUnit{};
     friend bool operator==(const SenderOverride&, const SenderOverride&) = default;
-};
-
-/// Two things about a sender that cannot both be so.
-struct Contradiction {
-    std::string brief; ///< for a cell or a label: "declared J or K, sends counts"
-    std::string text;  ///< the sentence: "declared J or K, but header counts are filled"
 };
 
 /// Finds the unit of positions from one pose after the other, and sticks to it: somebody may climb or fall.
@@ -80,7 +75,7 @@ public:
     }
 
     /// What arrives against what is declared, and against what arrived before; empty where all agrees.
-    [[nodiscard]] std::vector<Contradiction> contradictions(const SenderOverride& declared) const;
+    [[nodiscard]] std::vector<words::Fact> contradictions(const SenderOverride& declared) const;
 
 private:
     /// In what headers a type has come.
@@ -88,7 +83,7 @@ private:
 
     void conclude(Revision revision, std::string evidence);
     void noteHeaderForm(std::uint8_t type, HeaderForm form);
-    [[nodiscard]] std::optional<Contradiction> againstRevision(Revision declared) const;
+    [[nodiscard]] std::optional<words::Fact> againstRevision(Revision declared) const;
 
     Revision m_revision = Revision::Unknown;
     std::string m_revisionEvidence;

@@ -364,7 +364,8 @@ void Ingest::takeMetadata(const wire::MetaData& message, const Observation& seen
     const std::size_t before = metadata.memoryBytes();
     metadata.add(message, packet.number, packet.stamp);
     if (std::string change = changeBy(metadata, packet.number); !change.empty()) {
-        m_incidents->takeChange(IncidentKind::MetadataChange, seen.character->key, packet, std::move(change));
+        m_incidents->takeChange(IncidentKind::MetadataChange, seen.character->key, packet,
+                                {words::Kind::MetadataChanged, {{"changes", std::move(change)}}});
     }
     if (m_metadataKeeping.grew(before, metadata.memoryBytes())) {
         std::vector<Metadata*> all;

@@ -6,15 +6,14 @@
 #include "core/model/accounting/count_history.h"
 #include "core/model/accounting/gap.h"
 #include "core/model/incidents/incident_kinds.h"
-#include "core/model/session/loss_amount.h"
 #include "core/model/session/losses.h"
-#include "core/model/text.h"
 
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <ctime>
 #include <map>
+#include <utility>
 
 namespace posewire::model {
 namespace {
@@ -136,7 +135,7 @@ ListedIncident forgottenOf(log::SenderId sender, LossCause cause, std::uint64_t 
     listed.incident.sender = sender;
     listed.incident.cause = cause;
     listed.incident.samples = samples;
-    listed.incident.detail = "Of incidents that are not listed any more.";
+    listed.incident.detail = {words::Kind::NoLongerListed};
     listed.incident.isCurrent = false;
     return listed;
 }
@@ -154,32 +153,24 @@ bool hasNamesake(const SessionView& session, const Incident& incident) {
     });
 }
 
-/// "Jonas", "Jonas and Mira", "4 characters", or the sender; with it where others send the same.
-std::string whom(const SessionView& session, const Incident& incident) {
-    const auto characters = incident.characters();
-    if (characters.empty()) {
-        return session.addressOf(incident.sender).shown();
-    }
+/// Its characters, or the sender; with it if others send the same characters.
+words::Value whom(const SessionView& session, const Incident& incident) {
+    const std::string address = session.addressOf(incident.sender).shown();
     std::vector<CharacterKey> keys;
-    for (const std::uint8_t character : characters) {
+    for (const std::uint8_t character : incident.characters()) {
         keys.push_back({incident.sender, character});
     }
-    const bool isAmbiguous = incident.kind != IncidentKind::Conflict && hasNamesake(session, incident);
-    return namesOrCount(session, keys) +
-           (isAmbiguous ? " of " + session.addressOf(incident.sender).shown() : std::string());
-}
-
-/// A sentence as it goes on after a colon: "The null pose changed" as "the null pose changed".
-std::string continued(std::string text) {
-    const bool isWord = text.size() > 1 && text[1] >= 'a' && text[1] <= 'z';
-    if (isWord && text[0] >= 'A' && text[0] <= 'Z') {
-        text[0] = static_cast<char>(text[0] - 'A' + 'a');
+    if (keys.empty()) {
+        return address;
     }
-    return text;
+    words::Value who = whoOf(session, keys);
+    const bool isAmbiguous = incident.kind != IncidentKind::Conflict && hasNamesake(session, incident);
+    return isAmbiguous ? words::Fact{words::Kind::OfSender, {{"who", std::move(who)}, {"address", address}}}
+                       : who;
 }
 
 /// Of all of it.
-std::string amountOf(const SessionView& session, const Incident& incident, std::string_view noun) {
+words::Fact amountOf(const SessionView& session, const Incident& incident) {
     StreamCounts sum;
     for (const Incident::Part& part : incident.parts) {
         const Stream* stream = streamOf(session, incident.sender, part);
@@ -189,43 +180,44 @@ std::string amountOf(const SessionView& session, const Incident& incident, std::
         }
     }
     const bool isShort = incident.lastStamp - incident.firstStamp < kLeastOfShare;
-    return lossAmount(incident.samples, isShort || incident.isOfMessages() ? 0 : sum.expected(), noun);
+    return lostFact(incident, incident.samples, isShort ? 0 : sum.expected());
 }
 
-std::string causeOf(const Incident& incident) {
-    return incident.cause && *incident.cause != LossCause::Unknown
-               ? ", " + std::string(nameOf(*incident.cause))
-               : ", cause unknown";
-}
-
-std::string lossHeadline(const SessionView& session, const Incident& incident, const std::string& lost) {
-    return (lost.empty() ? amountOf(session, incident, incident.noun()) : lost) + ' ' +
-           std::string(incident.fate()) + " on " + whom(session, incident) + causeOf(incident);
-}
-
-std::string conflictHeadline(const SessionView& session, const Incident& incident, const std::string& who,
-                             bool isOfMany) {
-    return who + (isOfMany ? " come" : " comes") + " from several senders at once, " +
-           session.addressOf(incident.sender).shown() + " and also " + incident.detail;
-}
-
-/// Who else sends it: "port 40002" where that is on the same host.
-std::string otherSender(const SessionView& session, const Incident& incident) {
-    const std::string own = session.addressOf(incident.sender).shown();
+/// Who else sends it: "port 40002" of the same host.
+words::Value otherSender(const std::string& own, const words::Value& others) {
+    const auto& addresses = std::get<std::vector<std::string>>(others);
     const std::string_view host = log::hostOf(own);
-    const bool isSameHost = host.size() < own.size() && log::hostOf(incident.detail) == host;
-    return isSameHost ? "port " + incident.detail.substr(host.size() + 1) : incident.detail;
+    const bool isSameHost =
+        addresses.size() == 1 && host.size() < own.size() && log::hostOf(addresses.front()) == host;
+    return isSameHost ? words::Value(words::Fact{words::Kind::Port,
+                                                 {{"port", addresses.front().substr(host.size() + 1)}}})
+                      : others;
 }
 
-/// Of an outage: "no data for 1.2 s"; of one at the end of a recording, wherever the cursor is in it,
-/// "no data, last 1.2 s".
-std::string silenceOf(const SessionView& session, const ListedIncident& listed) {
+/// How long an outage has lasted: until the end of a recording, wherever the cursor is, or until now.
+void addSilence(const SessionView& session, const ListedIncident& listed, words::Fact& fact) {
     const log::Stamp end = listed.state == State::Over
                                ? listed.incident.lastStamp
                                : std::max(session.knownUntil(), listed.incident.lastStamp);
     const double seconds = log::secondsOf(end - listed.incident.firstStamp);
     const bool isAtEnd = session.isRecording() && listed.state != State::Over;
-    return (isAtEnd ? "no data, last " : "no data for ") + fixedText(seconds, seconds < 10 ? 1 : 0) + " s";
+    set(fact, isAtEnd ? "left" : "silence", words::Number{seconds, seconds < 10 ? 1 : 0});
+}
+
+words::Fact provisionalFact(const SessionView& session, const Incident& incident) {
+    words::Fact fact =
+        incident.samples != 0
+            ? words::Fact{words::Kind::NotYetHere,
+                          {{"count", words::counted(words::Kind::Samples, incident.samples)}}}
+            : words::Fact{words::Kind::TypesMissing, {{"missing", words::typesFact(incident.types())}}};
+    set(fact, "who", whom(session, incident));
+    return fact;
+}
+
+words::Value namesOrCount(std::vector<std::string> names) {
+    constexpr std::size_t kMostNamed = 2;
+    return names.size() > kMostNamed ? words::Value(words::counted(words::Kind::Characters, names.size()))
+                                     : words::Value(std::move(names));
 }
 
 /// What no incident of the list tells.
@@ -246,15 +238,24 @@ std::vector<ListedIncident> unlistedOf(const SessionView& session) {
 
 } // namespace
 
-std::string namesOrCount(const SessionView& session, std::span<const CharacterKey> characters) {
-    if (characters.size() > 2) {
-        return counted(characters.size(), "character");
-    }
+words::Value whoOf(const SessionView& session, std::span<const CharacterKey> characters) {
     std::vector<std::string> names;
     for (const CharacterKey& key : characters) {
         names.push_back(session.displayName(key).shown());
     }
-    return listed(names);
+    return namesOrCount(std::move(names));
+}
+
+words::Fact lostFact(const Incident& incident, std::uint64_t samples, std::uint64_t expected) {
+    constexpr std::uint64_t kFew = 10;
+    const bool isOfMessages = incident.isOfMessages();
+    const double percent =
+        100.0 * static_cast<double>(samples) / static_cast<double>(std::max<std::uint64_t>(1, expected));
+    const bool isShare = samples > kFew && expected > 10 * kFew && percent <= 100 && !isOfMessages;
+    words::Fact amount =
+        isShare ? words::Fact{words::Kind::Share, {{"n", words::Number{percent, percent < 10 ? 1 : 0}}}}
+                : words::counted(isOfMessages ? words::Kind::Messages : words::Kind::Samples, samples);
+    return {isOfMessages ? words::Kind::Incomplete : words::Kind::Lost, {{"n", std::move(amount)}}};
 }
 
 const Stream* streamOf(const SessionView& session, log::SenderId sender, const Incident::Part& part) {
@@ -299,58 +300,34 @@ std::vector<ListedIncident> listedIncidents(const SessionView& session, log::Sta
     return all;
 }
 
-std::string headlineOf(const SessionView& session, const ListedIncident& listed, const std::string& lost) {
+words::Fact factOf(const SessionView& session, const ListedIncident& listed) {
     const Incident& incident = listed.incident;
-    const std::string who = whom(session, incident);
     if (listed.state == State::Provisional) {
-        return incident.samples != 0 ? counted(incident.samples, "sample") + " of " + who + " not yet here"
-                                     : "no data of " + typesText(incident.types()) + " from " + who;
+        return provisionalFact(session, incident);
     }
-    switch (incident.kind) {
-    case IncidentKind::Loss:
-        return lossHeadline(session, incident, lost);
-    case IncidentKind::Local:
-        return incident.samples != 0 ? lossHeadline(session, incident, lost)
-                                     : "this computer dropped " +
-                                           counted(static_cast<std::uint64_t>(incident.value), "datagram");
-    case IncidentKind::Outage:
-        return "no data from " + who + (incident.cause ? causeOf(incident) : std::string());
-    case IncidentKind::Reordered:
-        return counted(incident.count, "datagram") + " of " + who + " reordered";
-    case IncidentKind::Duplicates:
-        return counted(incident.count, "datagram") + " of " + who + " duplicated";
-    case IncidentKind::Malformed:
-        return counted(incident.count, "datagram") + " of " + who + " malformed";
-    case IncidentKind::Foreign:
-        return counted(incident.count, "datagram") + " from " + who + " not MXTP";
-    case IncidentKind::Restart:
-        return who + " restarted";
-    case IncidentKind::Conflict:
-        return conflictHeadline(session, incident, who, false);
-    case IncidentKind::Overtaken:
-    case IncidentKind::RelayLoop:
-    case IncidentKind::RecordingEnded:
-    case IncidentKind::ClockSet: {
-        std::string text = incident.text();
-        text.erase(text.find_last_not_of('.') + 1);
-        return text;
+    words::Fact fact = incident.fact();
+    const std::string address = session.addressOf(incident.sender).shown();
+    set(fact, "who", whom(session, incident));
+    set(fact, "address", address);
+    if (incident.kind == IncidentKind::Outage) {
+        addSilence(session, listed, fact);
+    } else if (incident.samples != 0) {
+        set(fact, "amount", amountOf(session, incident));
     }
-    default: {
-        std::string text = incident.text();
-        text.erase(text.find_last_not_of('.') + 1);
-        return who + ": " + continued(std::move(text));
+    if (const words::Value* others = find(incident.detail, "others")) {
+        set(fact, "other", otherSender(address, *others));
     }
-    }
+    return fact;
 }
 
-std::string headlineOf(const SessionView& session, std::span<const ListedIncident> together) {
+words::Fact factOf(const SessionView& session, std::span<const ListedIncident> together) {
     std::vector<ListedIncident> inOrder(together.begin(), together.end());
     std::ranges::sort(inOrder, {}, [](const ListedIncident& one) { return one.incident.number; });
-    const Incident& first = inOrder.front().incident;
+    const ListedIncident& first = inOrder.front();
     std::vector<std::string> names;
     bool isOneCause = true;
     for (const ListedIncident& one : inOrder) {
-        isOneCause = isOneCause && one.incident.cause == first.cause;
+        isOneCause = isOneCause && one.incident.cause == first.incident.cause;
         for (const std::uint8_t character : one.incident.characters()) {
             const std::string name = session.displayName({one.incident.sender, character}).shown();
             if (std::ranges::find(names, name) == names.end()) {
@@ -361,69 +338,23 @@ std::string headlineOf(const SessionView& session, std::span<const ListedInciden
             names.push_back(session.addressOf(one.incident.sender).shown());
         }
     }
-    const std::string who = names.size() > 2 ? counted(names.size(), "character") : listed(names);
-    return first.kind == IncidentKind::Conflict
-               ? conflictHeadline(session, first, who, names.size() > 1)
-               : "no data from " + who + (isOneCause && first.cause ? causeOf(first) : std::string());
-}
-
-std::string causeOf(const ListedIncident& listed) {
-    const Incident& incident = listed.incident;
-    const bool isLoss = (incident.kind == IncidentKind::Loss || incident.kind == IncidentKind::Local) &&
-                        incident.samples != 0;
-    const bool isSilence = incident.kind == IncidentKind::Outage && incident.cause;
-    return listed.state != State::Provisional && (isLoss || isSilence) ? causeOf(incident) : std::string();
-}
-
-std::string briefOf(const SessionView& session, const ListedIncident& listed) {
-    const Incident& incident = listed.incident;
-    const std::string count = grouped(incident.count);
-    if (listed.state == State::Provisional) {
-        return incident.samples != 0 ? grouped(incident.samples) + " not yet here"
-                                     : "no data of " + typesText(incident.types());
+    words::Fact fact = factOf(session, first);
+    set(fact, "who", namesOrCount(std::move(names)));
+    if (!isOneCause) {
+        set(fact, "cause", words::Fact{});
     }
-    switch (incident.kind) {
-    case IncidentKind::Loss:
-    case IncidentKind::Local:
-        return incident.samples != 0 ? amountOf(session, incident, {}) + ' ' + std::string(incident.fate())
-                                     : grouped(static_cast<std::uint64_t>(incident.value)) + " dropped here";
-    case IncidentKind::Outage:
-        return silenceOf(session, listed);
-    case IncidentKind::Reordered:
-        return count + " reordered";
-    case IncidentKind::Duplicates:
-        return count + " duplicated";
-    case IncidentKind::Malformed:
-        return count + " malformed";
-    case IncidentKind::Foreign:
-        return count + " not MXTP";
-    case IncidentKind::Restart:
-        return "restarted";
-    case IncidentKind::Conflict:
-        return "also from " + otherSender(session, incident);
-    case IncidentKind::Step: // with a cause, that is not known, where it ended
-        return incident.cause ? typesText(incident.types()) + " not sent"
-                              : std::string(nameOf(incident.kind));
-    default:
-        return std::string(nameOf(incident.kind));
-    }
+    return fact;
 }
 
-std::string evidenceOf(const ListedIncident& listed) {
-    if (listed.state != State::Provisional) {
-        return listed.incident.text();
-    }
-    return listed.incident.samples != 0 ? "What is missing may still come."
-                                        : "Other types of the same character go on.";
-}
-
-std::string whenOf(const SessionView& session, const ListedIncident& listed) {
+words::Fact whenOf(const SessionView& session, const ListedIncident& listed) {
+    using K = words::Kind;
     const std::string from = clockText(session.wallOf(listed.incident.firstStamp));
     if (listed.state != State::Over) {
-        return session.isRecording() ? ", " + from + " to the end" : ", since " + from;
+        return {session.isRecording() ? K::ToTheEnd : K::Since, {{"from", from}}};
     }
     const std::string to = clockText(session.wallOf(listed.incident.lastStamp));
-    return from == to ? ", at " + from : ", " + from + " to " + to;
+    return from == to ? words::Fact{K::At, {{"from", from}}}
+                      : words::Fact{K::FromTo, {{"from", from}, {"to", to}}};
 }
 
 } // namespace posewire::model

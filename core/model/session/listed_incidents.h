@@ -4,11 +4,10 @@
 #include "core/model/session/session_view.h"
 
 #include <span>
-#include <string>
 #include <string_view>
 #include <vector>
 
-/// What happened, with what is not settled yet, in the words that all views use.
+/// What happened, with what is not settled yet.
 namespace posewire::model {
 
 /// An incident as it is listed: with what is not settled yet.
@@ -41,25 +40,18 @@ struct ListedIncident {
 /// Whether it is of a sample of which the rest is just coming.
 [[nodiscard]] bool isOnlyComing(const ListedIncident& one);
 
-/// "37 samples lost on Jonas, network": what an incident is in a few words, and whose. `lost` is said instead
-/// of how much it lost in all.
-[[nodiscard]] std::string headlineOf(const SessionView& session, const ListedIncident& listed,
-                                     const std::string& lost = {});
-
 /// "Jonas", "Jonas and Mira", "4 characters".
-[[nodiscard]] std::string namesOrCount(const SessionView& session, std::span<const CharacterKey> characters);
+[[nodiscard]] words::Value whoOf(const SessionView& session, std::span<const CharacterKey> characters);
 
-/// Of several outages that go on at once, or several characters that are sent twice: all of them, and the
-/// cause where it is one.
-[[nodiscard]] std::string headlineOf(const SessionView& session, std::span<const ListedIncident> together);
+/// "37 samples lost", or "2.3 % lost" of the samples expected if that says more; 0 expected: not known.
+[[nodiscard]] words::Fact lostFact(const Incident& incident, std::uint64_t samples, std::uint64_t expected);
 
-/// What happened, without to whom and whose it was: "37 lost".
-[[nodiscard]] std::string briefOf(const SessionView& session, const ListedIncident& listed);
-/// What it rests on, in a sentence.
-[[nodiscard]] std::string evidenceOf(const ListedIncident& listed);
-/// Whose loss it was, to be added to that: ", network", ", cause unknown"; empty for what is no loss.
-[[nodiscard]] std::string causeOf(const ListedIncident& listed);
-/// ", since 03:28:07", or ", 03:28:07 to 03:28:09" of what is over.
-[[nodiscard]] std::string whenOf(const SessionView& session, const ListedIncident& listed);
+/// What happened, to whom and why.
+[[nodiscard]] words::Fact factOf(const SessionView& session, const ListedIncident& listed);
+/// Of several outages that last at once, or several characters that are sent twice: all of them, with the
+/// cause if it is one.
+[[nodiscard]] words::Fact factOf(const SessionView& session, std::span<const ListedIncident> together);
+/// "since 03:28:07", or "03:28:07 to 03:28:09" of what is over.
+[[nodiscard]] words::Fact whenOf(const SessionView& session, const ListedIncident& listed);
 
 } // namespace posewire::model

@@ -2,13 +2,12 @@
 #include "core/model/session/recent_losses.h"
 
 #include "core/model/incidents/thresholds.h"
-#include "core/model/session/loss_amount.h"
 
 #include <algorithm>
 
 namespace posewire::model {
 
-std::string RecentLosses::amountOf(const ListedIncident& one, std::string_view noun) {
+std::optional<words::Fact> RecentLosses::amountOf(const ListedIncident& one) {
     const Incident& incident = one.incident;
     const bool isOngoing = one.state == ListedIncident::State::Ongoing;
     const bool isLoss = incident.kind == IncidentKind::Loss || incident.kind == IncidentKind::Local;
@@ -18,8 +17,7 @@ std::string RecentLosses::amountOf(const ListedIncident& one, std::string_view n
     }
     const FaultCounts sum = sumOf(incident);
     const std::uint64_t samples = sum.lost[static_cast<std::size_t>(*incident.cause)];
-    return samples == 0 ? std::string()
-                        : lossAmount(samples, incident.isOfMessages() ? 0 : sum.expected, noun);
+    return samples == 0 ? std::nullopt : std::optional(lostFact(incident, samples, sum.expected));
 }
 
 bool RecentLosses::isAboveLimit(const Incident& incident) {

@@ -6,8 +6,6 @@
 #include "core/model/session/listed_incidents.h"
 
 #include <optional>
-#include <string>
-#include <string_view>
 #include <unordered_map>
 
 namespace posewire::model {
@@ -20,10 +18,9 @@ public:
     RecentLosses(const SessionView& session, const std::optional<TimeRange>& range)
         : m_session(session), m_range(range) {}
 
-    /// "2.1 %", or "37 samples" with a noun: how much of what has gone on since before that time is lost in
-    /// it. Empty for what is told whole: what began in it, or is over, so that it does not grow less, and
-    /// began after the reset.
-    [[nodiscard]] std::string amountOf(const ListedIncident& one, std::string_view noun);
+    /// How much a loss that began before that time lost in it. Nothing if the whole loss is reported: it
+    /// began in that time, or it is over, so that the figure does not shrink, and began after the reset.
+    [[nodiscard]] std::optional<words::Fact> amountOf(const ListedIncident& one);
     /// Whether a part of it is above its limit: now, with the hysteresis of limits; of all there is, or just
     /// after a reset, in that time.
     [[nodiscard]] bool isAboveLimit(const Incident& incident);

@@ -62,7 +62,7 @@ struct Sender {
     /// Of any type. Those with Y up have a unit of their own, usually centimetres, and what describes the
     /// body (13) is in metres by definition.
     [[nodiscard]] LengthUnit positionUnit(std::uint8_t type) const;
-    [[nodiscard]] std::vector<Contradiction> contradictions() const {
+    [[nodiscard]] std::vector<words::Fact> contradictions() const {
         return detector.contradictions(overrides);
     }
     /// Whether it has sent a datagram that could be decoded.

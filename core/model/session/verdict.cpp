@@ -4,7 +4,6 @@
 #include "core/model/body/character_pose.h"
 #include "core/model/body/pose_remark.h"
 #include "core/model/session/recent_losses.h"
-#include "core/model/text.h"
 #include "core/wire/messages.h"
 
 #include <algorithm>
@@ -50,30 +49,24 @@ bool concerns(const Incident& incident, const Line& line) {
            std::ranges::any_of(line, [&](const CharacterKey& one) { return concerns(incident, one); });
 }
 
-/// `together`: the worst one, and those beside it that are told with it.
+/// `together`: the worst one, and those beside it that are reported with it.
 TakeVerdict fromIncidents(const SessionView& session, const std::vector<ListedIncident>& together,
                           RecentLosses& losses) {
+    using K = words::Kind;
     const ListedIncident& worst = together.front();
     const bool isBad = worst.state == State::Ongoing && worst.incident.severity() == IncidentSeverity::Error;
+    words::Fact reason = together.size() > 1 ? factOf(session, together) : factOf(session, worst);
+    if (auto recent = losses.amountOf(worst)) {
+        set(reason, "amount", *std::move(recent));
+    }
     TakeVerdict verdict;
     verdict.state = isBad ? TakeVerdict::State::Bad : TakeVerdict::State::Warning;
     verdict.isOver = worst.state == State::Over;
-    const std::string answer = isBad ? "Not good" : "Not quite good";
-    const std::string lasts = verdict.isOver ? ", over" : session.isRecording() ? "" : ", going on";
-    const std::string lost = losses.amountOf(worst, worst.incident.noun());
-    const std::string what =
-        (together.size() > 1 ? headlineOf(session, together) : headlineOf(session, worst, lost)) +
-        whenOf(session, worst);
-    verdict.text = answer + ": " + what + lasts;
-    verdict.narrow = answer + lasts + ": " + what;
-    const std::string amount = losses.amountOf(worst, {});
-    verdict.what =
-        amount.empty() ? briefOf(session, worst) : amount + ' ' + std::string(worst.incident.fate());
-    const std::string cause = amount.empty() ? causeOf(worst)
-                              : worst.incident.cause == LossCause::Unknown
-                                  ? ", cause unknown"
-                                  : ", " + std::string(nameOf(*worst.incident.cause));
-    verdict.brief = verdict.what + cause + (verdict.isOver ? ", over" : "");
+    verdict.said = {isBad ? K::NotGood : K::NotQuiteGood,
+                    {{"reason", std::move(reason)}, {"when", whenOf(session, worst)}}};
+    if (verdict.isOver || !session.isRecording()) {
+        set(verdict.said, "lasts", words::Fact{verdict.isOver ? K::Over : K::GoingOn});
+    }
     verdict.since = worst.incident.firstStamp;
     verdict.incident = worst.incident.number;
     if (const auto character = worst.incident.character(); character && together.size() == 1) {
@@ -83,15 +76,13 @@ TakeVerdict fromIncidents(const SessionView& session, const std::vector<ListedIn
 }
 
 /// What needs not say that it lasts.
-TakeVerdict lasting(TakeVerdict::State state, const std::string& text, std::string brief, log::Stamp since) {
-    TakeVerdict verdict;
-    verdict.state = state;
-    verdict.text = text;
-    verdict.narrow = text;
-    verdict.what = brief;
-    verdict.brief = std::move(brief);
-    verdict.since = since;
-    return verdict;
+TakeVerdict lasting(TakeVerdict::State state, words::Fact said, log::Stamp since) {
+    return {.state = state, .said = std::move(said), .since = since};
+}
+
+TakeVerdict notQuiteGood(words::Fact reason, log::Stamp since) {
+    return lasting(TakeVerdict::State::Warning, {words::Kind::NotQuiteGood, {{"reason", std::move(reason)}}},
+                   since);
 }
 
 /// A stream that ended while others of its character go on is not on the air.
@@ -101,17 +92,8 @@ std::vector<const Stream*> streamsOnAir(const Character& character) {
     return onAir;
 }
 
-/// What speaks against the body that is drawn of a character.
-struct PoseDoubt {
-    std::string reason; ///< empty where no pose can be drawn
-    std::string brief;
-    std::vector<std::uint8_t> types; ///< that it sends instead
-
-    bool operator==(const PoseDoubt&) const = default;
-};
-
-/// Nothing where all of it was sent.
-std::optional<PoseDoubt> doubtOf(const SessionView& session, const Character& character) {
+/// What speaks against the body that is drawn of a character; nothing if all of it was sent.
+words::Fact doubtOf(const SessionView& session, const Character& character) {
     const std::vector<const Stream*> onAir = streamsOnAir(character);
     const bool isPosed =
         std::ranges::any_of(onAir, [](const Stream* one) { return hasPoses(one->key.type); });
@@ -119,15 +101,19 @@ std::optional<PoseDoubt> doubtOf(const SessionView& session, const Character& ch
         isPosed && session.pose(character.key) != nullptr // else it is that of long ago
             ? std::optional(session.poseRemark(character.key))
             : std::nullopt;
-    if (remark && !remark->isAssumed) {
-        return std::nullopt;
-    }
     if (remark) {
-        return PoseDoubt{remark->reason, remark->brief, {}};
+        return remark->isAssumed ? words::Fact{words::Kind::PoseDoubt,
+                                               {{"doubt", remark->reason}, {"brief", remark->brief}}}
+                                 : words::Fact();
     }
-    PoseDoubt doubt{{}, "no pose", {}};
+    std::vector<std::uint8_t> types;
     for (const Stream* stream : onAir) {
-        doubt.types.push_back(stream->key.type);
+        types.push_back(stream->key.type);
+    }
+    std::ranges::sort(types);
+    words::Fact doubt{words::Kind::NoPose};
+    if (!types.empty()) {
+        set(doubt, "types", words::typesFact(types));
     }
     return doubt;
 }
@@ -141,34 +127,25 @@ bool isNew(const SessionView& session, const Character& character) {
 }
 
 /// Of all characters with the same doubt.
-TakeVerdict onPoses(const SessionView& session, const PoseDoubt& doubt,
+TakeVerdict onPoses(const SessionView& session, words::Fact doubt,
                     const std::vector<CharacterKey>& characters, log::Stamp since) {
-    const std::string who = namesOrCount(session, characters);
-    std::string text = "Not quite good: ";
-    if (!doubt.reason.empty()) {
-        text += who + ": " + doubt.reason;
-    } else {
-        text += "no pose to draw of " + who + (characters.size() == 1 ? ", which sends " : ", which send ") +
-                typesText(doubt.types);
-    }
-    TakeVerdict verdict = lasting(TakeVerdict::State::Warning, text, doubt.brief, since);
+    set(doubt, "who", whoOf(session, characters));
+    TakeVerdict verdict = notQuiteGood(std::move(doubt), since);
     if (characters.size() == 1) {
         verdict.character = characters.front();
     }
     return verdict;
 }
 
-/// Nothing where this computer keeps up: else nobody knows yet how it is now.
+/// Nothing if this computer keeps up: else it is not known how it is now.
 std::optional<TakeVerdict> ifBehind(const SessionView& session) {
     constexpr log::Duration kLong = std::chrono::seconds(1);
     const log::Duration behind = session.behind();
     if (behind < kLong) {
         return std::nullopt;
     }
-    const std::string time = std::to_string(behind / std::chrono::seconds(1)) + " s behind";
-    return lasting(TakeVerdict::State::Warning,
-                   "Not quite good: this computer is " + time + " what it receives", time,
-                   session.now() - behind);
+    const auto seconds = static_cast<std::uint64_t>(behind / std::chrono::seconds(1));
+    return notQuiteGood({words::Kind::Behind, {{"seconds", seconds}}}, session.now() - behind);
 }
 
 TakeVerdict withoutIncident(const SessionView& session, const std::optional<CharacterKey>& only,
@@ -180,34 +157,34 @@ TakeVerdict withoutIncident(const SessionView& session, const std::optional<Char
         characters.push_back(one);
     }
     if (characters.empty()) {
-        return lasting(TakeVerdict::State::None, "No data yet", "no data yet", {});
+        return {};
     }
-    std::optional<PoseDoubt> first;
+    words::Fact first;
     std::vector<CharacterKey> doubtful;
     std::size_t starting = 0;
     for (const Character* one : characters) {
-        const std::optional<PoseDoubt> doubt = doubtOf(session, *one);
-        if (doubt && doubt->reason.empty() && isNew(session, *one)) {
+        words::Fact doubt = doubtOf(session, *one);
+        if (doubt.kind == words::Kind::NoPose && isNew(session, *one)) {
             ++starting;
             continue;
         }
-        first = first ? first : doubt;
-        if (doubt && doubt == first) {
+        first = first.isNothing() ? doubt : first;
+        if (!doubt.isNothing() && doubt == first) {
             doubtful.push_back(one->key);
         }
     }
-    if (first) {
-        return onPoses(session, *first, doubtful, since);
+    if (!first.isNothing()) {
+        return onPoses(session, std::move(first), doubtful, since);
     }
     if (auto late = ifBehind(session)) {
         return *std::move(late);
     }
     if (starting == characters.size()) {
-        return lasting(TakeVerdict::State::None, "No pose yet", "no pose yet", since);
+        return lasting(TakeVerdict::State::None, {words::Kind::NoPoseYet}, since);
     }
-    const std::string who =
-        only ? session.displayName(*only).shown() : counted(characters.size() - starting, "character");
-    return lasting(TakeVerdict::State::Good, "Good for the take: " + who, "good", since);
+    words::Value who = only ? words::Value(session.displayName(*only).shown())
+                            : words::counted(words::Kind::Characters, characters.size() - starting);
+    return lasting(TakeVerdict::State::Good, {words::Kind::Good, {{"who", std::move(who)}}}, since);
 }
 
 bool isPast(const ListedIncident& one, const VerdictSpan& span) {

@@ -6,25 +6,21 @@
 
 #include <map>
 #include <optional>
-#include <string>
 #include <string_view>
 #include <vector>
 
-/// Whether it is good: in the window, the report and the JSON the same answer in the same words.
+/// Whether it is good: in the window, the report and the JSON the same answer.
 namespace posewire::model {
 
 /// The answer to: is it good, and if not, whose fault, and is it over?
 struct TakeVerdict {
     enum class State : std::uint8_t { None, Good, Warning, Bad };
     State state = State::None;
-    std::string text;   ///< one line, the worst first
-    std::string brief;  ///< the same in a few words, without whose and since when: "37 lost, network"
+    words::Fact said{words::Kind::NoDataYet}; ///< the answer, and the worst reason for it
     log::Stamp since{}; ///< when what it says began; of Good when the last incident was over; of None 0
     std::optional<std::uint64_t> incident{}; ///< that it rests on
-    std::optional<CharacterKey> character{}; ///< that it is about, where it is one
-    bool isOver = false;  ///< what it says is over, and mentioned only because it is recent
-    std::string narrow{}; ///< `text` with whether it lasts first, where the end of it has no room
-    std::string what{};   ///< `brief` without whose it is and whether it is over: "37 lost"
+    std::optional<CharacterKey> character{}; ///< that it is about, if it is one
+    bool isOver = false;                     ///< the reason is over, and mentioned only because it is recent
 
     friend bool operator==(const TakeVerdict&, const TakeVerdict&) = default;
 };

@@ -28,7 +28,7 @@ protected:
         gap.count = 2;
         gap.samples = 3;
         gap.cause = model::LossCause::Network;
-        gap.detail = "Other streams \"brought\" it, \xff";
+        gap.detail = {words::Kind::Text, {{"text", std::string("Other streams \"brought\" it, \xff")}}};
         down.kind = model::IncidentKind::Outage;
         down.value = 2;
         down.lastStamp = log::Stamp(std::chrono::seconds(2));

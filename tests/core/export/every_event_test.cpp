@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/export/sheets.h"
 #include "core/model/session/session.h"
+#include "core/words/say.h"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -65,7 +66,7 @@ protected:
             if (pick(2) == 1) {
                 event.cause = static_cast<model::LossCause>(pick(model::kLossCauses));
             }
-            event.detail = details[pick(details.size())];
+            event.detail = {words::Kind::Text, {{"text", std::string(details[pick(details.size())])}}};
             event.isCurrent = pick(2) == 1;
             m_events.push_back(event);
         }
@@ -123,7 +124,7 @@ TEST_F(EveryEvent, KeepsItsStampsToTheNanosecond) {
 TEST_F(EveryEvent, SaysWhatItIsOnOneLine) {
     std::set<std::string_view> names;
     for (const model::Incident& event : m_events) {
-        const std::string text = event.text();
+        const std::string text = say(event.fact(), words::Form::Sentence);
         names.insert(model::nameOf(event.kind));
         EXPECT_GT(text.size(), 3U) << model::nameOf(event.kind);
         EXPECT_TRUE(text.front() < 'a' || text.front() > 'z') << text;

@@ -165,7 +165,7 @@ TEST_F(SessionDriverTest, ATakeTellsOfTheSilenceAtItsEnd) {
     }));
     ASSERT_EQ(openFile(driver, folder.filePath("take.pcapng")), "");
     EXPECT_TRUE(tickUntil(driver, [&] { return isBad(driver.commands().session().verdicts().all); }))
-        << driver.commands().session().verdicts().all.text;
+        << say(driver.commands().session().verdicts().all.said, words::Form::Headline);
 }
 
 TEST_F(SessionDriverTest, CommentsOfACaptureAreThoseOfItsPackets) {
@@ -265,7 +265,8 @@ TEST_F(SessionDriverTest, AFileTouchesNothingOfWhatIsReceived) {
     EXPECT_EQ(driver.commands().live().senders().size(), 1U);
     EXPECT_EQ(driver.commands().live().cursor().mode, model::Cursor::Mode::Following);
     for (const model::Incident& incident : driver.commands().live().incidents().all()) {
-        EXPECT_NE(incident.kind, model::IncidentKind::Conflict) << incident.text();
+        EXPECT_NE(incident.kind, model::IncidentKind::Conflict)
+            << say(incident.fact(), words::Form::Sentence);
     }
     driver.playback().goLive();
     EXPECT_FALSE(driver.playback().isPaused());
@@ -362,7 +363,8 @@ TEST_F(SessionDriverTest, AFinishedRecordingIsNoSenderThatStopped) {
     manual.advance(5s);
     opened.tick();
     for (const model::Incident& event : opened.commands().session().incidents().all()) {
-        EXPECT_NE(event.severity(), model::IncidentSeverity::Error) << event.text();
+        EXPECT_NE(event.severity(), model::IncidentSeverity::Error)
+            << say(event.fact(), words::Form::Sentence);
     }
 }
 

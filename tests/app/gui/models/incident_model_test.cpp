@@ -132,7 +132,6 @@ TEST_F(IncidentModelTest, AGapLeadsToItsPackets) {
     const auto packet = incidentPacket(m_stage.session, *gap);
     ASSERT_TRUE(packet.has_value());
     EXPECT_EQ(m_stage.session.digests().find(*packet)->gap, 3U);
-    EXPECT_TRUE(briefWords(*gap).startsWith(QStringLiteral("3 lost"))) << briefWords(*gap).toStdString();
 }
 
 TEST_F(IncidentModelTest, NamesACharacterThatTheSessionDoesNotKnowByItsId) {
@@ -209,7 +208,7 @@ TEST_F(IncidentModelTest, SaysInFewWordsTooWhatHasACauseAndNoFigures) {
     EXPECT_TRUE(m_model.index(row, IncidentModel::kText)
                     .data(kShortTextRole)
                     .toString()
-                    .startsWith("Type 21 is not sent any more"));
+                    .startsWith("Type 21 is no longer sent"));
 }
 
 TEST_F(IncidentModelTest, WhatIsOfOneStreamIsOneRow) {
@@ -225,7 +224,7 @@ TEST_F(IncidentModelTest, WhatIsNotHereYetIsProvisionalAndThenSettledInItsPlace)
     ASSERT_GE(row, 0);
     EXPECT_EQ(text(row, IncidentModel::kSeverity), "provisional");
     EXPECT_TRUE(text(row, IncidentModel::kText).startsWith("5 samples of ")) << text(row, 3).toStdString();
-    EXPECT_TRUE(text(row, IncidentModel::kText).endsWith(" not yet here."));
+    EXPECT_TRUE(text(row, IncidentModel::kText).endsWith(" not yet here"));
     EXPECT_EQ(text(row, IncidentModel::kLost), "") << "nothing is lost for good";
     const QPersistentModelIndex kept(m_model.index(row, 0));
     const QSignalSpy inserted(&m_model, &QAbstractItemModel::rowsInserted);
@@ -243,7 +242,7 @@ TEST_F(IncidentModelTest, MoreThatIsNotHereYetIsToldInTheRowOfTheLossThatGoesOn)
     perform(245, 246);
     EXPECT_EQ(m_model.rowCount(), rows);
     const QString words = text(rowOfKind(model::IncidentKind::Loss), IncidentModel::kText);
-    EXPECT_TRUE(words.endsWith(" 5 not yet here.")) << words.toStdString();
+    EXPECT_TRUE(words.endsWith(" 5 not yet here")) << words.toStdString();
     EXPECT_EQ(text(rowOfKind(model::IncidentKind::Loss), IncidentModel::kLost), "3");
 }
 

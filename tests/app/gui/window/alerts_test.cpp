@@ -83,12 +83,12 @@ TEST(AlertSoundsTest, SoundWhereAWarningBecomesAnErrorAndForWhatIsSettledLate) {
 TEST(BadTurnsTest, TellOnceForAnIncident) {
     using State = model::TakeVerdict::State;
     BadTurns turns;
-    EXPECT_FALSE(turns.isDue({State::Warning, "Not quite good", {}, {}, 1, {}}));
-    EXPECT_TRUE(turns.isDue({State::Bad, "Not good", {}, {}, 1, {}}));
-    EXPECT_FALSE(turns.isDue({State::Bad, "Not good: more", {}, {}, 1, {}}));
-    EXPECT_TRUE(turns.isDue({State::Bad, "Not good", {}, {}, 2, {}}));
-    EXPECT_FALSE(turns.isDue({State::Bad, "Not good", {}, {}, 1, {}})) << "again the worst of both";
-    EXPECT_FALSE(turns.isDue({State::Good, "Good", {}, {}, {}, {}}));
+    EXPECT_FALSE(turns.isDue({.state = State::Warning, .incident = 1}));
+    EXPECT_TRUE(turns.isDue({.state = State::Bad, .incident = 1}));
+    EXPECT_FALSE(turns.isDue({.state = State::Bad, .said = {words::Kind::NotGood}, .incident = 1}));
+    EXPECT_TRUE(turns.isDue({.state = State::Bad, .incident = 2}));
+    EXPECT_FALSE(turns.isDue({.state = State::Bad, .incident = 1})) << "again the worst of both";
+    EXPECT_FALSE(turns.isDue({.state = State::Good}));
 }
 
 TEST(BadTurnsTest, PassOnNoMarkup) {

@@ -16,7 +16,10 @@ TEST_F(AttributionTest, BlamesThisComputerWhereItsCounterRose) {
     EXPECT_EQ(gap.fromSample, 50U);
     EXPECT_EQ(gap.toSample, 53U);
     EXPECT_EQ(gap.fromPacket, 49U);
-    EXPECT_EQ(gap.evidenceText(), "This computer dropped 2 datagrams of the port between packets 49 and 50.");
+    EXPECT_EQ(gap.evidenceFact().kind, words::Kind::DroppedHere);
+    EXPECT_EQ(partOf(gap.evidenceFact(), "datagrams"), words::counted(words::Kind::Datagrams, 2));
+    EXPECT_EQ(numberIn(gap.evidenceFact(), "from"), 49);
+    EXPECT_EQ(numberIn(gap.evidenceFact(), "to"), 50);
     EXPECT_EQ(m_session.streams().front().lostByCause()[0], 2U);
 }
 
@@ -29,7 +32,9 @@ TEST_F(AttributionTest, BlamesTheNetworkWhereAnotherStreamBroughtTheSample) {
     }
     const Gap& gap = onlyGap();
     EXPECT_EQ(gap.cause, LossCause::Network);
-    EXPECT_EQ(gap.evidenceText(), "Type 24 of the same sender brought sample 60, which is missing here.");
+    EXPECT_EQ(gap.evidenceFact().kind, words::Kind::OtherStream);
+    EXPECT_EQ(numberIn(gap.evidenceFact(), "sample"), 60);
+    EXPECT_EQ(namesIn(gap.evidenceFact(), "type"), std::vector<std::string>{"24"});
 }
 
 TEST_F(AttributionTest, BlamesTheNetworkWhereTheSampleCameTruncated) {
@@ -135,8 +140,10 @@ TEST_F(AttributionTest, BlamesTheSenderThatPausesAllItsStreams) {
     for (const Gap& gap : m_session.gaps()) {
         EXPECT_EQ(gap.cause, LossCause::Sender);
         EXPECT_EQ(gap.lost, 200U);
-        EXPECT_EQ(gap.evidenceText(), "All 2 streams of the sender paused together for 804 ms, and the time "
-                                      "code moved by 804 ms.");
+        EXPECT_EQ(gap.evidenceFact().kind, words::Kind::Paused);
+        EXPECT_EQ(partOf(gap.evidenceFact(), "streams"), words::counted(words::Kind::Streams, 2));
+        EXPECT_EQ(numberIn(gap.evidenceFact(), "lasted"), 804);
+        EXPECT_EQ(numberIn(gap.evidenceFact(), "moved"), 804);
     }
 }
 
@@ -153,10 +160,10 @@ TEST_F(AttributionTest, BlamesOneForASilenceThatCutsThroughASample) {
     follow();
     ASSERT_EQ(m_session.gaps().size(), 3U);
     for (const Gap& gap : m_session.gaps()) {
-        EXPECT_EQ(gap.cause, LossCause::Network) << gap.evidenceText();
+        EXPECT_EQ(gap.cause, LossCause::Network) << gap.evidenceFact();
     }
-    EXPECT_EQ(m_session.gaps().front().evidenceText().substr(0, 51),
-              "The silence cut through sample 100: it came here, a");
+    EXPECT_EQ(m_session.gaps().front().evidenceFact().kind, words::Kind::CutOff);
+    EXPECT_EQ(numberIn(m_session.gaps().front().evidenceFact(), "sample"), 100);
 }
 
 TEST_F(AttributionTest, BlamesTheSenderThatPausesAlsoWhereASampleBesideThePauseIsLost) {
@@ -171,7 +178,7 @@ TEST_F(AttributionTest, BlamesTheSenderThatPausesAlsoWhereASampleBesideThePauseI
     follow();
     for (const Gap& gap : m_session.gaps()) {
         EXPECT_EQ(gap.cause, gap.stream.type == 24 ? LossCause::Network : LossCause::Sender)
-            << gap.evidenceText();
+            << gap.evidenceFact();
     }
 }
 
@@ -188,7 +195,7 @@ TEST_F(AttributionTest, TakesNoSampleForEvidenceThatTheStreamWouldNotHaveSent) {
     std::uint64_t lost = 0;
     for (const Gap& gap : m_session.gaps()) {
         lost += gap.lost;
-        EXPECT_EQ(gap.cause, LossCause::Unknown) << gap.evidenceText();
+        EXPECT_EQ(gap.cause, LossCause::Unknown) << gap.evidenceFact();
     }
     EXPECT_EQ(lost, 2U);
 }
@@ -199,8 +206,7 @@ TEST_F(AttributionTest, BlamesThisComputerForWhatWasSentWhileItsInputWasRemoved)
     for (const Gap& gap : m_session.gaps()) {
         EXPECT_EQ(gap.cause, LossCause::ThisComputer);
         EXPECT_EQ(gap.lost, 200U);
-        EXPECT_EQ(gap.evidenceText(), "This computer did not listen to the port for a while: its input was "
-                                      "removed and added again.");
+        EXPECT_EQ(gap.evidenceFact().kind, words::Kind::NotListening);
     }
 }
 
@@ -296,7 +302,8 @@ TEST_F(AttributionTest, IsTheSameInWhateverPortionsTheLogIsRead) {
         }
         for (const Gap& gap : session.gaps()) {
             told[portion == 1 ? 0 : 1].push_back(std::to_string(gap.fromSample) + " " +
-                                                 std::to_string(gap.lost) + " " + gap.evidenceText());
+                                                 std::to_string(gap.lost) + " " +
+                                                 say(gap.evidenceFact(), words::Form::Sentence));
         }
     }
     EXPECT_GT(told[0].size(), 100U);

@@ -51,7 +51,7 @@ TEST_F(GapTest, IsNotJudgedBeforeLateArrivalsHadTheirTime) {
     m_at = end + Attribution::kPatience - 1ns;
     put(53, {});
     EXPECT_FALSE(onlyGap().isJudged);
-    EXPECT_EQ(onlyGap().evidenceText(), "Still waiting for late arrivals.");
+    EXPECT_EQ(onlyGap().evidenceFact().kind, words::Kind::WaitingForLate);
     EXPECT_EQ(causes()[static_cast<std::size_t>(LossCause::Unknown)], 1U) << "not known yet";
     m_at = end + Attribution::kPatience;
     put(54, {});
@@ -94,14 +94,16 @@ TEST_F(GapTest, IsTheSameAcrossTheWrapAroundOfTheCounter) {
     EXPECT_EQ(gap.cause, LossCause::Network);
     EXPECT_EQ(gap.evidence, Gap::Evidence::OtherStream);
     EXPECT_EQ(gap.figure, 0U);
-    EXPECT_EQ(gap.evidenceText(), "Type 24 of the same sender brought sample 0, which is missing here.");
+    EXPECT_EQ(gap.evidenceFact().kind, words::Kind::OtherStream);
+    EXPECT_EQ(namesIn(gap.evidenceFact(), "type"), std::vector<std::string>{"24"});
 }
 
 TEST_F(GapTest, NamesItsSampleInTheFormThatPeopleRead) {
     Gap gap;
     gap.evidence = Gap::Evidence::Damaged;
     gap.figure = 3793;
-    EXPECT_EQ(gap.evidenceText(), "Sample 3\u202f793 arrived truncated or damaged.");
+    EXPECT_EQ(say(gap.evidenceFact(), words::Form::Sentence),
+              "Sample 3\u202f793 arrived truncated or damaged.");
 }
 
 TEST_F(GapTest, IsAPauseFromAQuarterOfASecondWhereTheTimeCodeMovedWithIt) {
@@ -146,27 +148,32 @@ TEST(GapTexts, SayOneAndMany) {
     gap.fromPacket = 10;
     gap.toPacket = 12;
     gap.lost = 1;
-    EXPECT_EQ(gap.evidenceText(), "Nothing was dropped here, and no other stream of the sender shows where "
-                                  "1 sample went in 2000 ms.");
-    gap.evidence = Gap::Evidence::Reliable;
-    EXPECT_EQ(gap.evidenceText(), "TCP loses nothing: 1 sample was not sent.");
+    using Kind = words::Kind;
+    const auto evidence = [&gap](Gap::Evidence which, std::uint64_t figure) {
+        gap.evidence = which;
+        gap.figure = figure;
+        return gap.evidenceFact();
+    };
+    EXPECT_EQ(evidence(Gap::Evidence::None, 0).kind, Kind::NoEvidence);
+    EXPECT_EQ(numberIn(gap.evidenceFact(), "lasted"), 2000);
+    EXPECT_EQ(partOf(gap.evidenceFact(), "samples"), words::counted(Kind::Samples, 1));
     gap.lost = 4;
-    EXPECT_EQ(gap.evidenceText(), "TCP loses nothing: 4 samples were not sent.");
-    gap.evidence = Gap::Evidence::Dropped;
-    gap.figure = 1;
-    EXPECT_EQ(gap.evidenceText(), "This computer dropped 1 datagram of the port between packets 10 and 12.");
-    gap.figure = 30;
-    EXPECT_EQ(gap.evidenceText(),
-              "This computer dropped 30 datagrams of the port between packets 10 and 12.");
-    gap.evidence = Gap::Evidence::Damaged;
-    EXPECT_EQ(gap.evidenceText(), "Sample 30 arrived truncated or damaged.");
-    gap.evidence = Gap::Evidence::Partial;
-    EXPECT_EQ(gap.evidenceText(), "Only a part of sample 30, next to the gap, arrived.");
-    gap.evidence = Gap::Evidence::Paused;
+    EXPECT_EQ(evidence(Gap::Evidence::Reliable, 0),
+              (words::Fact{Kind::NotSentByTcp, {{"samples", words::counted(Kind::Samples, 4)}}}));
+    const words::Fact dropped = evidence(Gap::Evidence::Dropped, 30);
+    EXPECT_EQ(dropped.kind, Kind::DroppedHere);
+    EXPECT_EQ(partOf(dropped, "datagrams"), words::counted(Kind::Datagrams, 30));
+    EXPECT_EQ(numberIn(dropped, "from"), 10);
+    EXPECT_EQ(numberIn(dropped, "to"), 12);
+    EXPECT_EQ(evidence(Gap::Evidence::Damaged, 30).kind, Kind::SampleDamaged);
+    EXPECT_EQ(numberIn(gap.evidenceFact(), "sample"), 30);
+    EXPECT_EQ(evidence(Gap::Evidence::Partial, 31).kind, Kind::PartNextToGap);
+    EXPECT_EQ(numberIn(gap.evidenceFact(), "sample"), 31);
     gap.timeCodeMoved = 1'990;
-    gap.figure = 2;
-    EXPECT_EQ(gap.evidenceText(), "All 2 streams of the sender paused together for 2000 ms, and the time "
-                                  "code moved by 1990 ms.");
+    EXPECT_EQ(evidence(Gap::Evidence::Paused, 2).kind, Kind::Paused);
+    EXPECT_EQ(partOf(gap.evidenceFact(), "streams"), words::counted(Kind::Streams, 2));
+    EXPECT_EQ(numberIn(gap.evidenceFact(), "lasted"), 2000);
+    EXPECT_EQ(numberIn(gap.evidenceFact(), "moved"), 1990);
     EXPECT_EQ(nameOf(LossCause::ThisComputer), "this computer");
     EXPECT_EQ(nameOf(LossCause::Unknown), "unknown");
 }

@@ -3,12 +3,19 @@
 
 #include "core/model/body/pose_solver.h"
 
+#include "tests/support/facts.h"
+
 #include <gtest/gtest.h>
 
 namespace posewire::model {
 namespace {
 
-using Lines = std::vector<std::string>;
+using Kind = words::Kind;
+using Lines = std::vector<words::Fact>;
+
+words::Fact ofSegments(Kind kind, std::vector<std::string> names) {
+    return {kind, {{"segments", std::move(names)}}};
+}
 
 BodyOrigins scaled() {
     BodyOrigins body{referenceOrigins()};
@@ -34,21 +41,21 @@ TEST(PoseRemarks, AreNoneOfWhatWasSentWhole) {
         const PoseRemark remark = remarkOn(standingFrom(types), scaled());
         EXPECT_TRUE(remark.isEmpty());
         EXPECT_FALSE(remark.isAssumed);
-        EXPECT_EQ(remark.reason, "");
+        EXPECT_TRUE(remark.reason.isNothing());
     }
 }
 
 TEST(PoseRemarks, NameWhatIsMissing) {
     CharacterPose pose = standingFrom({2});
     pose.sources[segment::kLeftForeArm] = {Provenance::Solved, Provenance::Solved};
-    EXPECT_EQ(remarkOn(pose, scaled()).lines, (Lines{"Not sent, solved from the others: Left Forearm"}));
+    EXPECT_EQ(remarkOn(pose, scaled()).lines, (Lines{ofSegments(Kind::SegmentsSolved, {"Left Forearm"})}));
     EXPECT_FALSE(remarkOn(pose, scaled()).isAssumed);
-    EXPECT_EQ(remarkOn(pose, scaled()).brief, "partly solved");
+    EXPECT_EQ(remarkOn(pose, scaled()).brief.kind, Kind::PartlySolved);
     pose.sources[segment::kLeftHand] = {Provenance::Assumed, Provenance::Assumed};
     const PoseRemark remark = remarkOn(pose, scaled());
     EXPECT_TRUE(remark.isAssumed);
-    EXPECT_EQ(remark.reason, "Not sent, assumed: Left Hand");
-    EXPECT_EQ(remark.brief, "partly assumed");
+    EXPECT_EQ(remark.reason, ofSegments(Kind::SegmentsAssumed, {"Left Hand"}));
+    EXPECT_EQ(remark.brief.kind, Kind::PartlyAssumed);
     EXPECT_EQ(remark.lines.size(), 2U);
 }
 
@@ -57,37 +64,33 @@ TEST(PoseRemarks, NameAFewSegmentsAndCountTheRest) {
     for (std::size_t i = 0; i < 8; ++i) {
         pose.sources[i].orientation = Provenance::Solved;
     }
-    EXPECT_EQ(remarkOn(pose, scaled()).lines.front(),
+    EXPECT_EQ(say(remarkOn(pose, scaled()).lines.front(), words::Form::Headline),
               "Not sent, solved from the others: Pelvis, L5, L3 and 5 more");
 }
 
 TEST(PoseRemarks, TellWhatATypeAloneLacks) {
     CharacterPose positions = standingFrom({21});
     positions.sources[segment::kHead].orientation = Provenance::Assumed;
-    EXPECT_EQ(remarkOn(positions, scaled()).reason,
-              "Type 21 alone has no orientations: they are solved from the joints");
+    EXPECT_EQ(remarkOn(positions, scaled()).reason.kind, Kind::NoOrientations);
     CharacterPose orientations = standingFrom({22});
     orientations.isPlaceAssumed = true;
     orientations.sources[segment::kPelvis].position = Provenance::Assumed;
     const PoseRemark remark = remarkOn(orientations, scaled());
     EXPECT_TRUE(remark.isAssumed);
-    EXPECT_EQ(remark.lines, (Lines{"Type 22 alone has no positions: where the body stands is assumed"}));
+    EXPECT_EQ(remark.lines, (Lines{{Kind::NoPositions}}));
     EXPECT_FALSE(remarkOn(standingFrom({3}), scaled()).isAssumed);
 }
 
 TEST(PoseRemarks, TellWhoseBodyIsDrawn) {
     BodyOrigins body{referenceOrigins()};
-    EXPECT_EQ(remarkOn(standingFrom({2}), body).lines,
-              (Lines{"No scale message yet: the reference body of 1.75 m is drawn"}));
+    EXPECT_EQ(remarkOn(standingFrom({2}), body).lines, (Lines{{Kind::ReferenceBody}}));
     EXPECT_FALSE(remarkOn(standingFrom({2}), body).isAssumed) << "its joints were sent";
     EXPECT_TRUE(remarkOn(standingFrom({5}), body).isAssumed) << "its joints rest on the bones";
     EXPECT_TRUE(remarkOn(standingFrom({3}), body).isAssumed) << "whose markers these are is not known";
-    EXPECT_EQ(remarkOn(standingFrom({3}), body).reason,
-              "No scale message yet: the reference body of 1.75 m is drawn");
+    EXPECT_EQ(remarkOn(standingFrom({3}), body).reason.kind, Kind::ReferenceBody);
     EXPECT_FALSE(remarkOn(standingFrom({21, 3}), body).isAssumed) << "its joints were sent";
     body.source = BodySource::Poses;
-    EXPECT_EQ(remarkOn(standingFrom({5}), body).lines,
-              (Lines{"No scale message yet: bone lengths are measured on poses"}));
+    EXPECT_EQ(remarkOn(standingFrom({5}), body).lines, (Lines{{Kind::BonesMeasured}}));
     EXPECT_FALSE(remarkOn(standingFrom({5}), body).isAssumed);
 }
 
@@ -107,16 +110,15 @@ TEST(PoseRemarks, DoubtAScaleMessageThatThePosesContradict) {
     for (const std::vector<std::uint8_t>& types : {std::vector<std::uint8_t>{2}, {1}, {21}, {21, 22}}) {
         const PoseRemark remark = remarkOn(standingFrom(types), body);
         EXPECT_TRUE(remark.isAssumed);
-        EXPECT_EQ(remark.lines.back(), "The scale message is of another body: its arms and legs are longer "
-                                       "than in the poses, in whose size it is drawn");
+        EXPECT_EQ(remark.lines.back().kind, Kind::LongerThanScale);
         EXPECT_NEAR(scaleInPose(standingFrom(types), body), 1 / (1.05 * 1.6), 0.011);
-        EXPECT_EQ(remark.brief, "wrong scale");
+        EXPECT_EQ(remark.brief.kind, Kind::WrongScale);
     }
     CharacterPose solved = standingFrom({22});
     for (SegmentSource& source : solved.sources) {
         source.position = Provenance::Solved;
     }
-    EXPECT_EQ(remarkOn(solved, body).brief, "partly solved") << "its joints stand on these bones";
+    EXPECT_EQ(remarkOn(solved, body).brief.kind, Kind::PartlySolved) << "its joints stand on these bones";
     CharacterPose one = standingFrom({2});
     one.segments[segment::kLeftHand].position.x() += 1; // a joint that jumps
     EXPECT_TRUE(remarkOn(one, scaled()).isEmpty());
@@ -129,9 +131,9 @@ TEST(PoseRemarks, TellOfABodyBelowTheFloor) {
         segment.position.z() -= 0.9275;
     }
     EXPECT_TRUE(isBelowFloor(pose));
-    EXPECT_EQ(remarkOn(pose, scaled()).lines, (Lines{"It was sent below the floor"}));
+    EXPECT_EQ(remarkOn(pose, scaled()).lines, (Lines{{Kind::SentBelowFloor}}));
     pose.isLifted = true;
-    EXPECT_EQ(remarkOn(pose, scaled()).lines, (Lines{"Placed on the floor, since it was sent below it"}));
+    EXPECT_EQ(remarkOn(pose, scaled()).lines, (Lines{{Kind::PlacedOnFloor}}));
 }
 
 TEST(PoseRemarks, CallObjectsObjects) {
@@ -139,7 +141,8 @@ TEST(PoseRemarks, CallObjectsObjects) {
     pose.segments.resize(3);
     pose.sources.resize(3);
     pose.isObjects = true;
-    EXPECT_EQ(remarkOn(pose, scaled()).lines, (Lines{"Tracked objects, no body: 3 objects"}));
+    EXPECT_EQ(remarkOn(pose, scaled()).lines,
+              (Lines{{Kind::TrackedObjects, {{"objects", words::counted(Kind::Objects, 3)}}}}));
 }
 
 } // namespace

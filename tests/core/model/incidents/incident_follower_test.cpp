@@ -206,7 +206,9 @@ TEST_F(IncidentBounds, TwoSendersConflictWhereOneComesBackWithinASecond) {
     const Incident conflict = of(IncidentKind::Conflict).front();
     EXPECT_EQ(conflict.character(), 0);
     EXPECT_EQ(conflict.sender, sender());
-    EXPECT_EQ(conflict.text(), "Character 0 comes from elsewhere at the same time: 127.0.0.1:40002.");
+    EXPECT_EQ(conflict.detail.kind, words::Kind::TwoSenders);
+    EXPECT_EQ(numberIn(conflict.detail, "id"), 0);
+    EXPECT_EQ(namesIn(conflict.detail, "others"), std::vector<std::string>{"127.0.0.1:40002"});
 }
 
 TEST_F(IncidentBounds, TwoSendersMaySendDifferentCharactersOrTypes) {
@@ -259,7 +261,7 @@ TEST_F(IncidentBounds, AnotherBodyIsAScaleChangeAndTheSameOneIsNot) {
     const auto changes = of(IncidentKind::ScaleChange);
     ASSERT_EQ(changes.size(), 1U);
     EXPECT_EQ(changes[0].character(), 0);
-    EXPECT_EQ(changes[0].text(), "The null pose changed.");
+    EXPECT_EQ(changes[0].fact().kind, words::Kind::NullPoseChanged);
     EXPECT_EQ(changes[0].severity(), IncidentSeverity::Info);
 }
 

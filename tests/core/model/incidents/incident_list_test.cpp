@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/incidents/incidents.h"
 
+#include "tests/support/facts.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -40,12 +42,12 @@ TEST(IncidentList, PutsWhatHappensAgainIntoTheEpisodeThatLasts) {
     Incidents incidents;
     Occurrence gap = occurrenceAt(IncidentKind::Loss, at(1s));
     gap.samples = 3;
-    gap.detail = "first";
+    gap.detail = {words::Kind::AsStreamBegan};
     gap.toPacket = 10;
     incidents.report(gap);
     gap = occurrenceAt(IncidentKind::Loss, at(4s));
     gap.samples = 4;
-    gap.detail = "second";
+    gap.detail = {words::Kind::PartOfMessage};
     gap.toPacket = 90;
     incidents.report(gap);
     ASSERT_EQ(incidents.all().size(), 1U);
@@ -55,7 +57,7 @@ TEST(IncidentList, PutsWhatHappensAgainIntoTheEpisodeThatLasts) {
     EXPECT_EQ(all.lastPacket, 90U);
     EXPECT_EQ(all.count, 2U);
     EXPECT_EQ(all.samples, 7U);
-    EXPECT_EQ(all.detail, "second") << "the evidence of the newest";
+    EXPECT_EQ(all.detail.kind, words::Kind::PartOfMessage) << "the evidence of the newest";
 }
 
 TEST(IncidentList, DoesNotLetAnIncidentGoBackInTime) {
@@ -279,57 +281,54 @@ TEST(IncidentKinds, AreEachNamedOnceAndHaveAText) {
         const auto kind = static_cast<IncidentKind>(i);
         names.insert(nameOf(kind));
         Incident event = incidentOf(kind);
-        event.detail = "name: Ana → Berta";
-        EXPECT_FALSE(event.text().empty()) << nameOf(kind);
+        event.detail = {words::Kind::MetadataChanged, {{"changes", std::string("name: Ana → Berta")}}};
+        EXPECT_FALSE(say(event.fact(), words::Form::Sentence).empty()) << nameOf(kind);
         EXPECT_EQ(event.group() == IncidentGroup::Limit, kind >= IncidentKind::LossLimit) << nameOf(kind);
     }
     EXPECT_EQ(names.size(), kIncidentKinds);
 }
 
-TEST(IncidentTexts, CountOneAndMany) {
+TEST(IncidentFacts, CountWhatHappened) {
     Incident event = incidentOf(IncidentKind::Malformed);
-    EXPECT_EQ(event.text(), "1 datagram could not be decoded.");
     event.count = 2;
-    EXPECT_EQ(event.text(), "2 datagrams could not be decoded.");
+    EXPECT_EQ(event.fact().kind, words::Kind::Malformed);
+    EXPECT_EQ(partOf(event.fact(), "count"), words::counted(words::Kind::Datagrams, 2));
     event.kind = IncidentKind::Foreign;
-    EXPECT_EQ(event.text(), "2 datagrams are not MXTP.");
-    event.count = 1;
-    EXPECT_EQ(event.text(), "1 datagram is not MXTP.");
+    EXPECT_EQ(event.fact().kind, words::Kind::NotMxtp);
     event.kind = IncidentKind::Local;
-    event.value = 1;
-    EXPECT_EQ(event.text(), "This computer dropped 1 datagram.");
     event.value = 40;
+    EXPECT_EQ(event.fact().kind, words::Kind::LostHere);
+    EXPECT_EQ(partOf(event.fact(), "dropped"), words::counted(words::Kind::Datagrams, 40));
+    EXPECT_TRUE(partOf(event.fact(), "missing").isNothing());
     event.samples = 3;
-    EXPECT_EQ(event.text(), "This computer dropped 40 datagrams: 3 samples lost.");
+    EXPECT_EQ(partOf(partOf(event.fact(), "missing"), "n"), words::counted(words::Kind::Samples, 3));
 }
 
-TEST(IncidentTexts, SayWhatWasLostAndWhoseLossItWas) {
+TEST(IncidentFacts, TellWhatWasLostAndWhoseLossItWas) {
     Incident event = incidentOf(IncidentKind::Loss);
-    event.samples = 1;
-    EXPECT_EQ(event.text(), "1 sample lost in 1 gap.");
     event.samples = 12;
     event.count = 3;
-    event.cause = LossCause::Network;
-    EXPECT_EQ(event.text(), "12 samples lost in 3 gaps, cause: network.");
+    EXPECT_TRUE(partOf(event.fact(), "cause").isNothing());
     event.cause = LossCause::ThisComputer;
-    event.detail = "This computer dropped 2 datagrams.";
-    EXPECT_EQ(event.text(),
-              "12 samples lost in 3 gaps, cause: this computer. This computer dropped 2 datagrams.");
+    event.detail = {words::Kind::NotListening};
+    EXPECT_EQ(toldIn(event.fact()).amount, 12);
+    EXPECT_EQ(toldIn(event.fact()).cause, words::Kind::CauseThisComputer);
+    EXPECT_EQ(partOf(event.fact(), "gaps"), words::counted(words::Kind::Gaps, 3));
+    EXPECT_EQ(partOf(event.fact(), "evidence"), event.detail);
 }
 
-TEST(IncidentTexts, GiveLimitsTheirUnits) {
+TEST(IncidentFacts, GiveLimitsTheirDecimals) {
     const auto textOf = [](IncidentKind kind, double value, double limit) {
         Incident event = incidentOf(kind);
         event.value = value;
         event.limit = limit;
-        return event.text();
+        return say(event.fact(), words::Form::Sentence);
     };
     EXPECT_EQ(textOf(IncidentKind::LossLimit, 2.345, 1), "Loss 2.35 %, limit 1 %.");
     EXPECT_EQ(textOf(IncidentKind::JitterLimit, 12.34, 10), "Jitter 12.3 ms, limit 10 ms.");
     EXPECT_EQ(textOf(IncidentKind::GapLimit, 512.4, 250), "Gap 512 ms, limit 250 ms.");
-    EXPECT_EQ(textOf(IncidentKind::AgeLimit, 3.04, 1), "Age 3.0 s, limit 1 s.");
+    EXPECT_EQ(textOf(IncidentKind::AgeLimit, 3.04, 1.5), "Age 3.0 s, limit 1.5 s.");
     EXPECT_EQ(textOf(IncidentKind::RateLimit, 50, 20), "Rate off by 50.0 %, limit 20 %.");
-    EXPECT_EQ(textOf(IncidentKind::TimeCode, -3'600'000, 0), "The time code jumped by −3600000 ms.");
 }
 
 } // namespace

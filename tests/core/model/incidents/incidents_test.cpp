@@ -39,7 +39,8 @@ TEST_F(IncidentsTest, SayNothingOfSilenceAfterTheEndOfAFile) {
     const auto down = of(IncidentKind::Outage);
     ASSERT_EQ(down.size(), 1U);
     EXPECT_EQ(down[0].sender, sender("127.0.0.1:40002"));
-    EXPECT_EQ(down[0].text(), "No data.");
+    EXPECT_EQ(down[0].fact().kind, words::Kind::Outage);
+    EXPECT_EQ(numberIn(down[0].fact(), "lasted"), std::nullopt) << "it lasts";
 }
 
 TEST_F(IncidentsTest, TroubleACharacterWhereTheCursorStands) {
@@ -69,8 +70,9 @@ TEST_F(IncidentsTest, CountTheGapsOfAnIncidentInOne) {
     EXPECT_EQ(losses[0].count, 9U);
     EXPECT_EQ(losses[0].samples, 9U);
     EXPECT_EQ(losses[0].cause, LossCause::Unknown);
-    EXPECT_TRUE(losses[0].text().starts_with("9 samples lost in 9 gaps, cause: unknown."))
-        << losses[0].text();
+    EXPECT_EQ(losses[0].samples, 9U) << losses[0].fact();
+    EXPECT_EQ(partOf(losses[0].fact(), "gaps"), words::counted(words::Kind::Gaps, 9));
+    EXPECT_EQ(toldIn(losses[0].fact()).cause, words::Kind::CauseUnknown);
     EXPECT_TRUE(losses[0].isCurrent);
     const std::uint64_t version = m_session.incidents().version();
     poses(501, 1'200);
@@ -129,11 +131,11 @@ TEST_F(IncidentsTest, TellAnOutageOfAllStreamsAsOne) {
     EXPECT_FALSE(outages[0].isCurrent);
     EXPECT_TRUE(of(IncidentKind::Loss).empty());
     for (const Incident& incident : m_session.incidents().all()) {
-        EXPECT_NE(incident.group(), IncidentGroup::Limit) << incident.text();
+        EXPECT_NE(incident.group(), IncidentGroup::Limit) << incident.fact();
     }
-    EXPECT_NE(outages[0].text().find("No data for 1.51 s: 300 samples lost, cause: sender."),
-              std::string::npos)
-        << outages[0].text();
+    EXPECT_NEAR(numberIn(outages[0].fact(), "lasted").value_or(0), 1.51, 0.005) << outages[0].fact();
+    EXPECT_EQ(outages[0].samples, 300U);
+    EXPECT_EQ(toldIn(outages[0].fact()).cause, words::Kind::CauseSender);
 }
 
 TEST_F(IncidentsTest, TellATypeThatEndsAndNotItsLoss) {
@@ -158,7 +160,9 @@ TEST_F(IncidentsTest, TellThatTheSenderSendsAnotherShareOfItsSamples) {
     }
     const auto steps = of(IncidentKind::Step);
     ASSERT_EQ(steps.size(), 1U);
-    EXPECT_EQ(steps[0].text(), "The step of the sample counter is 2 now; it was 1.");
+    EXPECT_EQ(steps[0].detail.kind, words::Kind::StepChanged);
+    EXPECT_EQ(numberIn(steps[0].detail, "step"), 2);
+    EXPECT_EQ(numberIn(steps[0].detail, "before"), 1);
     EXPECT_TRUE(of(IncidentKind::RateLimit).empty());
     EXPECT_TRUE(of(IncidentKind::Loss).empty());
 }
@@ -184,14 +188,15 @@ TEST_F(IncidentsTest, TellThatAStepIsIrregularOnlyWhereThereWasOne) {
         EXPECT_EQ(of(IncidentKind::Step).size(), even == 0 ? 0U : 1U);
         EXPECT_TRUE(of(IncidentKind::RateLimit).empty());
     }
-    EXPECT_EQ(of(IncidentKind::Step)[0].text(), "The step of the sample counter is irregular; it was 2.");
+    EXPECT_EQ(of(IncidentKind::Step)[0].detail.kind, words::Kind::StepIrregular);
+    EXPECT_EQ(numberIn(of(IncidentKind::Step)[0].detail, "before"), 2);
 }
 
 TEST_F(IncidentsTest, TellATimeCodeThatStandsStill) {
     poses(1, 100);
     posesOfOneTimeCode(101, 400);
     ASSERT_EQ(of(IncidentKind::TimeCode).size(), 1U);
-    EXPECT_EQ(of(IncidentKind::TimeCode)[0].text(), "The time code stands still while samples come.");
+    EXPECT_EQ(of(IncidentKind::TimeCode)[0].detail.kind, words::Kind::TimeCodeFrozen);
     EXPECT_EQ(of(IncidentKind::TimeCode)[0].count, 1U);
 }
 
@@ -204,7 +209,8 @@ TEST_F(IncidentsTest, TellWithinAQuarterOfASecondThatATimeCodeStandsStillAndForH
     m_timeCodeOff = 0s;
     poses(401, 500);
     ASSERT_EQ(of(IncidentKind::TimeCode).size(), 1U) << "that it is right again is no jump";
-    EXPECT_EQ(of(IncidentKind::TimeCode)[0].text(), "The time code stood still for 3.0 s.");
+    EXPECT_EQ(of(IncidentKind::TimeCode)[0].detail.kind, words::Kind::TimeCodeWasFrozen);
+    EXPECT_NEAR(numberIn(of(IncidentKind::TimeCode)[0].detail, "lasted").value_or(0), 3, 0.05);
     EXPECT_EQ(of(IncidentKind::TimeCode)[0].count, 1U);
 }
 
@@ -221,7 +227,7 @@ TEST_F(IncidentsTest, TakeATimeCodeThatMovesOnceASecondForOneThatMoves) {
         m_timeCodeOff = -(m_at.time_since_epoch() % 1s);
         pose(sample);
     }
-    EXPECT_TRUE(of(IncidentKind::TimeCode).empty()) << of(IncidentKind::TimeCode).front().text();
+    EXPECT_TRUE(of(IncidentKind::TimeCode).empty()) << of(IncidentKind::TimeCode).front().fact();
     m_timeCodeOff += 5s;
     posesOfOneTimeCode(3'001, 3'400);
     EXPECT_EQ(of(IncidentKind::TimeCode).size(), 1U) << "and still tells a jump";
@@ -237,9 +243,8 @@ TEST_F(IncidentsTest, TellAPauseOfTheSenderWhoseCounterGoesOnWhereItStopped) {
         const auto outages = of(IncidentKind::Outage);
         ASSERT_FALSE(outages.empty());
         EXPECT_EQ(outages.back().cause, LossCause::Sender);
-        EXPECT_EQ(outages.back().text(),
-                  "No data for 3.01 s, cause: sender. The sender paused: its counter went "
-                  "on where it had stopped.");
+        EXPECT_NEAR(numberIn(outages.back().fact(), "lasted").value_or(0), 3.01, 0.005);
+        EXPECT_EQ(outages.back().detail.kind, words::Kind::SenderPaused);
         EXPECT_TRUE(of(IncidentKind::TimeCode).empty()) << clock.count();
         m_at += 10s;
         poses(1'000'000, 1'000'100);
@@ -278,7 +283,7 @@ TEST_F(IncidentsTest, TellARestartOnAnotherPortOnceTheOldOneIsSilent) {
     ASSERT_EQ(restarts.size(), 1U);
     EXPECT_EQ(restarts[0].sender, sender("127.0.0.1:40002"));
     EXPECT_EQ(restarts[0].firstStamp, from);
-    EXPECT_EQ(restarts[0].text(), "Now sent from another port.");
+    EXPECT_EQ(restarts[0].detail.kind, words::Kind::OtherPort);
     for (std::uint32_t sample = 1; sample <= 50; ++sample, m_at += 10ms) {
         pose(sample, "127.0.0.1:40003");
         pose(50 + sample, "127.0.0.1:40002"); // goes on
@@ -341,7 +346,8 @@ TEST_F(IncidentsTest, TellChangesOfMetadataButNotItsRepetition) {
     EXPECT_TRUE(of(IncidentKind::MetadataChange).empty());
     send(wire::MetaData{true, "name:Berta\n"}, 0, m_at);
     ASSERT_EQ(of(IncidentKind::MetadataChange).size(), 1U);
-    EXPECT_EQ(of(IncidentKind::MetadataChange)[0].text(), "name: Anna → Berta");
+    EXPECT_EQ(namesIn(of(IncidentKind::MetadataChange)[0].detail, "changes"),
+              std::vector<std::string>{"name: Anna → Berta"});
 }
 
 TEST_F(IncidentsTest, TellAJumpOfTheTimeCode) {
@@ -349,7 +355,8 @@ TEST_F(IncidentsTest, TellAJumpOfTheTimeCode) {
     m_timeCodeOff = 5s;
     poses(101, 200);
     ASSERT_EQ(of(IncidentKind::TimeCode).size(), 1U);
-    EXPECT_EQ(of(IncidentKind::TimeCode)[0].text(), "The time code jumped by 5000 ms.");
+    EXPECT_EQ(of(IncidentKind::TimeCode)[0].detail.kind, words::Kind::TimeCodeJumped);
+    EXPECT_EQ(numberIn(of(IncidentKind::TimeCode)[0].detail, "value"), 5000);
 }
 
 TEST_F(IncidentsTest, TakeNoCorruptTimeCodeForAJump) {
@@ -415,8 +422,9 @@ TEST_F(IncidentsTest, TellEverySenderOfACharacterThatTheyTakeTurnsWith) {
     }
     const auto conflicts = of(IncidentKind::Conflict);
     ASSERT_EQ(conflicts.size(), 3U);
-    EXPECT_EQ(conflicts[0].text(),
-              "Character 0 comes from elsewhere at the same time: 127.0.0.1:40002 and 127.0.0.1:40003.");
+    EXPECT_EQ(conflicts[0].detail.kind, words::Kind::TwoSenders);
+    EXPECT_EQ(namesIn(conflicts[0].detail, "others"),
+              (std::vector<std::string>{"127.0.0.1:40002", "127.0.0.1:40003"}));
 }
 
 TEST_F(IncidentsTest, CallNoLossAnErrorBecauseOfAFewSamplesOfItsFirstSecond) {
@@ -445,7 +453,7 @@ TEST_F(IncidentsTest, CallALossAboveItsLimitAnError) {
     EXPECT_TRUE(of(IncidentKind::LossLimit).empty()) << "the loss says it all";
     poses(1'401, 3'000);
     follow();
-    EXPECT_EQ(m_session.verdict(key()).state, TakeVerdict::State::Good) << m_session.verdict(key()).text;
+    EXPECT_EQ(m_session.verdict(key()).state, TakeVerdict::State::Good) << m_session.verdict(key()).said;
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 #include "core/model/incidents/thresholds.h"
 
 #include "tests/core/model/accounting/arrivals.h"
+#include "tests/support/facts.h"
 
 #include <gtest/gtest.h>
 
@@ -184,7 +185,7 @@ TEST_F(Limits, OfJitterAreOfRfc3550) {
 
 TEST_F(Limits, SayNothingOfACleanStreamHoweverLongItLasts) {
     sendFor(2h);
-    EXPECT_TRUE(m_events.all().empty()) << m_events.all().front().text();
+    EXPECT_TRUE(m_events.all().empty()) << m_events.all().front().fact();
     sendFor(10s, 50);
     EXPECT_TRUE(isAlert(IncidentKind::LossLimit)) << "and are as exact as before";
     EXPECT_NEAR(of(IncidentKind::LossLimit).front().value, 5, 0.5);
@@ -198,7 +199,9 @@ TEST_F(Limits, TellANewRateOfWhichNoSampleIsLost) {
     }
     const auto steps = of(IncidentKind::Step);
     ASSERT_EQ(steps.size(), 1U);
-    EXPECT_EQ(steps[0].text(), "The rate is 50 Hz now; it was 100 Hz.");
+    EXPECT_EQ(steps[0].detail.kind, words::Kind::RateChanged);
+    EXPECT_NEAR(numberIn(steps[0].detail, "rate").value_or(0), 50, 0.5);
+    EXPECT_NEAR(numberIn(steps[0].detail, "before").value_or(0), 100, 0.5);
     EXPECT_LE(steps[0].lastStamp - from, 2s) << "when it is told";
     EXPECT_LE(steps[0].firstStamp - from, 500ms);
     EXPECT_FALSE(isAlert(IncidentKind::RateLimit)) << "that is its rate now";

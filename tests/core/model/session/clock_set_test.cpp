@@ -62,7 +62,7 @@ TEST_F(ClockSetTest, IsNobodysLossRestartOrJitter) {
     sendUntil(1500);
     for (const Incident& event : m_session.incidents().all()) {
         EXPECT_TRUE(event.kind == IncidentKind::ClockSet || event.kind == IncidentKind::SourceUp)
-            << event.text();
+            << event.fact();
     }
     const Stream* stream = m_session.find(log::StreamKey{sender(), 0, 2});
     ASSERT_NE(stream, nullptr);

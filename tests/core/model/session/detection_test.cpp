@@ -3,7 +3,7 @@
 
 #include "tests/core/model/session/session_fixture.h"
 
-#include <gmock/gmock.h>
+#include <utility>
 
 namespace posewire::model {
 namespace {
@@ -64,7 +64,7 @@ TEST(Detector, TellsMetresFromCentimetresByThePelvis) {
     EXPECT_EQ(centimetres.result().positionUnit, LengthUnit::Centimetre);
 }
 
-using testing::HasSubstr;
+using Kind = words::Kind;
 
 wire::Header countedHeader(std::uint8_t type) {
     wire::Header header = headerOf(type);
@@ -73,62 +73,67 @@ wire::Header countedHeader(std::uint8_t type) {
     return header;
 }
 
-std::vector<std::string> texts(const Detector& detector, const SenderOverride& declared = {}) {
-    std::vector<std::string> found;
-    for (const Contradiction& one : detector.contradictions(declared)) {
-        EXPECT_FALSE(one.brief.empty());
-        found.push_back(one.text);
-    }
-    return found;
+std::vector<words::Fact> found(const Detector& detector, const SenderOverride& declared = {}) {
+    return detector.contradictions(declared);
+}
+
+words::Fact only(const Detector& detector, const SenderOverride& declared = {}) {
+    const std::vector<words::Fact> all = found(detector, declared);
+    EXPECT_EQ(all.size(), 1U);
+    return all.empty() ? words::Fact() : all.front();
+}
+
+words::NamedValue text(std::string_view name, std::string value) {
+    return {name, std::move(value)};
 }
 
 TEST(Contradictions, AreNoneWhereDeclarationAndDatagramsAgree) {
     Detector detector;
     detector.addHeader(countedHeader(2));
     detector.addBody(pelvisAt(1.0F));
-    EXPECT_TRUE(texts(detector).empty());
-    EXPECT_TRUE(texts(detector, {Revision::N, LengthUnit::Metre}).empty());
-    EXPECT_TRUE(texts(Detector(), {Revision::E, LengthUnit::Centimetre}).empty());
+    EXPECT_TRUE(found(detector).empty());
+    EXPECT_TRUE(found(detector, {Revision::N, LengthUnit::Metre}).empty());
+    EXPECT_TRUE(found(Detector(), {Revision::E, LengthUnit::Centimetre}).empty());
 }
 
 TEST(Contradictions, TellHeaderCountsThatTheDeclaredRevisionDoesNotHave) {
     Detector detector;
     detector.addHeader(countedHeader(2));
-    EXPECT_THAT(texts(detector, {.revision = Revision::JOrK}),
-                testing::ElementsAre("declared J or K, but header counts are filled"));
+    EXPECT_EQ(only(detector, {.revision = Revision::JOrK}),
+              (words::Fact{Kind::SendsCounts, {text("declared", "J or K")}}));
 }
 
 TEST(Contradictions, TellCountsThatAreMissing) {
     Detector detector;
     detector.addHeader(headerOf(2));
-    EXPECT_THAT(texts(detector, {.revision = Revision::N}),
-                testing::ElementsAre("declared L to N, but header bytes 17 to 23 are zero"));
+    EXPECT_EQ(only(detector, {.revision = Revision::N}),
+              (words::Fact{Kind::SendsNoCounts, {text("declared", "L to N")}}));
 }
 
 TEST(Contradictions, TellTypesThatCameAfterRevisionE) {
     Detector detector;
     detector.addHeader(headerOf(2));
     detector.addHeader(headerOf(20));
-    EXPECT_THAT(texts(detector, {.revision = Revision::E}),
-                testing::ElementsAre("declared E, but type 20 is on the air, which came with J"));
+    EXPECT_EQ(only(detector, {.revision = Revision::E}),
+              (words::Fact{Kind::SendsTypeSinceJ, {text("declared", "E"), text("type", "20")}}));
 }
 
 TEST(Contradictions, TellASenderThatChangesItsHeaders) {
     Detector detector;
     detector.addHeader(countedHeader(2));
     detector.addHeader(headerOf(12));
-    EXPECT_TRUE(texts(detector).empty()) << "another type may well come without counts";
+    EXPECT_TRUE(found(detector).empty()) << "another type may well come without counts";
     detector.addHeader(headerOf(2));
-    ASSERT_EQ(texts(detector).size(), 1U);
-    EXPECT_THAT(texts(detector).front(), HasSubstr("type 02 came with header counts and without"));
+    EXPECT_EQ(only(detector), (words::Fact{Kind::CountsComeAndGo, {text("type", "02")}}));
 }
 
 TEST(Contradictions, TellAUnitThatIsNotTheDeclaredOne) {
     Detector detector;
     detector.addBody(pelvisAt(105.2F));
-    EXPECT_THAT(texts(detector, {.positionUnit = LengthUnit::Metre}),
-                testing::ElementsAre("positions look like centimetres (pelvis at 105.20), read as metres "
-                                     "because you set it"));
+    EXPECT_EQ(only(detector, {.positionUnit = LengthUnit::Metre}),
+              (words::Fact{Kind::ReadInOtherUnit,
+                           {text("looks", "centimetres"), text("evidence", "pelvis at 105.20"),
+                            text("read", "metres")}}));
 }
 
 TEST(Contradictions, BelieveAnotherUnitOnlyAfterManyPoses) {
@@ -138,11 +143,13 @@ TEST(Contradictions, BelieveAnotherUnitOnlyAfterManyPoses) {
         detector.addBody(pelvisAt(105.0F));
     }
     EXPECT_EQ(detector.result().positionUnit, LengthUnit::Metre);
-    EXPECT_TRUE(texts(detector).empty());
+    EXPECT_TRUE(found(detector).empty());
     detector.addBody(pelvisAt(105.0F));
     EXPECT_EQ(detector.result().positionUnit, LengthUnit::Centimetre);
-    EXPECT_THAT(texts(detector), testing::ElementsAre("positions were in metres (pelvis at 1.05) and are in "
-                                                      "centimetres now (pelvis at 105.00)"));
+    EXPECT_EQ(only(detector),
+              (words::Fact{Kind::UnitChanged,
+                           {text("looks", "centimetres"), text("evidence", "pelvis at 105.00"),
+                            text("before", "metres (pelvis at 1.05)")}}));
 }
 
 TEST(UnitFinder, IsNotMisledBySomebodyWhoSendsCentimetresAndLiesDown) {

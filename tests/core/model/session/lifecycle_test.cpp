@@ -97,7 +97,7 @@ TEST_F(LifecycleTest, WhatARetiredSenderHadLastsNoLonger) {
     follow();
     ASSERT_EQ(find("old:1"), nullptr);
     for (const Incident* event : m_session.incidents().current()) {
-        EXPECT_NE(m_session.find(event->sender), nullptr) << event->text();
+        EXPECT_NE(m_session.find(event->sender), nullptr) << event->fact();
     }
     const Incident& first = m_session.incidents().all().front();
     EXPECT_EQ(first.kind, IncidentKind::SourceUp);
@@ -145,7 +145,7 @@ TEST_F(LifecycleTest, WhatWasForgottenKeepsItsNameInWhatIsToldOfIt) {
     EXPECT_EQ(m_session.addressOf(jonas.sender), "127.0.0.1:40001");
     EXPECT_EQ(m_session.displayName({jonas.sender, 7}), "Character 7");
     const TakeVerdict verdict = verdictOf(m_session, recentSpan(m_session));
-    EXPECT_EQ(verdict.text.find("Character"), std::string::npos) << verdict.text;
+    EXPECT_EQ(say(verdict.said, words::Form::Headline).find("Character"), std::string::npos) << verdict.said;
     const auto& worst = m_session.retired().worst;
     const auto gap = std::ranges::find(worst, Figure::SpacingMost, &RetiredTotals::Worst::figure);
     EXPECT_NEAR(gap->value, 20, 1) << "limits of a run hold for it too";

@@ -220,13 +220,14 @@ TEST_F(EvidenceTest, IsAnIncidentOfItsCharacterWhereItContradictsItself) {
     const Incident& incident = m_session.incidents().all().back();
     EXPECT_EQ(incident.kind, IncidentKind::Scale);
     EXPECT_EQ(incident.character(), 0);
-    EXPECT_EQ(incident.text(), findContradictions(evidence()).front().what) << "as the dock has it";
+    EXPECT_EQ(say(incident.fact(), words::Form::Sentence), findContradictions(evidence()).front().what)
+        << "as the dock has it";
     EXPECT_EQ(m_session.verdict(key()).state, TakeVerdict::State::Warning);
     sendFrom("127.0.0.1:40001", bodyOf(1), 0, at(4s + 5ms));
     poses(301, 320);
-    EXPECT_TRUE(m_session.verdict(key()).isOver) << m_session.verdict(key()).text;
+    EXPECT_TRUE(m_session.verdict(key()).isOver) << m_session.verdict(key()).said;
     poses(321, 2'000);
-    EXPECT_EQ(m_session.verdict(key()).state, TakeVerdict::State::Good) << m_session.verdict(key()).text;
+    EXPECT_EQ(m_session.verdict(key()).state, TakeVerdict::State::Good) << m_session.verdict(key()).said;
 }
 
 } // namespace

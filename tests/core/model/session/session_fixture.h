@@ -6,6 +6,7 @@
 #include "core/model/body/character_pose.h"
 #include "core/model/body/reference_body.h"
 #include "core/model/session/session.h"
+#include "tests/support/facts.h"
 
 #include <gtest/gtest.h>
 

@@ -124,7 +124,7 @@ TEST_F(RestartTest, KeepsItsVerdictThroughAnotherPort) {
     posesFrom(m_second, 200);
     const TakeVerdict verdict = m_session.verdict(keyOf(m_second));
     EXPECT_EQ(verdict.state, TakeVerdict::State::Warning) << "what is said of all is said of somebody";
-    EXPECT_EQ(verdict.text, m_session.verdicts().all.text);
+    EXPECT_EQ(verdict.said, m_session.verdicts().all.said);
 }
 
 TEST_F(RestartTest, ForgetsTheEndedAndLosesNothing) {
@@ -200,8 +200,8 @@ TEST_F(RestartTest, IsNoTroubleOfTheSenderThatEnded) {
     posesFrom(m_first, 300);
     posesFrom(m_second, 2'000); // at once, so that nobody was silent
     EXPECT_EQ(m_session.verdict(keyOf(m_second)).state, TakeVerdict::State::Good)
-        << m_session.verdict(keyOf(m_second)).text;
-    EXPECT_EQ(m_session.verdicts().all.state, TakeVerdict::State::Good) << m_session.verdicts().all.text;
+        << m_session.verdict(keyOf(m_second)).said;
+    EXPECT_EQ(m_session.verdicts().all.state, TakeVerdict::State::Good) << m_session.verdicts().all.said;
 }
 
 TEST_F(RestartTest, EndsWithItsSenderWhatOnlyThatSenderCanEnd) {

@@ -14,6 +14,9 @@ namespace posewire::model {
 /// A session that is sent poses 10 ms apart, and what an operator is told of it.
 class VerdictTest : public IncidentsTest {
 protected:
+    using Kind = words::Kind;
+    using Names = std::vector<std::string>;
+
     TakeVerdict verdict() {
         follow();
         return verdictOf(m_session, recentSpan(m_session));
@@ -36,6 +39,16 @@ protected:
         follow();
         return verdictOf(m_session, recentSpan(m_session), CharacterKey{sender(), character});
     }
+    /// The reason of a verdict.
+    static words::Fact reasonOf(const TakeVerdict& verdict) { return partOf(verdict.said, "reason"); }
+    static words::Told toldBy(const TakeVerdict& verdict) { return toldIn(reasonOf(verdict)); }
+    words::Told reason() { return toldBy(verdict()); }
+    /// Whether a verdict is about a loss.
+    static bool isOfLoss(const TakeVerdict& verdict) {
+        const words::Kind kind = reasonOf(verdict).kind;
+        return kind == words::Kind::Loss || kind == words::Kind::LostHere;
+    }
+
     /// What incidents say was lost, by cause.
     std::array<std::uint64_t, kLossCauses> told() {
         std::array<std::uint64_t, kLossCauses> sums{};

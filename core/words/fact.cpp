@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include "core/words/fact.h"
+
+#include "core/model/text.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace posewire::words {
+
+bool operator==(const Fact& one, const Fact& other) {
+    return one.kind == other.kind && one.values == other.values;
+}
+
+const Value* find(const Fact& fact, std::string_view name) {
+    const auto found = std::ranges::find(fact.values, name, &NamedValue::name);
+    return found == fact.values.end() ? nullptr : &found->value;
+}
+
+void set(Fact& fact, std::string_view name, Value value) {
+    const auto found = std::ranges::find(fact.values, name, &NamedValue::name);
+    if (found != fact.values.end()) {
+        found->value = std::move(value);
+    } else {
+        fact.values.push_back({name, std::move(value)});
+    }
+}
+
+void add(Fact& fact, std::string_view name, Value value) {
+    if (find(fact, name) == nullptr) {
+        fact.values.push_back({name, std::move(value)});
+    }
+}
+
+void clip(Fact& fact, std::size_t most) {
+    for (NamedValue& each : fact.values) {
+        if (auto* text = std::get_if<std::string>(&each.value)) {
+            *text = model::clippedText(std::move(*text), most);
+        }
+    }
+}
+
+std::size_t memoryBytes(const Fact& fact) {
+    std::size_t bytes = fact.values.capacity() * sizeof(NamedValue);
+    for (const NamedValue& each : fact.values) {
+        if (const auto* text = std::get_if<std::string>(&each.value)) {
+            bytes += text->capacity();
+        } else if (const auto* part = std::get_if<Fact>(&each.value)) {
+            bytes += memoryBytes(*part);
+        } else if (const auto* names = std::get_if<std::vector<std::string>>(&each.value)) {
+            bytes += names->capacity() * sizeof(std::string);
+        }
+    }
+    return bytes;
+}
+
+Fact typesFact(const std::vector<std::uint8_t>& types) {
+    std::vector<std::string> digits;
+    for (const std::uint8_t type : types) {
+        digits.push_back(model::padded(type, 2));
+    }
+    return {Kind::Types, {{"types", std::move(digits)}}};
+}
+
+} // namespace posewire::words

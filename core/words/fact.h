@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/words/kinds.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+/// What happened, as kind and values: everybody decides by these, and only the table of words makes text of
+/// them.
+namespace posewire::words {
+
+/// A number with so many decimals; `isTrimmed`: without zeros at its end, as somebody set a limit.
+struct Number {
+    double value = 0;
+    int decimals = 0;
+    bool isTrimmed = false;
+    friend bool operator==(const Number&, const Number&) = default;
+};
+
+struct NamedValue;
+
+/// One thing to be said. The values are named as the placeholders of the table.
+struct Fact {
+    Kind kind = Kind::Nothing;
+    std::vector<NamedValue> values{};
+
+    [[nodiscard]] bool isNothing() const { return kind == Kind::Nothing; }
+    friend bool operator==(const Fact& one, const Fact& other);
+};
+
+/// A name or address, a count, a measure, a list of names, or a fact that is a part of this one.
+using Value = std::variant<std::string, std::uint64_t, Number, std::vector<std::string>, Fact>;
+
+struct NamedValue {
+    std::string_view name; ///< a literal
+    Value value;
+    friend bool operator==(const NamedValue&, const NamedValue&) = default;
+};
+
+/// Null if the fact has no value of that name.
+[[nodiscard]] const Value* find(const Fact& fact, std::string_view name);
+/// Adds a value, in place of one of the same name.
+void set(Fact& fact, std::string_view name, Value value);
+/// Adds a value unless there is one of the same name.
+void add(Fact& fact, std::string_view name, Value value);
+/// Cuts texts in a fact off after so many bytes, with "…" at their end.
+void clip(Fact& fact, std::size_t most);
+[[nodiscard]] std::size_t memoryBytes(const Fact& fact);
+
+/// "12 samples", of the kinds that count something: Samples, Datagrams and so on.
+[[nodiscard]] inline Fact counted(Kind kind, std::uint64_t count) {
+    return {kind, {{"n", count}}};
+}
+/// "type 02", "types 02, 12 and 20".
+[[nodiscard]] Fact typesFact(const std::vector<std::uint8_t>& types);
+
+} // namespace posewire::words
