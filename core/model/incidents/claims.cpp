@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "core/model/incidents/incident_follower.h"
+#include "core/model/incidents/claims.h"
+
+#include "core/log/ip_address.h"
 
 #include <algorithm>
-#include <string>
-#include <utility>
+#include <functional>
+#include <string_view>
 
-/// Who sends a character: one sender after the other, or two at once.
 namespace posewire::model {
 namespace {
 
@@ -16,73 +17,31 @@ constexpr std::size_t kMostClaims = 8;
 
 } // namespace
 
-void IncidentFollower::supersede(const CharacterKey& key, const CharacterKey& by, log::Stamp stamp) {
-    const auto found = m_characters.find(key);
-    if (found == m_characters.end()) {
-        return;
+bool Claims::meet(log::SenderId sender, const std::string& address) {
+    const auto [place, isNew] = m_sources.try_emplace(sender);
+    if (isNew) {
+        place->second = {address, std::hash<std::string_view>{}(log::hostOf(address))};
     }
-    if (found->second.outage != 0) {
-        resume(key, found->second, stamp);
-    }
-    found->second.lastSampled = {};
-    for (Stream* stream : found->second.streams) { // nothing is expected of them
-        stream->excusedUntil = log::Stamp::max();
-        stream->isStalled = false;
-    }
-    for (const Incident* lasting : m_incidents.currentOf(key.sender)) {
-        if (lasting->group() == IncidentGroup::Limit) {
-            for (const std::uint8_t type : lasting->types()) {
-                m_incidents.endPart(lasting->number, key.character, type, stamp);
-            }
-        }
-    }
-    m_characters[by].tookOver = TakeOver{key, stamp};
+    return isNew;
 }
 
-void IncidentFollower::expect(const CharacterKey& key) {
-    const auto found = m_characters.find(key);
-    if (found == m_characters.end()) {
-        return;
-    }
-    for (const Stream* stream : found->second.streams) {
-        expect(key, found->second, stream->accounting.lastStamp());
-    }
-}
-
-/// One that took over is a restart of its sender, once the one before has really fallen silent.
-void IncidentFollower::checkTakenOver(const CharacterKey& key, Character& character, log::Stamp stamp) {
-    if (!character.tookOver || character.lastSampled == log::Stamp() ||
-        stamp - character.tookOver->stamp < kSilent) {
-        return;
-    }
-    const TakeOver tookOver = *std::exchange(character.tookOver, std::nullopt);
-    const auto before = m_characters.find(tookOver.before);
-    if (before != m_characters.end() && before->second.lastSampled != log::Stamp()) {
-        return; // it goes on
-    }
-    Occurrence one = Occurrence::at(IncidentKind::Restart, key.sender, tookOver.stamp, m_lastPacket);
-    one.character = key.character;
-    one.detail = {words::Kind::OtherPort};
-    m_incidents.report(one);
-}
-
-void IncidentFollower::noteClaim(const log::Packet& packet, const wire::Header& header, std::size_t host) {
-    const Claim claim{packet.sender, host, packet.stamp};
+void Claims::take(const log::Packet& packet, const wire::Header& header, Incidents& incidents) {
+    const Claim claim{packet.sender, m_sources[packet.sender].host, packet.stamp};
     // One host may send types from several ports; two hosts are two performers.
     std::vector<Claim>& ofType = m_claims[{header.character, header.type()}];
     std::vector<Claim>& ofHosts = m_claimsOfHosts[header.character];
     const std::span<const Claim> turn = turnOf(ofType, claim, &Claim::sender);
     const std::span<const Claim> turnOfHost = turnOf(ofHosts, claim, &Claim::host);
     if (turn.size() > 1 || turnOfHost.size() > 1) {
-        tellConflict(turn.size() > 1 ? turn : turnOfHost, packet, header.character);
+        report(turn.size() > 1 ? turn : turnOfHost, packet, header.character, incidents);
     }
 }
 
 /// Makes a claim the newest. Those that came since its sender or host sent before, if that was a moment ago,
 /// itself the last.
 template <class Key>
-std::span<const IncidentFollower::Claim> IncidentFollower::turnOf(std::vector<Claim>& claims,
-                                                                  const Claim& claim, Key Claim::*key) {
+std::span<const Claims::Claim> Claims::turnOf(std::vector<Claim>& claims, const Claim& claim,
+                                              Key Claim::*key) {
     const auto own = std::ranges::find(claims, claim.*key, key);
     if (own == claims.end()) {
         if (claims.size() == kMostClaims) {
@@ -98,8 +57,8 @@ std::span<const IncidentFollower::Claim> IncidentFollower::turnOf(std::vector<Cl
 }
 
 /// Of each of them, naming all others.
-void IncidentFollower::tellConflict(std::span<const Claim> claims, const log::Packet& packet,
-                                    std::uint8_t character) {
+void Claims::report(std::span<const Claim> claims, const log::Packet& packet, std::uint8_t character,
+                    Incidents& incidents) const {
     for (auto own = claims.rbegin(); own != claims.rend(); ++own) {
         std::vector<std::string> others;
         for (const Claim& other : claims) {
@@ -113,7 +72,7 @@ void IncidentFollower::tellConflict(std::span<const Claim> claims, const log::Pa
         one.character = character;
         one.detail = {words::Kind::TwoSenders,
                       {{"id", std::uint64_t{character}}, {"others", std::move(others)}}};
-        m_incidents.report(one);
+        incidents.report(one);
     }
 }
 

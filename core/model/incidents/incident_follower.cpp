@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/incidents/incident_follower.h"
 
-#include "core/log/ip_address.h"
-
 #include <algorithm>
-#include <functional>
 #include <span>
-#include <string_view>
 #include <tuple>
 #include <utility>
 
@@ -76,31 +72,10 @@ words::Fact endedFact(const Incident* known, std::uint8_t type) {
 
 } // namespace
 
-void IncidentFollower::followClock(const log::Timeline& timeline) {
-    for (const std::size_t count = timeline.stepCount(); m_clockSteps < count; ++m_clockSteps) {
-        const log::ClockStep step = timeline.step(m_clockSteps);
-        if (step.change != log::Duration::zero()) {
-            m_untoldSteps.push_back(step);
-        }
-    }
-}
-
-void IncidentFollower::tellClockSets(log::Stamp until) {
-    std::erase_if(m_untoldSteps, [&](const log::ClockStep& step) {
-        if (step.from > until) {
-            return false;
-        }
-        Occurrence one = Occurrence::at(IncidentKind::ClockSet, log::kNoSender, step.from, m_lastPacket);
-        one.value = log::secondsOf(step.change);
-        m_incidents.end(m_incidents.report(one), step.from); // two are two, however soon
-        return true;
-    });
-}
-
 void IncidentFollower::takePacket(const log::Packet& packet, const PacketDigest& digest,
                                   const std::optional<wire::Header>& header) {
     m_lastPacket = packet.number;
-    tellClockSets(packet.stamp);
+    m_clockSets.report(packet.stamp, m_lastPacket, m_incidents);
     if (packet.stamp >= m_nextCheck) {
         check(packet.stamp);
         m_nextCheck = packet.stamp + kCheck;
@@ -146,7 +121,7 @@ void IncidentFollower::takeOvertaken(std::uint64_t packet, std::uint64_t count, 
 void IncidentFollower::retire(log::SenderId sender) {
     m_watch.retire(sender);
     m_incidents.retire(sender);
-    m_sources.erase(sender);
+    m_claims.retire(sender);
     m_outages.erase(sender);
     std::erase_if(m_expected, [sender](const auto* entry) { return entry->first.sender == sender; });
     std::erase_if(m_characters, [sender](const auto& entry) { return entry.first.sender == sender; });
@@ -163,18 +138,16 @@ void IncidentFollower::expect(const CharacterKey& key, Character& character, log
 void IncidentFollower::takeDatagram(const log::Packet& packet, const wire::Header& header, Stream& stream,
                                     const std::string& address) {
     m_watch.wake(stream);
-    const auto [place, isNew] = m_sources.try_emplace(packet.sender);
-    if (isNew) {
-        place->second = {address, std::hash<std::string_view>{}(log::hostOf(address))};
+    if (m_claims.meet(packet.sender, address)) {
         m_incidents.report(occurrenceOf(IncidentKind::SourceUp, packet));
     }
     if (countsSamples(header.type())) {
-        noteSampled(packet, header, stream, place->second.host);
+        noteSampled(packet, header, stream);
+        m_claims.take(packet, header, m_incidents);
     }
 }
 
-void IncidentFollower::noteSampled(const log::Packet& packet, const wire::Header& header, Stream& stream,
-                                   std::size_t host) {
+void IncidentFollower::noteSampled(const log::Packet& packet, const wire::Header& header, Stream& stream) {
     const CharacterKey key{packet.sender, header.character};
     Character& character = m_characters[key];
     if (!std::exchange(stream.isFollowed, true)) {
@@ -197,7 +170,6 @@ void IncidentFollower::noteSampled(const log::Packet& packet, const wire::Header
     }
     expect(key, character, packet.stamp);
     character.lastPacket = packet.number;
-    noteClaim(packet, header, host);
 }
 
 void IncidentFollower::fallSilent(const CharacterKey& key, Character& character, log::Stamp stamp) {
@@ -225,7 +197,7 @@ void IncidentFollower::fallSilent(const CharacterKey& key, Character& character,
 /// us may show that it was not.
 void IncidentFollower::resume(const CharacterKey& key, Character& character, log::Stamp stamp) {
     const std::uint64_t number = std::exchange(character.outage, 0);
-    const bool wasSilent = silenceOf(character, stamp) > character.patience;
+    const bool wasSilent = character.silenceAt(stamp) > character.patience;
     character.lastSilence = wasSilent ? Silence{character.lastSampled, stamp, number} : Silence();
     for (Stream* stream : character.streams) {
         stream->excusedUntil = stamp + log::durationOf(kWindowAndMore * thresholds().windowS);
@@ -253,7 +225,8 @@ void IncidentFollower::takeVerdict(Stream& stream, const Verdict& verdict) {
         excuse(stream.key, verdict.stamp);
     }
     if (countsSamples(stream.key.type)) {
-        noteTimeCode(stream, verdict);
+        Character& character = m_characters[{stream.key.sender, stream.key.character}];
+        character.timeCodes.take(stream, verdict, character.lastSilence, m_incidents);
         noteStep(stream, verdict);
     }
     if (!verdict.isRestart) {
@@ -268,6 +241,18 @@ void IncidentFollower::takeVerdict(Stream& stream, const Verdict& verdict) {
     if (!isReported) {
         character.restart = verdict.stamp;
         m_incidents.report(occurrenceOf(IncidentKind::Restart, stream.key, verdict));
+    }
+}
+
+void IncidentFollower::noteStep(Stream& stream, const Verdict& verdict) {
+    const std::optional<Occurrence> change = stepChange(stream, verdict);
+    if (!change) {
+        return;
+    }
+    m_incidents.report(*change);
+    if (change->detail.kind == words::Kind::StepChanged) {
+        excuse(stream.key, verdict.stamp);
+        stream.usualHz = 0;
     }
 }
 
@@ -354,8 +339,58 @@ void IncidentFollower::takeContradiction(log::SenderId sender, std::optional<std
     }
 }
 
+void IncidentFollower::supersede(const CharacterKey& key, const CharacterKey& by, log::Stamp stamp) {
+    const auto found = m_characters.find(key);
+    if (found == m_characters.end()) {
+        return;
+    }
+    if (found->second.outage != 0) {
+        resume(key, found->second, stamp);
+    }
+    found->second.lastSampled = {};
+    for (Stream* stream : found->second.streams) { // nothing is expected of them
+        stream->excusedUntil = log::Stamp::max();
+        stream->isStalled = false;
+    }
+    for (const Incident* lasting : m_incidents.currentOf(key.sender)) {
+        if (lasting->group() == IncidentGroup::Limit) {
+            for (const std::uint8_t type : lasting->types()) {
+                m_incidents.endPart(lasting->number, key.character, type, stamp);
+            }
+        }
+    }
+    m_characters[by].tookOver = TakeOver{key, stamp};
+}
+
+void IncidentFollower::expect(const CharacterKey& key) {
+    const auto found = m_characters.find(key);
+    if (found == m_characters.end()) {
+        return;
+    }
+    for (const Stream* stream : found->second.streams) {
+        expect(key, found->second, stream->accounting.lastStamp());
+    }
+}
+
+/// One that took over is a restart of its sender, once the one before has really fallen silent.
+void IncidentFollower::checkTakenOver(const CharacterKey& key, Character& character, log::Stamp stamp) {
+    if (!character.tookOver || character.lastSampled == log::Stamp() ||
+        stamp - character.tookOver->stamp < kSilent) {
+        return;
+    }
+    const TakeOver tookOver = *std::exchange(character.tookOver, std::nullopt);
+    const auto before = m_characters.find(tookOver.before);
+    if (before != m_characters.end() && before->second.lastSampled != log::Stamp()) {
+        return; // it goes on
+    }
+    Occurrence one = Occurrence::at(IncidentKind::Restart, key.sender, tookOver.stamp, m_lastPacket);
+    one.character = key.character;
+    one.detail = {words::Kind::OtherPort};
+    m_incidents.report(one);
+}
+
 void IncidentFollower::advance(log::Stamp stamp) {
-    tellClockSets(stamp - kLong);
+    m_clockSets.report(stamp - kLong, m_lastPacket, m_incidents);
     if (stamp >= m_nextCheck) {
         check(stamp);
     }
@@ -367,14 +402,9 @@ void IncidentFollower::endFile() {
     }
 }
 
-/// For how long nothing of a character has come of which something is expected.
-log::Duration IncidentFollower::silenceOf(const Character& character, log::Stamp stamp) {
-    return character.lastSampled == log::Stamp() ? kNone : stamp - character.lastSampled;
-}
-
 /// Whether more time has passed without a sample than its streams ever leave.
 void IncidentFollower::checkSilence(const CharacterKey& key, Character& character, log::Stamp stamp) {
-    const log::Duration silent = silenceOf(character, stamp);
+    const log::Duration silent = character.silenceAt(stamp);
     if (silent <= kSilent) {
         return; // as with nearly every packet
     }
@@ -393,8 +423,8 @@ void IncidentFollower::check(log::Stamp stamp) {
     });
     for (auto* entry : m_expected) {
         auto& [key, character] = *entry;
-        const log::Duration silent = silenceOf(character, stamp);
-        checkStalled(character, stamp);
+        const log::Duration silent = character.silenceAt(stamp);
+        character.checkStalled(stamp);
         checkTakenOver(key, character, stamp);
         if (character.outage == 0) {
             checkSilence(key, character, stamp);
@@ -411,10 +441,10 @@ void IncidentFollower::check(log::Stamp stamp) {
 }
 
 /// Streams that are missing while others of their character go on: they may be late, lost or ended.
-void IncidentFollower::checkStalled(Character& character, log::Stamp stamp) {
-    const bool goesOn = character.lastSampled != log::Stamp() && stamp - character.lastSampled < kSilent;
-    for (Stream* stream : character.streams) {
-        const log::Duration silent = character.lastSampled - stream->accounting.lastStamp();
+void IncidentFollower::Character::checkStalled(log::Stamp stamp) {
+    const bool goesOn = lastSampled != log::Stamp() && stamp - lastSampled < kSilent;
+    for (Stream* stream : streams) {
+        const log::Duration silent = lastSampled - stream->accounting.lastStamp();
         stream->isStalled = goesOn && !stream->hasEnded && stream->isEstablished() && silent > kSilent &&
                             silent > patienceWith(std::span(&stream, 1), kSilent, 3);
     }

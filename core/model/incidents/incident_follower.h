@@ -3,9 +3,10 @@
 
 #include "core/log/packet.h"
 #include "core/log/time.h"
-#include "core/log/timeline.h"
 #include "core/model/accounting/attribution.h"
 #include "core/model/accounting/packet_digest.h"
+#include "core/model/incidents/changes.h"
+#include "core/model/incidents/claims.h"
 #include "core/model/incidents/incidents.h"
 #include "core/model/incidents/thresholds.h"
 
@@ -33,8 +34,8 @@ public:
     void setThresholds(const Thresholds& thresholds) { m_watch.set(thresholds); }
     [[nodiscard]] const Thresholds& thresholds() const { return m_watch.thresholds(); }
 
-    /// Looks whether the wall clock was set; takePacket() then tells it in its place among the packets.
-    void followClock(const log::Timeline& timeline);
+    /// Looks whether the wall clock was set; takePacket() then reports it in its place among the packets.
+    void followClock(const log::Timeline& timeline) { m_clockSets.follow(timeline); }
     /// Each packet before its content: moves the time of the log, and notes what is no datagram. `header`:
     /// what could be read of it.
     void takePacket(const log::Packet& packet, const PacketDigest& digest,
@@ -77,24 +78,6 @@ public:
                                                           std::optional<log::Stamp> stamp) const;
 
 private:
-    /// Nothing of a character came from one stamp to the other.
-    struct Silence {
-        log::Stamp from{};
-        log::Stamp to{};
-        std::uint64_t incident = 0; ///< 0: none yet
-    };
-    /// Of the newest sample of a character, and what is known of those before.
-    struct TimeCodes {
-        std::uint32_t sample = 0;
-        std::uint32_t code = 0;
-        log::Stamp stamp{};
-        log::Stamp moved{};             ///< when it last changed; 0 before it ever did
-        log::Duration longest{};        ///< between two changes, while samples came
-        std::uint32_t changes = 0;      ///< so many
-        bool isStill = false;           ///< that is told
-        std::optional<Occurrence> jump; ///< while it may be none
-        bool isPause = false;           ///< the jump: the sender paused
-    };
     /// From whom a character was taken over, and when.
     struct TakeOver {
         CharacterKey before{};
@@ -112,53 +95,33 @@ private:
         log::Stamp restart{}; ///< when its counter last restarted
         TimeCodes timeCodes;
         std::optional<TakeOver> tookOver{}; ///< while it may be that both go on
+
+        /// For how long nothing has come; 0 if nothing is expected.
+        [[nodiscard]] log::Duration silenceAt(log::Stamp stamp) const {
+            return lastSampled == log::Stamp() ? log::Duration() : stamp - lastSampled;
+        }
+        void checkStalled(log::Stamp stamp);
     };
-    /// Who sends a character, and when it last did.
-    struct Claim {
-        log::SenderId sender{};
-        std::size_t host = 0;
-        log::Stamp stamp{};
-    };
-    struct Source {
-        std::string address;
-        std::size_t host = 0; ///< one number for each
-    };
-    void tellClockSets(log::Stamp until);
     void takeDrops(std::uint64_t count, Occurrence where);
     void check(log::Stamp stamp);
-    [[nodiscard]] static log::Duration silenceOf(const Character& character, log::Stamp stamp);
     void checkSilence(const CharacterKey& key, Character& character, log::Stamp stamp);
-    static void checkStalled(Character& character, log::Stamp stamp);
     void checkEnded(log::Stamp stamp);
     void expect(const CharacterKey& key, Character& character, log::Stamp sampled);
     void fallSilent(const CharacterKey& key, Character& character, log::Stamp stamp);
     void resume(const CharacterKey& key, Character& character, log::Stamp stamp);
-    void noteSampled(const log::Packet& packet, const wire::Header& header, Stream& stream, std::size_t host);
+    void noteSampled(const log::Packet& packet, const wire::Header& header, Stream& stream);
     void noteStep(Stream& stream, const Verdict& verdict);
-    [[nodiscard]] static Occurrence timeCodeOccurrence(const log::StreamKey& stream, const Verdict& verdict);
-    void noteTimeCode(const Stream& stream, const Verdict& verdict);
-    void noteStill(const log::StreamKey& stream, const Verdict& verdict, TimeCodes& codes);
-    bool noteChange(const Stream& stream, const Verdict& verdict, Character& character);
-    void tellPause(std::uint64_t outage, std::uint8_t character);
     void checkTakenOver(const CharacterKey& key, Character& character, log::Stamp stamp);
-    void noteClaim(const log::Packet& packet, const wire::Header& header, std::size_t host);
-    template <class Key>
-    static std::span<const Claim> turnOf(std::vector<Claim>& claims, const Claim& claim, Key Claim::*key);
-    void tellConflict(std::span<const Claim> claims, const log::Packet& packet, std::uint8_t character);
     [[nodiscard]] std::uint64_t outageOf(const Loss& loss) const;
     void excuse(const log::StreamKey& key, log::Stamp from);
 
     Incidents m_incidents;
     ThresholdWatch m_watch;
-    std::map<log::SenderId, Source> m_sources;
+    Claims m_claims;
+    ClockSets m_clockSets;
     std::map<log::SenderId, std::uint64_t> m_outages; ///< the newest of each sender
     std::map<CharacterKey, Character> m_characters;
     std::vector<std::pair<const CharacterKey, Character>*> m_expected; ///< those of which something is
-    /// By character and type, each sender once, the newest last.
-    std::map<std::pair<std::uint8_t, std::uint8_t>, std::vector<Claim>> m_claims;
-    std::map<std::uint8_t, std::vector<Claim>> m_claimsOfHosts; ///< by character, each host once
-    std::size_t m_clockSteps = 0;                               ///< of the time line that were seen
-    std::vector<log::ClockStep> m_untoldSteps;                  ///< no packet has come since
     std::uint64_t m_lastPacket = 0;
     log::Stamp m_nextCheck{};
     log::Stamp m_nextWatch{};

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+#include "core/model/incidents/changes.h"
+
+#include "core/model/accounting/sender_clock.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <utility>
+
+namespace posewire::model {
+namespace {
+
+constexpr std::int64_t kJumpMs = 500;
+/// A time code that is back where it belongs sooner did not jump: one datagram was corrupt, or some were held
+/// up together on their way.
+constexpr log::Duration kJumped = std::chrono::milliseconds(200);
+/// A time code is frozen if it has not changed for three times as long as it ever took, at least and at most;
+/// at most until it has changed this often.
+constexpr log::Duration kStill = std::chrono::milliseconds(200);
+constexpr log::Duration kMostStill = std::chrono::seconds(2);
+constexpr std::uint32_t kKnown = 10;
+
+std::int64_t millisecondsOf(log::Duration time) {
+    return time / std::chrono::milliseconds(1);
+}
+
+/// Whether two times are about the same, as a pause is measured.
+bool isAbout(std::int64_t ms, std::int64_t otherMs) {
+    return std::abs(ms - otherMs) <= std::max<std::int64_t>(50, std::abs(otherMs) / 10);
+}
+
+Occurrence changeOf(IncidentKind kind, const log::StreamKey& stream, const Verdict& verdict) {
+    Occurrence one = Occurrence::at(kind, stream.sender, verdict.stamp, verdict.packet);
+    one.character = stream.character;
+    return one;
+}
+
+Occurrence timeCodeOf(const log::StreamKey& stream, const Verdict& verdict) {
+    return changeOf(IncidentKind::TimeCode, stream, verdict);
+}
+
+/// The counter went on where it stopped, as did the time code or the clock: no sample was made meanwhile.
+void reportPause(std::uint64_t outage, const log::StreamKey& stream, const Verdict& verdict,
+                 Incidents& incidents) {
+    const Incident* incident = incidents.find(outage);
+    if (incident == nullptr || incident->cause) {
+        return;
+    }
+    Occurrence one =
+        Occurrence::at(IncidentKind::Outage, incident->sender, incident->lastStamp, verdict.packet);
+    one.character = stream.character;
+    one.count = 0;
+    one.isOver = true;
+    one.detail = {words::Kind::SenderPaused};
+    incidents.addTo(outage, one);
+    incidents.setCause(outage, LossCause::Sender);
+}
+
+} // namespace
+
+void ClockSets::follow(const log::Timeline& timeline) {
+    for (const std::size_t count = timeline.stepCount(); m_steps < count; ++m_steps) {
+        const log::ClockStep step = timeline.step(m_steps);
+        if (step.change != log::Duration::zero()) {
+            m_pending.push_back(step);
+        }
+    }
+}
+
+void ClockSets::report(log::Stamp until, std::uint64_t packet, Incidents& incidents) {
+    std::erase_if(m_pending, [&](const log::ClockStep& step) {
+        if (step.from > until) {
+            return false;
+        }
+        Occurrence one = Occurrence::at(IncidentKind::ClockSet, log::kNoSender, step.from, packet);
+        one.value = log::secondsOf(step.change);
+        incidents.end(incidents.report(one), step.from); // two are two, however soon
+        return true;
+    });
+}
+
+std::optional<Occurrence> stepChange(Stream& stream, const Verdict& verdict) {
+    constexpr std::uint64_t kSettled = 128;
+    const std::uint32_t step = stream.accounting.step();
+    const std::uint64_t datagrams = stream.accounting.datagrams();
+    const bool wasKnown = datagrams - stream.toldStepSince >= kSettled;
+    Occurrence one = changeOf(IncidentKind::Step, stream.key, verdict);
+    one.type = stream.key.type;
+    if (step == 0) {
+        if (stream.toldStep == 0 || stream.isUneven) {
+            return std::nullopt;
+        }
+        one.detail = {words::Kind::StepIrregular, {{"before", std::uint64_t{stream.toldStep}}}};
+        stream.isUneven = wasKnown; // until it has another one
+        stream.toldStep = wasKnown ? stream.toldStep : 0;
+        return wasKnown ? std::optional(one) : std::nullopt;
+    }
+    if (std::exchange(stream.isUneven, false)) {
+        stream.toldStepSince = datagrams;
+    }
+    if (step == stream.toldStep) {
+        return std::nullopt;
+    }
+    const std::uint32_t before = std::exchange(stream.toldStep, step);
+    stream.toldStepSince = datagrams;
+    if (before == 0 || !wasKnown) {
+        return std::nullopt;
+    }
+    one.detail = {words::Kind::StepChanged,
+                  {{"step", std::uint64_t{step}}, {"before", std::uint64_t{before}}}};
+    return one;
+}
+
+void TimeCodes::take(const Stream& stream, const Verdict& verdict, const Silence& silence,
+                     Incidents& incidents) {
+    const bool isFirst = m_stamp == log::Stamp();
+    const auto moved = static_cast<std::int32_t>(verdict.sample - m_sample);
+    const bool isBeginning = isFirst || verdict.isRestart || moved < -Probation::kMostBack;
+    if (!verdict.isFirstOfSample || verdict.isReordered || verdict.isStray || (moved <= 0 && !isBeginning)) {
+        return;
+    }
+    if (isBeginning) {
+        *this = {};
+    } else if (verdict.timeCode == m_code) {
+        noteFrozen(stream.key, verdict, incidents);
+    } else if (!noteChange(stream, verdict, silence, incidents)) {
+        return; // it is measured against what was before
+    }
+    m_sample = verdict.sample;
+    m_code = verdict.timeCode;
+    m_stamp = verdict.stamp;
+}
+
+void TimeCodes::noteFrozen(const log::StreamKey& stream, const Verdict& verdict, Incidents& incidents) {
+    const log::Duration patience =
+        m_changes < kKnown ? kMostStill : std::clamp(3 * m_longest, kStill, kMostStill);
+    if (m_moved == log::Stamp() || verdict.stamp - m_moved < patience) {
+        return;
+    }
+    Occurrence one = timeCodeOf(stream, verdict);
+    one.from = m_moved;
+    one.count = std::exchange(m_isFrozen, true) ? 0 : 1;
+    one.detail = {words::Kind::TimeCodeFrozen};
+    incidents.report(one);
+}
+
+/// False while it may be a jump, or none.
+bool TimeCodes::noteChange(const Stream& stream, const Verdict& verdict, const Silence& silence,
+                           Incidents& incidents) {
+    const log::Duration stood = verdict.stamp - m_moved;
+    const auto samples = static_cast<std::int32_t>(verdict.sample - m_sample);
+    const log::Duration passed = verdict.stamp - m_stamp;
+    const std::int64_t passedMs = millisecondsOf(passed);
+    const std::int64_t jumpMs = timeCodeStep(m_code, verdict.timeCode) - passedMs;
+    // It may go on from where it stood, or have gone on unseen; some move once a second.
+    const bool isExplained = jumpMs > -kJumpMs && jumpMs < millisecondsOf(stood - passed) + kJumpMs;
+    const bool isJump = samples < Probation::kMostForward && std::abs(jumpMs) > kJumpMs &&
+                        m_moved != log::Stamp() && !isExplained;
+    const bool endsSilence = silence.incident != 0 && silence.to == verdict.stamp &&
+                             passed >= silence.to - silence.from &&
+                             static_cast<std::uint32_t>(samples) <= stream.accounting.step();
+    if (isJump) {
+        Occurrence one = timeCodeOf(stream.key, verdict);
+        one.value = static_cast<double>(jumpMs);
+        one.detail = {words::Kind::TimeCodeJumped, {{"value", words::Number{one.value}}}};
+        if (!m_jump) {
+            m_isPause = endsSilence && isAbout(-jumpMs, passedMs);
+            m_jump = one;
+        }
+        if (verdict.stamp - m_jump->from < kJumped) {
+            return false;
+        }
+        m_isPause ? reportPause(silence.incident, stream.key, verdict, incidents)
+                  : static_cast<void>(incidents.report(*m_jump));
+    } else if (endsSilence && isAbout(jumpMs, 0)) {
+        reportPause(silence.incident, stream.key, verdict, incidents);
+    }
+    if (std::exchange(m_isFrozen, false)) {
+        Occurrence one = timeCodeOf(stream.key, verdict);
+        one.count = 0;
+        one.detail = {words::Kind::TimeCodeWasFrozen, {{"lasted", words::Number{log::secondsOf(stood), 1}}}};
+        incidents.report(one);
+    } else if (m_moved != log::Stamp() && !isJump && passed < kStill) {
+        m_longest = std::max(m_longest, stood);
+    }
+    ++m_changes;
+    m_jump.reset();
+    m_moved = verdict.stamp;
+    return true;
+}
+
+} // namespace posewire::model

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/log/time.h"
+#include "core/log/timeline.h"
+#include "core/model/accounting/probation.h"
+#include "core/model/accounting/stream.h"
+#include "core/model/incidents/incidents.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+/// What changes: our own clock, and in the samples of a character the spacing of their counters and their
+/// time codes.
+namespace posewire::model {
+
+/// Nothing of a character came from one stamp to the other.
+struct Silence {
+    log::Stamp from{};
+    log::Stamp to{};
+    std::uint64_t incident = 0; ///< 0: none yet
+};
+
+/// The wall clock of this computer, as it was set.
+class ClockSets {
+public:
+    void follow(const log::Timeline& timeline);
+    /// Reports the sets up to a moment, which came before a packet.
+    void report(log::Stamp until, std::uint64_t packet, Incidents& incidents);
+
+private:
+    std::size_t m_steps = 0;               ///< of the time line that were seen
+    std::vector<log::ClockStep> m_pending; ///< no packet has come since
+};
+
+/// The sender sends another share of its samples, or an irregular one.
+[[nodiscard]] std::optional<Occurrence> stepChange(Stream& stream, const Verdict& verdict);
+
+/// Follows the time codes of a character: whether they move with our clock while the counter runs on.
+class TimeCodes {
+public:
+    /// A sample, and the silence before it. One out of order is no evidence.
+    void take(const Stream& stream, const Verdict& verdict, const Silence& silence, Incidents& incidents);
+
+private:
+    void noteFrozen(const log::StreamKey& stream, const Verdict& verdict, Incidents& incidents);
+    bool noteChange(const Stream& stream, const Verdict& verdict, const Silence& silence,
+                    Incidents& incidents);
+
+    /// Of the newest sample.
+    std::uint32_t m_sample = 0;
+    std::uint32_t m_code = 0;
+    log::Stamp m_stamp{};
+    log::Stamp m_moved{};             ///< when it last changed; 0 before it ever did
+    log::Duration m_longest{};        ///< between two changes, while samples came
+    std::uint32_t m_changes = 0;      ///< how often it has changed
+    bool m_isFrozen = false;          ///< that is reported
+    std::optional<Occurrence> m_jump; ///< while it may be none
+    bool m_isPause = false;           ///< the jump: the sender paused
+};
+
+} // namespace posewire::model
