@@ -9,8 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <functional>
-#include <utility>
 
 namespace posewire::gui {
 
@@ -46,10 +44,7 @@ PropertyValue lostByCause(const Source& from) {
         model::addLosses(lost, more.byCause);
         pending += more.pending;
     }
-    const QString toolTip = tr("Samples lost and messages incomplete, by whose loss it was as far as there "
-                               "is evidence: the network, the sender, this "
-                               "computer, or unknown. The packet after a gap says why.");
-    QStringList parts; // those that are nothing only take room
+    QStringList parts; // zeros only take room
     const auto add = [&](const QString& text, model::LossCause cause) {
         if (const std::uint64_t count = lost[static_cast<std::size_t>(cause)]; count != 0) {
             parts += text.arg(grouped(count));
@@ -60,13 +55,13 @@ PropertyValue lostByCause(const Source& from) {
     add(tr("here %1"), ThisComputer);
     add(tr("unknown %1"), Unknown);
     if (parts.isEmpty() && pending != 0) {
-        return {tr("%1 not yet here").arg(grouped(pending)), Health::Unknown, toolTip};
+        return {tr("%1 not yet here").arg(grouped(pending)), Health::Unknown};
     }
     if (parts.isEmpty()) {
-        return {tr("nothing lost"), Health::Good, toolTip};
+        return {tr("nothing lost"), Health::Good};
     }
     const bool isHere = lost[static_cast<std::size_t>(ThisComputer)] != 0;
-    return {parts.join(QStringLiteral(" · ")), isHere ? Health::Error : Health::Warning, toolTip};
+    return {parts.join(QStringLiteral(" · ")), isHere ? Health::Error : Health::Warning};
 }
 
 PropertyValue longestGap(const Source& from) {
@@ -79,15 +74,13 @@ PropertyValue longestGap(const Source& from) {
             rateHz = stream.statistics.rateHz();
         }
     }
-    const QString toolTip = tr("Most samples of one stream lost in a row, and how long they would have been "
-                               "at the present rate");
     if (longest == 0) {
-        return {tr("none"), Health::Good, toolTip};
+        return {tr("none"), Health::Good};
     }
     const QString samples = longest == 1 ? tr("1 sample") : tr("%1 samples").arg(grouped(longest));
     const QString time =
         rateHz > 0 ? tr(" · %1 ms").arg(fixed(static_cast<double>(longest) / rateHz * 1000, 1)) : QString();
-    return {samples + time, Health::Warning, toolTip};
+    return {samples + time, Health::Warning};
 }
 
 PropertyValue computer(const Source& from) {
@@ -99,15 +92,13 @@ PropertyValue computer(const Source& from) {
     }
     return {tr("buffer %1 · dropped %2 in all · %3 fps")
                 .arg(percent(health.bufferFill), grouped(dropped), fixed(health.framesPerSecond, 0)),
-            state,
-            tr("The most that the receive buffers were filled in the last half second, datagrams that this "
-               "computer lost for want of room, and pictures of the viewport a second")};
+            state};
 }
 
 PropertyValue picture(const Source& from) {
     const MonitorHealth& health = from.monitor;
     if (health.picture.state.isEmpty()) {
-        return {dash(), Health::Unknown, tr("How the pictures of the viewport are drawn")};
+        return {dash()};
     }
     return {health.picture.state, health.picture.isPoor ? Health::Warning : Health::Good, health.picture.why};
 }
@@ -115,8 +106,7 @@ PropertyValue picture(const Source& from) {
 PropertyValue processor(const Source& from) {
     const MonitorHealth& health = from.monitor;
     return {
-        tr("receiving %1 · program %2").arg(percent(health.receiverShare, 1), percent(health.processShare)),
-        Health::Unknown, tr("Share of one core that the receiving thread takes, and all threads together")};
+        tr("receiving %1 · program %2").arg(percent(health.receiverShare, 1), percent(health.processShare))};
 }
 
 PropertyValue accounting(const Source& from) {
@@ -127,10 +117,7 @@ PropertyValue accounting(const Source& from) {
     const bool isLate = behind >= kLate;
     const QString late = isLate ? tr(" · %1 s behind").arg(fixed(log::secondsOf(behind), 1)) : QString();
     return {tr("%1 · %2").arg(each, percent(health.followShare, 1)) + late,
-            isLate || health.followShare > kMuchFollowing ? Health::Warning : Health::Unknown,
-            tr("Time to decode, count and index a packet, and the share of the window's time that takes; "
-               "receiving does not wait for it. Where more comes than can be looked at, how old the newest "
-               "packet is that was")};
+            isLate || health.followShare > kMuchFollowing ? Health::Warning : Health::Unknown};
 }
 
 /// What the session keeps, and the viewport.
@@ -145,15 +132,12 @@ PropertyValue memory(const Source& from) {
     const MonitorHealth& health = from.monitor;
     const model::MemoryFigures figures = memoryFigures(from);
     const QString own = health.memoryBytes ? megabytes(*health.memoryBytes) : dash();
-    return {
-        tr("%1 · kept %2 of %3").arg(own, grouped(figures.sum() >> 20), megabytes(figures.budget())),
-        figures.sum() <= figures.budget() ? Health::Unknown : Health::Warning,
-        tr("The memory that this program takes; the part of it that holds what came, and the limit of that "
-           "part: there the oldest goes")};
+    return {tr("%1 · kept %2 of %3").arg(own, grouped(figures.sum() >> 20), megabytes(figures.budget())),
+            figures.sum() <= figures.budget() ? Health::Unknown : Health::Warning};
 }
 
 PropertyValue memoryParts(const Source& from) {
-    QStringList parts; // those that are little only take room
+    QStringList parts; // zeros only take room
     QStringList all;
     for (const model::MemoryFigures::Part& part : memoryFigures(from).parts) {
         const QString text = tr(part.name) + QLatin1Char(' ') + megabytes(part.bytes);
@@ -163,7 +147,7 @@ PropertyValue memoryParts(const Source& from) {
         }
     }
     return {parts.isEmpty() ? tr("below 1 MB") : parts.join(QStringLiteral(" · ")), Health::Unknown,
-            tr("What is kept, by its parts, in MB. Packets and their index share one limit.\n%1")
+            tr("Received data by part, in MB. Packets and their index share one limit.\n%1")
                 .arg(all.join(QLatin1Char('\n')))};
 }
 
@@ -178,30 +162,25 @@ PropertyValue buffer(const Source& from) {
     const auto size = static_cast<std::uint64_t>(bytes);
     return {isSmall ? tr("%1 KB").arg(grouped(size >> 10)) : megabytes(size),
             isSmall ? Health::Warning : Health::Good,
-            tr("What the system granted each UDP port for datagrams that wait to be read.") + advice};
+            tr("The buffer that the system granted each UDP port for datagrams waiting to be read.") +
+                advice};
 }
 
 PropertyValue delay(const Source& from) {
     const log::Duration longest = from.receiving.longestDelay;
     const double milliseconds = log::millisecondsOf(longest);
-    return {tr("%1 ms").arg(fixed(milliseconds, 1)), longest < kLongDelay ? Health::Good : Health::Warning,
-            tr("The longest time the receiving thread took between two looks at its ports; the buffer has to "
-               "last that long")};
+    return {tr("%1 ms").arg(fixed(milliseconds, 1)), longest < kLongDelay ? Health::Good : Health::Warning};
 }
 
 PropertyValue history(const Source& from) {
     const log::LogFigures figures = from.view.log().figures();
-    return {
-        tr("%1 of %2").arg(grouped(figures.memoryInUse >> 20), megabytes(figures.memoryCap)), Health::Unknown,
-        tr("Memory of the newest packets and of their index, and its limit; at the limit the oldest go from "
-           "memory, and stay on disk where a history is kept there (File > History)")};
+    return {tr("%1 of %2").arg(grouped(figures.memoryInUse >> 20), megabytes(figures.memoryCap))};
 }
 
 PropertyValue packets(const Source& from) {
     const std::uint64_t end = from.view.end();
     const QString kept = grouped(end - from.view.begin());
-    return {from.view.begin() == 0 ? kept : tr("%1 of %2").arg(kept, grouped(end)), Health::Unknown,
-            tr("Packets that can be looked back at, in memory or on disk, of all that were received")};
+    return {from.view.begin() == 0 ? kept : tr("%1 of %2").arg(kept, grouped(end))};
 }
 
 PropertyValue overtaken(const Source& from) {
@@ -209,21 +188,15 @@ PropertyValue overtaken(const Source& from) {
     const std::uint64_t beyond = from.view.unfollowed();
     const QString beyondText = tr("%1 of too many streams").arg(grouped(beyond));
     return {beyond == 0 ? grouped(late) : grouped(late) + QStringLiteral(" · ") + beyondText,
-            late + beyond == 0 ? Health::Good : Health::Error,
-            tr("Packets that were received, and gone from memory before this program could look at them: "
-               "samples that were lost with them are counted as lost here")};
+            late + beyond == 0 ? Health::Good : Health::Error};
 }
 
 PropertyValue retired(const Source& from) {
     const model::RetiredTotals& sums = from.view.retired();
-    const QString toolTip =
-        tr("Senders that fell silent and made room for others. Their rows are gone; these are their sums, "
-           "which all totals include.");
     return sums.senders == 0
-               ? PropertyValue{tr("none"), Health::Good, toolTip}
+               ? PropertyValue{tr("none"), Health::Good}
                : PropertyValue{tr("%1 · %2 datagrams · %3 lost")
-                                   .arg(grouped(sums.senders), grouped(sums.datagrams), grouped(sums.lost)),
-                               Health::Unknown, toolTip};
+                                   .arg(grouped(sums.senders), grouped(sums.datagrams), grouped(sums.lost))};
 }
 
 } // namespace
@@ -231,53 +204,67 @@ PropertyValue retired(const Source& from) {
 std::vector<Property> computerFacts(model::SessionView& view, const ReceivingState& receiving,
                                     const MonitorHealth& monitor) {
     const Source from{view, receiving, monitor};
-    const auto row = [from](const QString& label, PropertyValue (*read)(const Source&)) {
-        return Property{label, [from, read] { return read(from); }};
+    std::vector<Property> facts;
+    const auto add = [&facts, from](const QString& label, auto&& read, const QString& toolTip = {}) {
+        facts.push_back({label, [=] {
+                             PropertyValue value = read(from);
+                             const bool isEarly = value.health == Health::Good && from.view.end() == 0;
+                             value.health = isEarly ? Health::Unknown : value.health;
+                             value.toolTip = value.toolTip.isEmpty() ? toolTip : value.toolTip;
+                             return value;
+                         }});
     };
     using Sums = model::SenderTotals;
-    const auto trouble = [from](const QString& label, std::uint64_t Sums::*counted, Health health,
-                                const QString& toolTip) {
-        return Property{label, [=] {
-                            const std::uint64_t count = from.view.allSenders().*counted;
-                            return PropertyValue{grouped(count), count == 0 ? Health::Good : health, toolTip};
-                        }};
-    };
-    std::vector<Property> facts{
-        row(tr("Lost by cause"), lostByCause),
-        row(tr("Longest gap"), longestGap),
-        row(tr("This computer"), computer),
-        row(tr("Picture"), picture),
-        row(tr("Processor"), processor),
-        row(tr("Accounting"), accounting),
-        row(tr("Memory"), memory),
-        row(tr("Memory by part"), memoryParts),
-        row(tr("Receive buffer"), buffer),
-        row(tr("Longest delay"), delay),
-        row(tr("History"), history),
-        row(tr("Packets kept"), packets),
-        trouble(tr("Dropped here"), &Sums::kernelDrops, Health::Error,
-                tr("Datagrams that reached this computer and found its receive buffer full "
-                   "(SO_RXQ_OVFL)")),
-        row(tr("Not looked at"), overtaken),
-        Property{tr("Not listened to"),
-                 [from] {
-                     return PropertyValue{grouped(from.receiving.refusedDatagrams), Health::Good,
-                                          tr("Datagrams from hosts that are not among those to listen "
-                                             "to; they are not recorded")};
-                 }},
-        trouble(tr("Malformed"), &Sums::malformed, Health::Error,
-                tr("Datagrams that begin with MXTP and cannot be decoded")),
-        trouble(tr("Foreign datagrams"), &Sums::foreign, Health::Warning,
-                tr("Datagrams that do not begin with MXTP: another program sends to this port")),
-        row(tr("Retired senders"), retired)};
-    for (Property& fact : facts) { // nothing is good before anything arrived
-        fact.read = [from, read = std::move(fact.read)] {
-            PropertyValue value = read();
-            const bool isEarly = value.health == Health::Good && from.view.end() == 0;
-            value.health = isEarly ? Health::Unknown : value.health;
-            return value;
+    const auto trouble = [](std::uint64_t Sums::*counted, Health health) {
+        return [=](const Source& source) {
+            const std::uint64_t count = source.view.allSenders().*counted;
+            return PropertyValue{grouped(count), count == 0 ? Health::Good : health};
         };
-    }
+    };
+    add(tr("Lost by cause"), lostByCause,
+        tr("Samples lost and messages incomplete, by cause as far as there is evidence: the network, the "
+           "sender, this computer, or unknown. The packet after a gap says why."));
+    add(tr("Longest gap"), longestGap,
+        tr("Most consecutive samples lost by one stream, and their duration at the current rate"));
+    add(tr("This computer"), computer,
+        tr("Peak fill of the receive buffers in the last half second, datagrams dropped because they were "
+           "full, and frames of the viewport per second"));
+    add(tr("Picture"), picture, tr("How the viewport is drawn"));
+    add(tr("Processor"), processor, tr("Share of one core used by the receiving thread, and by all threads"));
+    add(tr("Accounting"), accounting,
+        tr("Time to decode, count and index a packet, and the share of the window's time that it takes; "
+           "receiving does not wait for it. If packets arrive faster than they are processed: age of the "
+           "last one processed"));
+    add(tr("Memory"), memory,
+        tr("Memory used by this program; the part that holds received data, and the limit of that part, at "
+           "which the oldest data are dropped"));
+    add(tr("Memory by part"), memoryParts);
+    add(tr("Receive buffer"), buffer);
+    add(tr("Longest delay"), delay,
+        tr("Longest interval between two socket reads; the buffer must cover it"));
+    add(tr("History"), history,
+        tr("Memory used by the newest packets and their index, and its limit. At the limit the oldest are "
+           "dropped from memory; they stay on disk if a history is kept there (File > History)"));
+    add(tr("Packets kept"), packets,
+        tr("Packets still available, in memory or on disk, out of all received"));
+    add(tr("Dropped here"), trouble(&Sums::kernelDrops, Health::Error),
+        tr("Datagrams that reached this computer and found its receive buffer full (SO_RXQ_OVFL)"));
+    add(tr("Not looked at"), overtaken,
+        tr("Packets dropped from memory before this program processed them; samples lost with them count as "
+           "lost here"));
+    add(
+        tr("Not listened to"),
+        [](const Source& source) {
+            return PropertyValue{grouped(source.receiving.refusedDatagrams), Health::Good};
+        },
+        tr("Datagrams from hosts that are not on the list of those to listen to; they are not recorded"));
+    add(tr("Malformed"), trouble(&Sums::malformed, Health::Error),
+        tr("Datagrams that begin with MXTP and cannot be decoded"));
+    add(tr("Foreign datagrams"), trouble(&Sums::foreign, Health::Warning),
+        tr("Datagrams that do not begin with MXTP: another program sends to this port"));
+    add(tr("Retired senders"), retired,
+        tr("Senders that fell silent and made room for others. Their rows are gone; all totals include their "
+           "sums."));
     return facts;
 }
 

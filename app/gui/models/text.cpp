@@ -57,12 +57,7 @@ QString grouped(std::uint64_t value) {
 }
 
 QString fixed(double value, int decimals) {
-    if (!std::isfinite(value)) {
-        return QStringLiteral("–");
-    }
-    const bool roundsToZero = std::abs(value) < 0.5 * std::pow(10.0, -decimals);
-    QString text = QString::number(roundsToZero ? 0.0 : std::abs(value), 'f', decimals);
-    return value < 0 && !roundsToZero ? QStringLiteral("−") + text : text;
+    return fromUtf8(model::fixedText(value, decimals));
 }
 
 QString signedFixed(double value, int decimals) {

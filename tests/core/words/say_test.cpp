@@ -78,12 +78,23 @@ std::vector<NamedValue> valuesOf(std::uint64_t number) {
 constexpr std::array<std::string_view, kForms> kFormNames{"headline", "sentence", "narrow",
                                                           "line",     "brief",    "cell"};
 
-/// Every kind in every form that differs from the one before, of one, of many, and without any value.
+/// Whether a text has parts that are left out if a value is missing.
+bool hasOptional(const Wording& row) {
+    const auto isOptional = [](const Text& text) {
+        return text.text != nullptr && std::string_view(text.text).find('[') != std::string_view::npos;
+    };
+    return isOptional(row.headline) || isOptional(row.sentence) || isOptional(row.brief);
+}
+
+/// Every kind in every form that differs from the one before: of one, of many, and without any value.
 std::string wholeTable() {
     std::ostringstream all;
     for (const Wording& row : wordings()) {
         std::set<std::string> told;
         for (const std::uint64_t number : {1, 3, 0}) {
+            if (number == 0 && !hasOptional(row)) {
+                continue;
+            }
             const Fact fact{row.kind, number == 0 ? std::vector<NamedValue>() : valuesOf(number)};
             for (std::size_t form = 0; form < kForms; ++form) {
                 const std::string text = say(fact, static_cast<Form>(form));
