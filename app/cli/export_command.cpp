@@ -7,6 +7,7 @@
 #include "app/usage/usage.h"
 #include "core/export/motion/motion_export.h"
 #include "core/model/accounting/stream_figures.h"
+#include "core/words/say.h"
 
 #include <algorithm>
 #include <chrono>
@@ -188,8 +189,8 @@ void tell(const std::vector<ExportedMotion>& exported, const feed::PoseSource& s
     for (const ExportedMotion& one : exported) {
         console.complain(exporting::describe(one, source, format));
         const feed::PoseCharacter& character = source.characters[one.character];
-        for (const std::string& line : character.remark.lines) {
-            console.complain(character.name.shown() + ": " + line);
+        for (const words::Fact& line : character.remark.lines) {
+            console.complain(character.name.shown() + ": " + words::say(line, words::Form::Headline));
         }
     }
     for (std::size_t i = 0; i < source.characters.size(); ++i) {

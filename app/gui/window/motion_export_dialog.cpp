@@ -5,6 +5,7 @@
 #include "app/gui/base/help_topics.h"
 #include "app/gui/base/saving.h"
 #include "app/gui/models/shown_character.h"
+#include "app/gui/models/text.h"
 #include "app/gui/theme/help_link.h"
 #include "app/gui/theme/words.h"
 #include "app/gui/window/range_box.h"
@@ -132,8 +133,8 @@ void MotionExportDialog::describe() {
         if (m_view.pose(key) == nullptr) {
             text += u'\n' + tr("%1 sends no pose and is left out.").arg(name);
         }
-        for (const std::string& line : m_view.poseRemark(key).lines) {
-            text += u'\n' + tr("%1: %2.").arg(name, QString::fromStdString(line));
+        for (const words::Fact& line : m_view.poseRemark(key).lines) {
+            text += u'\n' + tr("%1: %2.").arg(name, said(line, words::Form::Headline));
         }
     }
     m_about->setText(text);

@@ -11,7 +11,7 @@ namespace {
 
 std::vector<std::string> linesOf(const std::string& text) {
     std::istringstream stream(text);
-    const auto sender = test::readingFrom(stream, "test");
+    const auto sender = posewire::test::readingFrom(stream, "test");
     LineReader reader(*sender);
     std::vector<std::string> lines;
     while (true) {
@@ -43,7 +43,7 @@ TEST(LineReader, KeepsLinesWholeAcrossReads) {
 TEST(LineReader, EndsWithAnErrorAtALineThatWouldNotEnd) {
     EXPECT_EQ(linesOf(std::string(LineReader::kLongestLine, 'x')).size(), 1U);
     std::istringstream stream("a\n" + std::string(LineReader::kLongestLine + 1, 'x'));
-    const auto source = test::readingFrom(stream, "test");
+    const auto source = posewire::test::readingFrom(stream, "test");
     LineReader reader(*source);
     EXPECT_TRUE(reader.next());
     const auto line = reader.next();

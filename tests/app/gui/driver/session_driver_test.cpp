@@ -5,6 +5,7 @@
 #include "app/net/listening.h"
 #include "core/log/output_file.h"
 #include "core/log/pcapng_writer.h"
+#include "core/words/say.h"
 #include "tests/app/gui/models/stage.h"
 #include "tests/support/manual_clock.h"
 

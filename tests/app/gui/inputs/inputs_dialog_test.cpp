@@ -6,6 +6,7 @@
 #include "app/gui/inputs/relay_page.h"
 #include "app/gui/panels/table_view.h"
 #include "app/net/datagram_sender.h"
+#include "core/words/say.h"
 
 #include <QLabel>
 #include <QLineEdit>
@@ -304,7 +305,7 @@ TEST_F(InputsDialogTest, ALoopSwitchesItsTargetOffAndIsAnEvent) {
     const auto& events = driver.commands().session().incidents().all();
     const auto loop = std::ranges::find(events, model::IncidentKind::RelayLoop, &model::Incident::kind);
     ASSERT_NE(loop, events.end());
-    EXPECT_EQ(loop->text(), relay.problem.toStdString());
+    EXPECT_EQ(words::say(loop->fact(), words::Form::Sentence), relay.problem.toStdString());
     driver.receiving().relaying().setOn(0, true);
     EXPECT_TRUE(tickUntil([&] { return relay.stage == RelayState::Stage::Forwarding; }))
         << "the operator may";

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/session/verdict.h"
+#include "core/words/say.h"
 #include "tests/core/model/session/session_fixture.h"
 
 #include "core/model/incidents/incident_follower.h"
@@ -49,9 +50,11 @@ TEST_F(ClockSetTest, IsAnEventOfThisComputerInItsPlace) {
     EXPECT_EQ(sets()[0].firstPacket, 100U);
     EXPECT_EQ(sets()[0].value, -3600.0);
     EXPECT_FALSE(sets()[0].isCurrent);
-    EXPECT_EQ(sets()[0].text(), "The receiving computer's clock was set back by 3600.000 s.");
+    EXPECT_EQ(words::say(sets()[0].fact(), words::Form::Sentence),
+              "The receiving computer's clock was set back by 3600.000 s.");
     EXPECT_EQ(sets()[1].firstPacket, 200U);
-    EXPECT_EQ(sets()[1].text(), "The receiving computer's clock was set forward by 2.500 s.");
+    EXPECT_EQ(words::say(sets()[1].fact(), words::Form::Sentence),
+              "The receiving computer's clock was set forward by 2.500 s.");
 }
 
 TEST_F(ClockSetTest, IsNobodysLossRestartOrJitter) {
