@@ -118,8 +118,7 @@ private:
         m_grid->addWidget(widgets.host, row, 1);
         m_grid->addWidget(widgets.copy, row, 2);
         m_grid->addWidget(widgets.interface, row, 3);
-        connect(widgets.copy, &QToolButton::clicked, this,
-                [host = widgets.host] { copyText(host->text()); });
+        connect(widgets.copy, &QToolButton::clicked, this, [host = widgets.host] { copyText(host->text()); });
         m_rows.push_back(widgets);
     }
 

@@ -181,8 +181,9 @@ FittingHeader::Share FittingHeader::share(int column) const {
     }
     const int usual = usualWidth(column, given.usual);
     const int least = given.least.isEmpty() ? usual : std::min(usual, textWidth(given.least));
-    // One that is kept for what it says gets narrower before all of it is scrolled away.
-    const int floor = m_kept == Kept::Open ? textWidth(QStringLiteral("123456")) : least;
+    // Words get narrower before part of the table is scrolled away.
+    const int words = given.whole != 0 ? std::min(least, textWidth(given.usual)) : least;
+    const int floor = m_kept == Kept::Open ? textWidth(QStringLiteral("123456")) : words;
     const int wish = given.wish.isEmpty() ? usual : std::max(usual, textWidth(given.wish));
     return {floor, least, usual, wish, given.order, given.isOpen, isWanted(column)};
 }
