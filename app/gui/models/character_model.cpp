@@ -272,6 +272,7 @@ std::vector<TableColumn<BoardRow>> CharacterModel::columns(model::SessionView& v
                                 [&view](const BoardRow& row) { return characterName(view, row.key); })
                       .in({.usual = QStringLiteral("         Mira Li"),
                            .wish = QStringLiteral("         Performer with a name · 10"),
+                           .least = QStringLiteral("         Mira L"),
                            .whole = 16})
                       .withToolTip(help)
                       .withMore(marks);

@@ -199,7 +199,7 @@ TEST(ComparisonTextTest, SaysWhatWasNotCompared) {
     state.range = range;
     EXPECT_EQ(comparedText(state),
               QStringList({"115 pairs", "5 without a partner", "3 without a common segment",
-                           "1 200 packets not looked at in time"}));
+                           "1 200 packets not looked at in time"}));
 }
 
 TEST(ComparisonTextTest, TheScaleOfColoursIsARoundNumber) {

@@ -291,7 +291,7 @@ TEST_F(PacketsPanelTest, GoesToProblemsMarksAndTheStreamsOtherPackets) {
     EXPECT_EQ(selected(), 100U);
     trigger("nextProblem");
     EXPECT_EQ(selected(), 100U);
-    EXPECT_TRUE(m_panel.message().contains("No problem after")) << m_panel.message().toStdString();
+    EXPECT_TRUE(m_panel.message().contains("No problem of Mira after")) << m_panel.message().toStdString();
     EXPECT_EQ(m_panel.goTo("195"), "");
     trigger("nextOfStream");
     EXPECT_EQ(selected(), 197U); // 196 is the metadata
