@@ -35,10 +35,10 @@ struct Plan {
 /// What the window says about itself, a few times a second.
 class Watch {
 public:
-    explicit Watch(const SessionDriver& driver) : m_driver(driver) {}
+    explicit Watch(SessionDriver& driver) : m_driver(driver) {}
 
     void look() {
-        const MonitorHealth health = m_driver.monitorHealth();
+        const MonitorHealth& health = m_driver.health().health();
         m_share += health.receiverShare.value_or(0) + health.followShare;
         m_memory.push_back(static_cast<double>(system::processMemoryBytes().value_or(0)));
     }
@@ -54,7 +54,7 @@ public:
     [[nodiscard]] double memory() const { return m_memory.back(); }
 
 private:
-    const SessionDriver& m_driver;
+    SessionDriver& m_driver;
     double m_share = 0;
     std::vector<double> m_memory;
 };
