@@ -317,7 +317,7 @@ QString Comparing::problemOf(model::SessionView& shown) const {
         return tr("There is no character yet to compare with %1.").arg(m_state.name);
     }
     const bool hasTables = m_firstTable != nullptr && m_secondTable != nullptr;
-    const QString types = tr("poses of types 01, 02 or 05");
+    const QString types = tr("poses (types 01, 02, 05, 21, 22, 03)");
     if (hasTables && m_secondTable->samples().empty()) {
         return tr("This character has no %1 in %2. Choose another one, or another recording.")
             .arg(types, m_state.name);

@@ -210,7 +210,7 @@ TEST_F(ComparingTest, SaysWhereThereIsNoPose) {
     m_driver.files().open(record("a.pcapng", 0, 60));
     m_driver.files().comparing().open(path);
     settle();
-    EXPECT_TRUE(state().problem.contains("types 01, 02 or 05")) << state().problem.toStdString();
+    EXPECT_TRUE(state().problem.contains("types 01, 02, 05, 21, 22, 03")) << state().problem.toStdString();
     EXPECT_TRUE(state().problem.contains("names.pcapng"));
 }
 
