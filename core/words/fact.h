@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -26,8 +27,11 @@ struct NamedValue;
 
 /// One thing to be said. The values are named as the placeholders of the table.
 struct Fact {
-    Kind kind = Kind::Nothing;
-    std::vector<NamedValue> values{};
+    Fact(Kind what = Kind::Nothing);
+    Fact(Kind what, std::vector<NamedValue> with);
+
+    Kind kind;
+    std::vector<NamedValue> values;
 
     [[nodiscard]] bool isNothing() const { return kind == Kind::Nothing; }
     friend bool operator==(const Fact& one, const Fact& other);
@@ -41,6 +45,9 @@ struct NamedValue {
     Value value;
     friend bool operator==(const NamedValue&, const NamedValue&) = default;
 };
+
+inline Fact::Fact(Kind what) : kind(what) {}
+inline Fact::Fact(Kind what, std::vector<NamedValue> with) : kind(what), values(std::move(with)) {}
 
 /// Null if the fact has no value of that name.
 [[nodiscard]] const Value* find(const Fact& fact, std::string_view name);
