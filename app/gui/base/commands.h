@@ -18,9 +18,9 @@ public:
     /// The session must outlive this.
     explicit Commands(model::Session& live) : m_live(live), m_shown(&live) {}
 
-    /// What is shown.
+    /// The session that is shown.
     [[nodiscard]] model::SessionView& session() const { return *m_shown; }
-    /// What is received, whatever is shown.
+    /// The live session, whichever is shown.
     [[nodiscard]] model::SessionView& live() const { return m_live; }
     [[nodiscard]] bool isFileShown() const { return m_shown != &m_live; }
     void showLive() { show(m_live); }
@@ -36,7 +36,7 @@ public:
     void selectPacket(std::uint64_t number);
     /// Lets go of the packet that is selected: the newest one of the moment is inspected.
     void unselectPacket();
-    /// What time statistics are of.
+    /// Chooses the time range of the statistics.
     void selectRange(const model::RangeChoice& range) { change(&model::Session::setRange, range); }
     void setMarked(std::uint64_t packet, bool isMarked) {
         change(&model::Session::setMarked, packet, isMarked);
@@ -44,11 +44,11 @@ public:
     void setComment(std::uint64_t packet, const QString& comment) {
         change(&model::Session::setComment, packet, comment.toStdString());
     }
-    /// What is declared about a sender counts instead of what was detected.
+    /// Declares facts about a sender, which then replace the detected ones.
     void setOverride(log::SenderId sender, const model::SenderOverride& overrides) {
         change(&model::Session::setOverride, sender, overrides);
     }
-    /// What the list of packets shows; empty for all.
+    /// Filters the list of packets; an empty filter shows all.
     void setDisplayFilter(const QString& filter) {
         change(&model::Session::setDisplayFilter, filter.toStdString());
     }
@@ -71,10 +71,10 @@ public:
     /// character alone if there is one.
     void showIncident(std::optional<std::uint64_t> number, std::optional<model::CharacterKey> of = {});
 
-    // Of what is received, whatever is shown:
+    // On the live session, whichever is shown:
     /// A new span counts for the take: counts, incidents and verdict from now on.
     void resetForTake();
-    /// What streams must keep from now on.
+    /// Sets the limits that streams are held to from now on.
     void setThresholds(const model::Thresholds& thresholds);
 
 signals:
@@ -82,10 +82,10 @@ signals:
     void changed();
     /// Another session is shown.
     void switched();
-    /// What was seen before the newest jump is shown again.
+    /// The view before the newest jump is shown again.
     void wentBack();
 
-    // What the window does; anyone may ask.
+    // Requests that the window carries out.
     /// Points the camera at a character.
     void frameCharacter(const model::CharacterKey& key);
     /// Brings a dock before the others, by its object name.
