@@ -7,6 +7,7 @@
 #include "app/usage/usage.h"
 #include "core/export/motion/motion_export.h"
 #include "core/model/accounting/stream_figures.h"
+#include "core/model/session/roster.h"
 #include "core/words/say.h"
 
 #include <algorithm>
@@ -136,19 +137,19 @@ std::vector<std::string> wordsOf(const std::string& text, const auto& isKnown) {
 /// Those whose name or ID is asked for, or one line about what is wrong.
 tl::expected<std::vector<model::CharacterKey>, std::string> chosen(const ExportOptions& options,
                                                                    const model::SessionView& session) {
-    const std::vector<const model::Character*> all = session.atNow().currentCharacters();
+    const std::vector<const model::Character*> all = session.atNow().roster().listed();
     std::vector<model::CharacterKey> keys;
     std::string known;
     for (const model::Character* one : all) {
         keys.push_back(one->key);
-        known += (known.empty() ? "" : ", ") + session.displayName(one->key).shown() + " (" +
+        known += (known.empty() ? "" : ", ") + session.roster().displayName(one->key).shown() + " (" +
                  std::to_string(one->key.character) + ")";
     }
     if (options.characters.empty()) {
         return keys;
     }
     const auto is = [&](const model::CharacterKey& key, const std::string& word) {
-        const model::ForeignText name = session.displayName(key);
+        const model::ForeignText name = session.roster().displayName(key);
         return name == word || name.shown() == word || std::to_string(key.character) == word;
     };
     std::vector<model::CharacterKey> wanted;

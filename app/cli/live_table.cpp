@@ -3,7 +3,9 @@
 
 #include "core/export/html.h"
 #include "core/export/session_reading.h"
+#include "core/model/session/accounts.h"
 #include "core/model/session/losses.h"
+#include "core/model/session/roster.h"
 #include "core/wire/type_table.h"
 
 #include <algorithm>
@@ -76,14 +78,14 @@ std::string streamLine(const model::Losses& losses, const model::Stream& stream)
 }
 
 std::string summaryLine(const model::SessionView& session, const exporting::MonitorFacts& facts) {
-    const model::SenderTotals all = session.allSenders();
+    const model::SenderTotals all = session.accounts().allSenders();
     std::string line = fixed(facts.durationS, 1) + " s   " + grouped(all.datagrams) +
                        " datagrams   malformed " + grouped(all.malformed) + "   not MXTP " +
                        grouped(all.foreign) + "   dropped by this computer " + grouped(all.kernelDrops);
-    if (session.overtaken() != 0) {
-        line += "   not looked at in time " + grouped(session.overtaken());
+    if (session.accounts().overtaken() != 0) {
+        line += "   not looked at in time " + grouped(session.accounts().overtaken());
     }
-    if (const model::Unproven unproven = session.unproven(); unproven.characters != 0) {
+    if (const model::Unproven unproven = session.accounts().unproven(); unproven.characters != 0) {
         line += "   unconfirmed characters " + grouped(unproven.characters);
     }
     if (facts.refusedDatagrams != 0) {
@@ -100,13 +102,13 @@ std::size_t widthOf(std::string_view text) {
 
 std::vector<std::string> liveTable(const model::SessionView& session, const exporting::MonitorFacts& facts) {
     std::vector<std::string> lines{summaryLine(session, facts)};
-    if (session.streams().empty()) {
+    if (session.roster().streams().empty()) {
         lines.emplace_back("No MXTP datagram so far.");
         return lines;
     }
     lines.push_back(tableRow("", [](const Column& column) { return std::string(column.title); }));
     const model::Losses losses(session, {});
-    for (const model::Sender& sender : session.senders()) {
+    for (const model::Sender& sender : session.roster().senders()) {
         if (!exporting::hasSentMxtp(sender)) {
             continue;
         }
@@ -116,14 +118,14 @@ std::vector<std::string> liveTable(const model::SessionView& session, const expo
             if (!character->isConfirmed) {
                 continue;
             }
-            lines.push_back("  " + session.displayName(character->key).shown() + " (" +
+            lines.push_back("  " + session.roster().displayName(character->key).shown() + " (" +
                             std::to_string(character->key.character) + ")");
             for (const model::Stream* stream : exporting::streamsByType(session, character->key)) {
                 lines.push_back(streamLine(losses, *stream));
             }
         }
     }
-    const model::RetiredTotals& retired = session.retired();
+    const model::RetiredTotals& retired = session.accounts().retired();
     if (retired.senders != 0) {
         lines.push_back("Retired senders: " + grouped(retired.senders) + ", with " +
                         grouped(retired.wellFormed()) + " datagrams, " + grouped(retired.samples) +

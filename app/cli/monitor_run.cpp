@@ -8,6 +8,8 @@
 #include "core/log/file_names.h"
 #include "core/log/log_reader.h"
 #include "core/model/incidents/thresholds.h"
+#include "core/model/session/accounts.h"
+#include "core/model/session/roster.h"
 #include "core/wire/type_table.h"
 
 #include <QString>
@@ -43,8 +45,9 @@ std::string limitText(const std::optional<double>& limit, const std::string& uni
 }
 
 std::string placeOf(const model::SessionView& session, const log::StreamKey& key) {
-    return session.addressOf(key.sender).shown() + ", " +
-           session.displayName({key.sender, key.character}).shown() + ", type " + wire::typeTitle(key.type);
+    return session.roster().addressOf(key.sender).shown() + ", " +
+           session.roster().displayName({key.sender, key.character}).shown() + ", type " +
+           wire::typeTitle(key.type);
 }
 
 /// Says by how much a stream is above a limit.
@@ -60,9 +63,9 @@ std::string excessOf(const model::SessionView& session, const log::StreamKey& st
 std::vector<std::string> exceeded(const model::SessionView& session, const Limits& limits,
                                   std::optional<log::Stamp> end) {
     const bool isAny = std::ranges::any_of(limits, [](const auto& most) { return most.has_value(); });
-    const model::RetiredTotals& retired = session.retired();
+    const model::RetiredTotals& retired = session.accounts().retired();
     std::vector<std::string> lines;
-    if (isAny && session.streams().empty() && retired.streams == 0) {
+    if (isAny && session.roster().streams().empty() && retired.streams == 0) {
         lines.emplace_back(
             "no datagram was received, so no limit is kept; is the sender on, and does it send here?");
     }
@@ -73,7 +76,7 @@ std::vector<std::string> exceeded(const model::SessionView& session, const Limit
             lines.push_back(excessOf(session, worst->stream, kLimits[i], worst->value, *limits[i]));
         }
     }
-    for (const model::Stream& stream : session.streams()) {
+    for (const model::Stream& stream : session.roster().streams()) {
         if (!wire::isSampled(stream.key.type)) {
             continue; // sent again now and then: its gaps mean nothing
         }
@@ -149,7 +152,7 @@ void MonitorRun::follow(log::Stamp now, bool isReceiverHeldUp) {
 log::Stamp MonitorRun::followToEnd(log::Stamp end) {
     m_session.setHeldUp(false);
     takeIn(end);
-    for (const model::Sender& sender : m_session.senders()) {
+    for (const model::Sender& sender : m_session.roster().senders()) {
         end = std::max(end, sender.lastStamp);
     }
     takeIn(end);
@@ -166,7 +169,7 @@ void MonitorRun::takeIn(log::Stamp now) {
 
 void MonitorRun::tellSenders() {
     std::set<log::SenderId> listed;
-    for (const model::Sender& sender : m_session.senders()) {
+    for (const model::Sender& sender : m_session.roster().senders()) {
         listed.insert(sender.id);
         if (!m_toldSenders.contains(sender.id)) {
             m_console.complain("heard " + sender.address().shown());

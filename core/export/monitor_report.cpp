@@ -4,6 +4,10 @@
 #include "core/export/json_value.h"
 #include "core/export/session_reading.h"
 #include "core/export/verdict_json.h"
+#include "core/model/session/accounts.h"
+#include "core/model/session/memory_figures.h"
+#include "core/model/session/messages.h"
+#include "core/model/session/roster.h"
 #include "core/wire/type_table.h"
 
 #include <algorithm>
@@ -50,7 +54,7 @@ JsonValue streamsJson(const model::SessionView& session, const model::CharacterK
 
 /// The name that was sent; empty where there was none.
 std::string sentName(const model::SessionView& session, const model::CharacterKey& key) {
-    const model::MetadataTag* tag = session.metadata(key).find("name");
+    const model::MetadataTag* tag = session.messages().metadata(key).find("name");
     return tag != nullptr ? std::string(tag->values.back().text.exact()) : std::string();
 }
 
@@ -67,7 +71,7 @@ JsonValue charactersJson(const model::SessionView& session, const model::Sender&
                             {"name", sentName(session, key)},
                             {"streams", streamsJson(session, key)},
                             {"state", model::nameOf(verdicts.characters.at(key).state)}};
-        if (!session.find(key)->isConfirmed) {
+        if (!session.roster().find(key)->isConfirmed) {
             character["unconfirmed"] = true;
         }
         characters.push_back(std::move(character));
@@ -99,16 +103,16 @@ JsonValue memoryJson(const model::MemoryFigures& memory) {
 } // namespace
 
 std::string monitorReport(const model::SessionView& session, const MonitorFacts& facts) {
-    const model::SenderTotals all = session.allSenders();
-    const model::RetiredTotals& retired = session.retired();
+    const model::SenderTotals all = session.accounts().allSenders();
+    const model::RetiredTotals& retired = session.accounts().retired();
     std::vector<const model::Character*> everyone;
-    for (const model::Character& character : session.characters()) {
+    for (const model::Character& character : session.roster().characters()) {
         everyone.push_back(&character);
     }
     const model::TakeVerdicts verdicts = model::verdictsOf(session, {}, everyone);
     JsonValue::List senders;
     JsonValue::List foreignSenders;
-    for (const model::Sender& sender : session.senders()) {
+    for (const model::Sender& sender : session.roster().senders()) {
         if (hasSentMxtp(sender)) {
             senders.push_back(senderJson(session, sender, verdicts));
         }
@@ -121,7 +125,7 @@ std::string monitorReport(const model::SessionView& session, const MonitorFacts&
     JsonValue report{{"durationS", rounded(facts.durationS, 3)},
                      {"local", JsonValue{{"kernelDropped", all.kernelDrops},
                                          {"receiveBufferBytes", facts.receiveBufferBytes},
-                                         {"overtaken", session.overtaken()},
+                                         {"overtaken", session.accounts().overtaken()},
                                          {"refusedDatagrams", facts.refusedDatagrams}}},
                      {"foreignDatagrams", all.foreign},
                      {"sources", std::move(senders)},

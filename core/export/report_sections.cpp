@@ -5,7 +5,11 @@
 #include "core/export/session_reading.h"
 #include "core/model/accounting/attribution.h"
 #include "core/model/accounting/count_history.h"
+#include "core/model/session/accounts.h"
 #include "core/model/session/losses.h"
+#include "core/model/session/messages.h"
+#include "core/model/session/roster.h"
+#include "core/model/session/verdict.h"
 #include "core/wire/text.h"
 #include "core/wire/type_table.h"
 #include "core/words/say.h"
@@ -82,14 +86,14 @@ std::vector<SvgPlot> plotsOf(const model::SessionView& session, const ReportStep
         {"Samples a second, of the fastest stream", SvgPlot::Form::Curves, durationS, {}, 1},
         {"Lost samples, percent of those expected", SvgPlot::Form::Curves, durationS, {}, 1},
         {"Jitter, milliseconds, of the worst stream", SvgPlot::Form::Curves, durationS, {}, 0.1}};
-    for (const model::Character& character : session.characters()) {
+    for (const model::Character& character : session.roster().characters()) {
         const std::size_t colour = plots[0].series.size();
         const auto streams = sampledStreams(session, character.key);
         if (colour == kMostCurves || streams.empty() || !character.isConfirmed) {
             continue;
         }
         Series series = seriesOf(streams, steps);
-        const std::string name = session.displayName(character.key).shown();
+        const std::string name = session.roster().displayName(character.key).shown();
         plots[0].series.push_back({name, colour, std::move(series.rate)});
         plots[1].series.push_back({name, colour, std::move(series.loss)});
         plots[2].series.push_back({name, colour, std::move(series.jitter)});
@@ -100,7 +104,7 @@ std::vector<SvgPlot> plotsOf(const model::SessionView& session, const ReportStep
 /// The gaps with losses that end within the report, in the order of the session.
 std::vector<const model::Gap*> gapsIn(const model::SessionView& session, const ReportSteps& steps) {
     std::vector<const model::Gap*> gaps;
-    for (const model::Gap& gap : session.gaps()) {
+    for (const model::Gap& gap : session.accounts().gaps()) {
         if (gap.lost != 0 && gap.toStamp >= steps.from && gap.toStamp <= steps.to) {
             gaps.push_back(&gap);
         }
@@ -125,7 +129,7 @@ SvgPlot causePlot(const model::SessionView& session, const ReportSteps& steps) {
     for (const model::Gap* gap : gapsIn(session, steps)) {
         add(gap->toStamp, gap->cause, gap->lost);
     }
-    session.forEachPartialLoss(
+    session.accounts().forEachPartialLoss(
         [&](const log::StreamKey& key, log::Stamp stamp, model::LossCause cause, std::uint64_t /*packet*/) {
             if (model::countsSamples(key.type) && stamp >= steps.from && stamp <= steps.to) {
                 add(stamp, cause, 1);
@@ -147,9 +151,9 @@ std::string listed(const std::string& which, std::size_t count, std::size_t all,
 
 /// Sender, character and type, as far as the event is about them.
 std::string whose(const model::SessionView& session, const model::Incident& event) {
-    std::string text = session.addressOf(event.sender).shown();
+    std::string text = session.roster().addressOf(event.sender).shown();
     for (const std::uint8_t character : event.characters()) {
-        text += ", " + session.displayName({event.sender, character}).shown();
+        text += ", " + session.roster().displayName({event.sender, character}).shown();
     }
     const auto types = event.types();
     if (types.size() == 1) {
@@ -168,7 +172,7 @@ std::vector<std::string> cellsOf(const model::SessionView& session, const model:
                                  const ReportSteps& steps) {
     const model::CharacterKey key{gap.stream.sender, gap.stream.character};
     return {fixed(log::millisecondsOf(gap.fromStamp - steps.from) * 1e-3, 3),
-            session.displayName(key).html() + ", " + escaped(wire::typeTitle(gap.stream.type)),
+            session.roster().displayName(key).html() + ", " + escaped(wire::typeTitle(gap.stream.type)),
             grouped(gap.lost),
             std::to_string(gap.fromSample) + "–" + std::to_string(gap.toSample),
             fixed(log::millisecondsOf(gap.toStamp - gap.fromStamp), 1),
@@ -262,7 +266,7 @@ ReportSteps stepsOf(const model::SessionView& session, const std::optional<model
     log::Stamp first = log::Stamp::max();
     log::Stamp last = log::Stamp::min();
     log::Duration resolution(1);
-    for (const model::Stream& stream : session.streams()) {
+    for (const model::Stream& stream : session.roster().streams()) {
         first = std::min(first, stream.accounting.firstStamp());
         last = std::max(last, stream.accounting.lastStamp());
         resolution = std::max(resolution, stream.accounting.resolution(part.from));
@@ -325,7 +329,7 @@ std::string streamTable(const model::SessionView& session, const model::Characte
 
 std::string metadataList(const model::SessionView& session, const model::CharacterKey& key) {
     std::string html;
-    for (const model::MetadataTag& tag : session.metadata(key).tags()) {
+    for (const model::MetadataTag& tag : session.messages().metadata(key).tags()) {
         const model::ForeignText& value = tag.values.back().text;
         const auto colour = tag.name == "color" ? model::parseColour(value.shown()) : std::nullopt;
         html += "<dt>" + tag.name.html() + "</dt><dd>" +
@@ -360,7 +364,7 @@ std::string gapSection(const model::SessionView& session, const ReportSteps& ste
 
 std::string eventSection(const model::SessionView& session, const ReportSteps& steps) {
     std::vector<const model::Incident*> events;
-    for (const model::Incident& event : session.incidents().all()) {
+    for (const model::Incident& event : session.verdicts().incidents().all()) {
         if (event.lastStamp >= steps.from && event.firstStamp <= steps.to) {
             events.push_back(&event);
         }

@@ -3,6 +3,7 @@
 
 #include "core/log/time.h"
 #include "core/model/accounting/stream_figures.h"
+#include "core/model/incidents/incident.h"
 #include "core/model/session/session_view.h"
 
 #include <optional>

@@ -2,6 +2,7 @@
 #include "core/export/session_reading.h"
 
 #include "core/export/html.h"
+#include "core/model/session/roster.h"
 
 #include <algorithm>
 
@@ -9,7 +10,7 @@ namespace posewire::exporting {
 
 std::vector<const model::Stream*> streamsByType(const model::SessionView& session,
                                                 const model::CharacterKey& key) {
-    const model::Character* character = session.find(key);
+    const model::Character* character = session.roster().find(key);
     std::vector<const model::Stream*> streams;
     if (character != nullptr) {
         streams = character->streams;

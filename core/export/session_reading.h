@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/model/accounting/stream_figures.h"
+#include "core/model/session/roster.h"
 #include "core/model/session/session_view.h"
 
 #include <cstdint>

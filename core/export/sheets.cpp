@@ -4,6 +4,7 @@
 #include "core/export/json_value.h"
 #include "core/model/body/null_pose.h"
 #include "core/model/body/spaces.h"
+#include "core/model/session/roster.h"
 #include "core/wire/byte_order.h"
 #include "core/wire/text.h"
 #include "core/wire/type_table.h"
@@ -78,7 +79,7 @@ JsonValue objectOf(const model::SessionView& session, const Incident& event) {
                      {"severity", nameOf(event.severity())},
                      {"group", nameOf(event.group())},
                      {"event", model::nameOf(event.kind)},
-                     {"source", std::string(session.addressOf(event.sender).exact())}};
+                     {"source", std::string(session.roster().addressOf(event.sender).exact())}};
     object["characters"] = listOf(event.characters(), [](std::uint8_t id) { return JsonValue(id); });
     object["types"] =
         listOf(event.types(), [](std::uint8_t type) { return JsonValue(wire::typeDigits(type)); });
@@ -190,7 +191,7 @@ std::string eventsCsv(const EventSheet& sheet) {
             std::string(nameOf(event->severity())),
             std::string(nameOf(event->group())),
             std::string(model::nameOf(event->kind)),
-            sheet.session.addressOf(event->sender).csv(),
+            sheet.session.roster().addressOf(event->sender).csv(),
             joined(event->characters(), [](std::uint8_t id) { return std::to_string(id); }),
             joined(event->types(), wire::typeDigits),
             secondsText(sheet.session.wallOf(event->firstStamp)),

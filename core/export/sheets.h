@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/model/body/null_pose.h"
+#include "core/model/foreign_text.h"
+#include "core/model/incidents/incident.h"
 #include "core/model/session/session_view.h"
 #include "core/wire/messages.h"
 

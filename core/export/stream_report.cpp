@@ -4,7 +4,9 @@
 #include "core/export/html.h"
 #include "core/export/report_sections.h"
 #include "core/export/session_reading.h"
+#include "core/model/session/accounts.h"
 #include "core/model/session/losses.h"
+#include "core/model/session/roster.h"
 #include "core/model/session/verdict.h"
 #include "core/model/text.h"
 #include "core/words/say.h"
@@ -167,22 +169,22 @@ void addRestarts(std::vector<Finding>& findings, const std::vector<model::Stream
 
 /// What this computer did not do in time, and what is no longer listed.
 void addSession(std::vector<Finding>& findings, const model::SessionView& session) {
-    if (session.overtaken() != 0) {
+    if (session.accounts().overtaken() != 0) {
         findings.push_back(
             {IncidentSeverity::Error, "This computer did not look at " +
-                                          counted(session.overtaken(), "packet", "packets") +
+                                          counted(session.accounts().overtaken(), "packet", "packets") +
                                           " in time: what was lost with them is counted as lost here."});
     }
-    if (session.dropsUnseen() != 0) {
+    if (session.accounts().dropsUnseen() != 0) {
         findings.push_back({IncidentSeverity::Error,
                             "This computer dropped " +
-                                counted(session.dropsUnseen(), "datagram", "datagrams") +
+                                counted(session.accounts().dropsUnseen(), "datagram", "datagrams") +
                                 " between those that it did not look at: it was too busy, or its receive "
                                 "buffer is too small."});
     }
-    addCounted(findings, session.unfollowed(), "datagram", "datagrams",
+    addCounted(findings, session.accounts().unfollowed(), "datagram", "datagrams",
                " of too many streams at once could not be accounted for.");
-    const model::RetiredTotals& retired = session.retired();
+    const model::RetiredTotals& retired = session.accounts().retired();
     if (retired.senders != 0) {
         findings.push_back({retired.lost == 0 ? IncidentSeverity::Info : IncidentSeverity::Warning,
                             counted(retired.senders, "sender", "senders") +
@@ -194,7 +196,7 @@ void addSession(std::vector<Finding>& findings, const model::SessionView& sessio
 }
 
 void addSenders(std::vector<Finding>& findings, const model::SessionView& session) {
-    for (const model::Sender& sender : session.senders()) {
+    for (const model::Sender& sender : session.roster().senders()) {
         if (sender.kernelDrops != 0) {
             findings.push_back({IncidentSeverity::Error,
                                 "This computer dropped " +
@@ -259,7 +261,7 @@ std::string utcText(log::WallTime time) {
 
 /// A raw file has no stamps: time codes have taken their place.
 bool hasStamps(const model::SessionView& session) {
-    return std::ranges::none_of(session.senders(), [](const model::Sender& sender) {
+    return std::ranges::none_of(session.roster().senders(), [](const model::Sender& sender) {
         return sender.info.transport == log::Transport::File;
     });
 }
@@ -268,7 +270,7 @@ std::vector<model::StreamFigures> allFigures(const model::SessionView& session,
                                              const std::optional<model::TimeRange>& range) {
     std::vector<model::StreamFigures> all;
     const model::Losses losses(session, range);
-    for (const model::Stream& stream : session.streams()) {
+    for (const model::Stream& stream : session.roster().streams()) {
         const model::StreamFigures figures = losses.figuresOf(stream);
         if (figures[model::Figure::Datagrams] > 0 || !range) {
             all.push_back(figures);
@@ -309,7 +311,7 @@ std::string verdictList(const std::vector<Finding>& findings) {
 std::string senderSection(const model::SessionView& session, const std::vector<model::StreamFigures>& figures,
                           const ReportSteps& steps) {
     std::string html;
-    for (const model::Sender& sender : session.senders()) {
+    for (const model::Sender& sender : session.roster().senders()) {
         const auto unconfirmed = static_cast<std::uint64_t>(
             std::ranges::count(sender.characters, false, &model::Character::isConfirmed));
         html += "<h2>" + sender.address().html() + " <span class=\"dim\">" +
@@ -325,9 +327,9 @@ std::string senderSection(const model::SessionView& session, const std::vector<m
             if (!character->isConfirmed) {
                 continue;
             }
-            html += "<h3>" + session.displayName(character->key).html() + " <span class=\"dim\">character " +
-                    std::to_string(character->key.character) + "</span></h3>\n" +
-                    metadataList(session, character->key) +
+            html += "<h3>" + session.roster().displayName(character->key).html() +
+                    " <span class=\"dim\">character " + std::to_string(character->key.character) +
+                    "</span></h3>\n" + metadataList(session, character->key) +
                     streamTable(session, character->key, figures, steps);
         }
     }

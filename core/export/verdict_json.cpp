@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/export/verdict_json.h"
 
+#include "core/model/session/roster.h"
+#include "core/model/session/verdict.h"
 #include "core/wire/type_table.h"
 #include "core/words/say.h"
 
@@ -35,10 +37,10 @@ JsonValue causeJson(const std::optional<model::LossCause>& cause) {
 JsonValue characterJson(const model::SessionView& session, const model::CharacterKey& key,
                         const model::TakeVerdict& verdict) {
     const model::Incident* incident =
-        verdict.incident ? session.incidents().find(*verdict.incident) : nullptr;
-    return {{"source", std::string(session.addressOf(key.sender).exact())},
+        verdict.incident ? session.verdicts().incidents().find(*verdict.incident) : nullptr;
+    return {{"source", std::string(session.roster().addressOf(key.sender).exact())},
             {"id", key.character},
-            {"name", std::string(session.displayName(key).exact())},
+            {"name", std::string(session.roster().displayName(key).exact())},
             {"state", model::nameOf(verdict.state)},
             {"cause", incident != nullptr ? causeJson(incident->cause) : JsonValue()}};
 }
@@ -64,7 +66,7 @@ JsonValue incidentJson(const model::SessionView& session, const model::ListedInc
             {"endNs", isOver ? timeJson(session, incident.lastStamp) : JsonValue()},
             {"source", incident.sender == log::kNoSender
                            ? JsonValue()
-                           : JsonValue(std::string(session.addressOf(incident.sender).exact()))},
+                           : JsonValue(std::string(session.roster().addressOf(incident.sender).exact()))},
             {"characters", numberList(incident.characters(), [](std::uint8_t id) { return JsonValue(id); })},
             {"types", numberList(incident.types(),
                                  [](std::uint8_t type) { return JsonValue(wire::typeDigits(type)); })},
@@ -122,7 +124,7 @@ std::string VerdictLines::line(const model::SessionView& session, log::Stamp now
     await(verdict, now);
     m_newest = now;
     JsonValue::List characters;
-    const std::vector<const model::Character*> listed = session.atNow().currentCharacters();
+    const std::vector<const model::Character*> listed = session.atNow().roster().listed();
     const model::TakeVerdicts verdicts = model::verdictsOf(session, model::recentSpan(session), listed);
     for (const model::Character* character : listed) {
         characters.push_back(characterJson(session, character->key, verdicts.characters.at(character->key)));

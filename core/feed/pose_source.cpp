@@ -2,6 +2,8 @@
 #include "core/feed/pose_source.h"
 
 #include "core/model/body/null_pose_measures.h"
+#include "core/model/session/messages.h"
+#include "core/model/session/roster.h"
 
 #include <algorithm>
 
@@ -12,8 +14,9 @@ namespace {
 const model::NullPose* nullPoseBefore(const model::SessionView& session, const PoseCharacter& character,
                                       std::uint64_t end) {
     for (auto part = character.parts.rbegin(); end != 0 && part != character.parts.rend(); ++part) {
-        const model::NullPoseHistory* history = session.nullPoses(part->key);
-        if (const model::NullPose* pose = history != nullptr ? history->at(end - 1) : nullptr) {
+        const model::Character* one = session.roster().find(part->key);
+        const bool isSent = one != nullptr && one->nullPoses != nullptr;
+        if (const model::NullPose* pose = isSent ? one->nullPoses->at(end - 1) : nullptr) {
             return pose;
         }
     }
@@ -25,8 +28,8 @@ std::vector<PoseBody> bodiesOf(const model::SessionView& session, const PoseChar
                                std::uint64_t end) {
     std::vector<PoseBody> bodies;
     for (const PoseCharacter::Part& part : character.parts) {
-        if (const model::NullPoseHistory* history = session.nullPoses(part.key)) {
-            history->forEach([&](std::uint64_t firstPacket, const model::NullPose& pose) {
+        if (const model::Character* one = session.roster().find(part.key); one != nullptr && one->nullPoses) {
+            one->nullPoses->forEach([&](std::uint64_t firstPacket, const model::NullPose& pose) {
                 bodies.push_back({firstPacket, model::bodyOf(pose)});
             });
         }
@@ -37,14 +40,14 @@ std::vector<PoseBody> bodiesOf(const model::SessionView& session, const PoseChar
         bodies.erase(later, bodies.end());
     }
     if (bodies.empty()) {
-        bodies.push_back({0, session.bodyOrigins(character.key)});
+        bodies.push_back({0, session.messages().bodyOrigins(character.key)});
     }
     return bodies;
 }
 
 PoseCharacter::Part partOf(const model::SessionView& session, const model::CharacterKey& key) {
     PoseCharacter::Part part{key};
-    if (const model::Sender* sender = session.find(key.sender)) {
+    if (const model::Sender* sender = session.roster().find(key.sender)) {
         std::ranges::transform(model::kPoseTypes, part.units.begin(),
                                [sender](std::uint8_t type) { return sender->positionUnit(type); });
     }
@@ -62,19 +65,19 @@ PoseSource poseSourceOf(const model::SessionView& session, const model::TimeRang
                         std::span<const model::CharacterKey> characters) {
     PoseSource source{&session.log(), session.packetFrom(range.from), session.packetFrom(range.to), {}};
     for (const model::CharacterKey& key : characters) {
-        if (session.find(key) == nullptr) {
+        if (session.roster().find(key) == nullptr) {
             continue;
         }
         PoseCharacter& character = source.characters.emplace_back();
         character.key = key;
-        character.name = session.displayName(key);
-        const model::Sender* sender = session.find(key.sender);
+        character.name = session.roster().displayName(key);
+        const model::Sender* sender = session.roster().find(key.sender);
         character.hasReceipt = sender == nullptr || sender->info.transport != log::Transport::File;
-        character.colour = session.colour(key);
-        for (const model::Character* one : session.lineage(key)) {
+        character.colour = session.roster().colour(key);
+        for (const model::Character* one : session.roster().lineage(key)) {
             character.parts.push_back(partOf(session, one->key));
         }
-        character.remark = session.poseRemark(key);
+        character.remark = session.messages().poseRemark(key);
         character.bodies = bodiesOf(session, character, source.endPacket);
         const model::NullPose* pose = nullPoseBefore(session, character, source.endPacket);
         pose = pose != nullptr ? pose : nullPoseBefore(session, character, session.end());

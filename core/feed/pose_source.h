@@ -5,6 +5,7 @@
 #include "core/model/body/null_pose.h"
 #include "core/model/body/pose_messages.h"
 #include "core/model/body/pose_remark.h"
+#include "core/model/session/metadata.h"
 #include "core/model/session/session_view.h"
 
 #include <array>

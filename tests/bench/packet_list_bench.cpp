@@ -8,6 +8,7 @@
 #include "app/gui/panels/packet_view.h"
 #include "app/gui/theme/theme.h"
 #include "core/log/packet_log.h"
+#include "core/model/session/accounts.h"
 #include "core/model/session/session.h"
 #include "core/wire/codec.h"
 
@@ -101,7 +102,7 @@ void lookForStream(const model::Session& session) {
     const auto begin = Clock::now();
     std::size_t found = 0;
     for (std::uint64_t number = session.begin(); number < session.end(); ++number) {
-        found += session.digests().find(number)->type == 77 ? 1 : 0;
+        found += session.accounts().digests().find(number)->type == 77 ? 1 : 0;
     }
     std::fprintf(stderr, "  all digests (%zu found) in %.2f ms\n", found, millisecondsSince(begin));
 }

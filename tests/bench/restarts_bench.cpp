@@ -44,7 +44,7 @@ public:
         m_at += std::chrono::milliseconds(16);
         m_session.follow(m_at);
         const auto start = std::chrono::steady_clock::now();
-        const bool isBad = m_session.verdicts().all.state == model::TakeVerdict::State::Bad;
+        const bool isBad = m_session.verdicts().all().all.state == model::TakeVerdict::State::Bad;
         const std::chrono::duration<double, std::micro> lasted = std::chrono::steady_clock::now() - start;
         m_bad += isBad ? 1 : 0;
         return lasted.count();

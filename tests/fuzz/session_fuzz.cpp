@@ -8,7 +8,11 @@
 #include "core/model/accounting/stream_figures.h"
 #include "core/model/body/null_pose_findings.h"
 #include "core/model/incidents/incident_follower.h"
+#include "core/model/session/accounts.h"
+#include "core/model/session/messages.h"
+#include "core/model/session/roster.h"
 #include "core/model/session/session.h"
+#include "core/model/session/verdict.h"
 #include "tests/support/stream_source.h"
 
 #include <algorithm>
@@ -90,19 +94,19 @@ void checkPast(const log::PacketLog& log, const log::Past& past, std::uint64_t r
 }
 
 void checkCounts(const model::SessionView& session, std::uint64_t records) {
-    require(session.end() == records && session.overtaken() == 0);
+    require(session.end() == records && session.accounts().overtaken() == 0);
     std::uint64_t datagrams = 0;
     std::uint64_t malformed = 0;
-    for (const model::Sender& sender : session.senders()) {
+    for (const model::Sender& sender : session.roster().senders()) {
         datagrams += sender.datagrams;
         malformed += sender.malformed + sender.foreign;
         require(sender.malformed + sender.foreign <= sender.datagrams);
     }
-    const model::SenderTotals all = session.allSenders();
-    require(all.datagrams <= records && datagrams + session.retired().datagrams == all.datagrams);
-    require(malformed + session.retired().malformed + session.retired().foreign ==
+    const model::SenderTotals all = session.accounts().allSenders();
+    require(all.datagrams <= records && datagrams + session.accounts().retired().datagrams == all.datagrams);
+    require(malformed + session.accounts().retired().malformed + session.accounts().retired().foreign ==
             all.malformed + all.foreign);
-    for (const model::Stream& stream : session.streams()) {
+    for (const model::Stream& stream : session.roster().streams()) {
         const model::StreamCounts counts = stream.accounting.counts();
         const auto causes = stream.lostByCause();
         require(std::accumulate(causes.begin(), causes.end(), std::uint64_t{0}) >=
@@ -117,13 +121,13 @@ void lookAround(model::Session& session, std::uint64_t records) {
         } else {
             session.setCursor({});
         }
-        for (const model::Character& character : session.characters()) {
-            static_cast<void>(session.pose(character.key));
-            static_cast<void>(session.verdict(character.key));
-            static_cast<void>(session.displayName(character.key));
-            static_cast<void>(session.nullPoseEvidence(character.key));
+        for (const model::Character& character : session.roster().characters()) {
+            static_cast<void>(session.messages().pose(character.key));
+            static_cast<void>(session.verdicts().of(character.key));
+            static_cast<void>(session.roster().displayName(character.key));
+            static_cast<void>(session.messages().nullPoseEvidence(character.key));
             for (const model::Stream* stream : character.streams) {
-                static_cast<void>(session.message(character.key, stream->key.type));
+                static_cast<void>(session.messages().message(character.key, stream->key.type));
             }
         }
     }
@@ -135,16 +139,18 @@ void write(const model::Session& session) {
         require(!format.write({session, {}}).empty());
     }
     std::vector<const model::Incident*> events;
-    for (const model::Incident& event : session.incidents().all()) {
+    for (const model::Incident& event : session.verdicts().incidents().all()) {
         events.push_back(&event);
     }
     for (const auto& format : exporting::formats<exporting::EventSheet>()) {
         require(!format.write({session, events}).empty());
     }
-    for (const model::Character& character : session.characters()) {
+    for (const model::Character& character : session.roster().characters()) {
         for (const auto& format : exporting::formats<exporting::NullPoseSheet>()) {
-            require(
-                !format.write({session.displayName(character.key), session.nullPose(character.key)}).empty());
+            require(!format
+                         .write({session.roster().displayName(character.key),
+                                 session.messages().nullPose(character.key)})
+                         .empty());
         }
     }
 }
@@ -152,7 +158,7 @@ void write(const model::Session& session) {
 /// In every format; those that hold one character get them one after the other.
 void exportMotion(const model::Session& session) {
     std::vector<std::vector<model::CharacterKey>> groups(1);
-    for (const model::Character* character : session.atNow().currentCharacters()) {
+    for (const model::Character* character : session.atNow().roster().listed()) {
         groups.front().push_back(character->key);
         groups.push_back({character->key});
     }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/base/commands.h"
 
+#include "core/model/session/accounts.h"
+
 namespace posewire::gui {
 
 namespace {
@@ -8,7 +10,7 @@ namespace {
 /// A packet with its sender and character; none if there is no such packet.
 std::optional<model::Selection> selectionOf(const model::SessionView& session, std::uint64_t number) {
     const auto packet = session.packet(number);
-    const model::PacketDigest* digest = session.digests().find(number);
+    const model::PacketDigest* digest = session.accounts().digests().find(number);
     if (!packet || digest == nullptr) {
         return std::nullopt;
     }
@@ -16,7 +18,7 @@ std::optional<model::Selection> selectionOf(const model::SessionView& session, s
     if (digest->type != 0) {
         selection.character = model::CharacterKey{packet->sender, digest->character};
     }
-    const model::Selection& before = session.selection();
+    const model::Selection& before = session.choices().selection;
     selection.segment = before.character == selection.character ? before.segment : -1;
     return selection;
 }
@@ -33,7 +35,7 @@ void Commands::show(model::Session& session) {
 }
 
 void Commands::stopPlaying() {
-    model::Cursor cursor = m_shown->cursor();
+    model::Cursor cursor = m_shown->choices().cursor;
     cursor.speed = 0;
     playTo(cursor);
 }
@@ -43,14 +45,14 @@ void Commands::selectPacket(std::uint64_t number) {
     if (!selection) {
         return;
     }
-    if (m_shown->cursor().mode == model::Cursor::Mode::Paused) {
+    if (m_shown->choices().cursor.mode == model::Cursor::Mode::Paused) {
         playTo({model::Cursor::Mode::Paused, number});
     }
     select(*selection);
 }
 
 void Commands::unselectPacket() {
-    model::Selection selection = m_shown->selection();
+    model::Selection selection = m_shown->choices().selection;
     if (selection.packet) {
         selection.packet.reset();
         select(selection);
@@ -59,7 +61,7 @@ void Commands::unselectPacket() {
 
 void Commands::jump(std::uint64_t packet, const QString& filter) {
     stopPlaying();
-    change(&model::Session::jump, selectionOf(*m_shown, packet).value_or(m_shown->selection()),
+    change(&model::Session::jump, selectionOf(*m_shown, packet).value_or(m_shown->choices().selection),
            filter.toStdString());
 }
 

@@ -2,6 +2,8 @@
 #include "app/gui/base/playback.h"
 
 #include "core/model/body/character_pose.h"
+#include "core/model/session/messages.h"
+#include "core/model/session/roster.h"
 #include "core/wire/type_table.h"
 
 #include <algorithm>
@@ -25,16 +27,17 @@ log::Stamp newestMoment(const model::SessionView& session) {
 }
 
 std::uint64_t shownPacket(const model::SessionView& session) {
-    return session.cursor().mode == model::Cursor::Mode::Paused ? session.cursor().packet : newestOf(session);
+    return session.choices().cursor.mode == model::Cursor::Mode::Paused ? session.choices().cursor.packet
+                                                                        : newestOf(session);
 }
 
 /// The one whose samples are stepped: of its pose, or of anything that has samples.
 std::optional<log::StreamKey> steppedStream(const model::SessionView& session,
                                             const model::CharacterKey& key) {
-    if (const model::CharacterPose* pose = session.pose(key)) {
+    if (const model::CharacterPose* pose = session.messages().pose(key)) {
         return log::StreamKey{key.sender, key.character, pose->type};
     }
-    const model::Character* character = session.find(key);
+    const model::Character* character = session.roster().find(key);
     if (character != nullptr) {
         const auto sampled = std::ranges::find_if(
             character->streams, [](const model::Stream* one) { return wire::isSampled(one->key.type); });
@@ -59,7 +62,7 @@ void Playback::goLive() {
 }
 
 bool Playback::isPaused() const {
-    return m_commands.session().cursor().mode == model::Cursor::Mode::Paused;
+    return m_commands.session().choices().cursor.mode == model::Cursor::Mode::Paused;
 }
 
 void Playback::setPaused(bool isPaused) {
@@ -82,7 +85,8 @@ void Playback::showMoment(log::Stamp moment) {
 
 void Playback::stepSamples(const model::CharacterKey& of, int steps) {
     const auto stream = steppedStream(m_commands.session(), of);
-    if (const auto packet = stream ? m_commands.session().packetOfSample(*stream, steps) : std::nullopt) {
+    if (const auto packet =
+            stream ? m_commands.session().messages().packetOfSample(*stream, steps) : std::nullopt) {
         stopAt(*packet);
     }
 }
@@ -102,7 +106,7 @@ void Playback::stepTime(log::Duration by) {
 }
 
 bool Playback::isPlaying(Direction direction) const {
-    return m_commands.session().cursor().speed * static_cast<int>(direction) > 0;
+    return m_commands.session().choices().cursor.speed * static_cast<int>(direction) > 0;
 }
 
 void Playback::play(Direction direction) {
@@ -130,7 +134,7 @@ void Playback::begin(double speed) {
 }
 
 void Playback::end() {
-    model::Cursor cursor = m_commands.session().cursor();
+    model::Cursor cursor = m_commands.session().choices().cursor;
     cursor.speed = 0;
     m_commands.setCursor(cursor);
 }
@@ -138,29 +142,29 @@ void Playback::end() {
 /// The range that figures are of, if it is fixed; else all there is.
 std::optional<model::TimeRange> Playback::loopRange() const {
     const model::SessionView& session = m_commands.session();
-    if (session.rangeChoice().fixed) {
-        return session.rangeChoice().fixed;
+    if (session.choices().range.fixed) {
+        return session.choices().range.fixed;
     }
     return model::TimeRange{session.firstStamp(), newestMoment(session) + log::Duration(1)};
 }
 
 void Playback::setSpeed(double speed) {
     m_speed = std::clamp(speed, model::Playback::kSlowest, model::Playback::kFastest);
-    if (const double before = m_commands.session().cursor().speed; before != 0) {
+    if (const double before = m_commands.session().choices().cursor.speed; before != 0) {
         begin(std::copysign(m_speed, before));
     }
 }
 
 void Playback::setLooping(bool isLooping) {
     m_isLooping = isLooping;
-    if (const double before = m_commands.session().cursor().speed; before != 0) {
+    if (const double before = m_commands.session().choices().cursor.speed; before != 0) {
         begin(before);
     }
 }
 
 bool Playback::follow() {
     const model::SessionView& session = m_commands.session();
-    if (session.cursor().speed == 0) {
+    if (session.choices().cursor.speed == 0) {
         return false;
     }
     const log::Stamp moment = m_playing->at(m_clock.monotonic());
@@ -171,7 +175,7 @@ bool Playback::follow() {
     }
     model::Cursor cursor = stoppedAt(session.packetAt(moment));
     cursor.speed = m_playing->speed();
-    const bool hasMoved = cursor != session.cursor();
+    const bool hasMoved = cursor != session.choices().cursor;
     m_commands.playTo(cursor);
     const bool isOver = hasCaughtUp || (m_playing->speed() < 0 && cursor.packet <= session.begin());
     if (isOver && !m_isLooping) {

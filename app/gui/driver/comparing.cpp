@@ -2,6 +2,8 @@
 #include "app/gui/driver/comparing.h"
 
 #include "app/gui/base/logging.h"
+#include "core/model/session/messages.h"
+#include "core/model/session/roster.h"
 
 #include <QFile>
 
@@ -152,14 +154,14 @@ bool Comparing::follow(log::Duration most) {
     if (m_state.pair && !m_file->isReading() && isWorkDue(shown)) {
         beginWork(shown);
     }
-    const auto before = m_file->session().cursor();
+    const auto before = m_file->session().choices().cursor;
     const bool hadPartner = m_state.atCursor.has_value();
     followCursor(shown);
     describe(shown);
     if (wasReading && !m_file->isReading()) {
         emit changed();
     }
-    return hasRead || hasResult || before != m_file->session().cursor() ||
+    return hasRead || hasResult || before != m_file->session().choices().cursor ||
            hadPartner != m_state.atCursor.has_value();
 }
 
@@ -168,11 +170,11 @@ void Comparing::updatePair(model::SessionView& shown) {
     constexpr log::Duration kEvery = std::chrono::milliseconds(250);
     const log::Moment now = m_clock.monotonic();
     const bool isOther = m_known.log != &shown.log();
-    const bool isAsBefore = m_state.pair && shown.selection() == m_pairSelection;
+    const bool isAsBefore = m_state.pair && shown.choices().selection == m_pairSelection;
     if (!isOther && isAsBefore && now < m_pairChosen + kEvery) {
         return;
     }
-    m_pairSelection = shown.selection();
+    m_pairSelection = shown.choices().selection;
     m_pairChosen = now;
     const auto pair = choosePair(shown);
     if (isOther || pair != m_state.pair) {
@@ -184,18 +186,18 @@ void Comparing::updatePair(model::SessionView& shown) {
 
 /// Of the selected character; the first pair if none is selected, or it has no partner.
 std::optional<exporting::CharacterPair> Comparing::choosePair(model::SessionView& shown) const {
-    const auto& selected = shown.selection().character;
+    const auto& selected = shown.choices().selection.character;
     const auto pairs = exporting::pairCharacters(shown, m_file->session());
     const auto isShown = [&](const exporting::CharacterPair& one) {
-        return selected && shown.isSame(one.first, *selected);
+        return selected && shown.roster().isSame(one.first, *selected);
     };
     const auto found = std::ranges::find_if(pairs, isShown);
     auto pair = found != pairs.end() ? std::optional(*found)
                 : pairs.empty()      ? std::nullopt
                                      : std::optional(pairs.front());
     const auto& chosen = m_state.choice.pair;
-    const bool isChosen = pair && chosen && shown.isSame(chosen->first, pair->first) &&
-                          m_file->session().find(chosen->second) != nullptr;
+    const bool isChosen = pair && chosen && shown.roster().isSame(chosen->first, pair->first) &&
+                          m_file->session().roster().find(chosen->second) != nullptr;
     return isChosen ? exporting::CharacterPair{pair->first, chosen->second} : pair;
 }
 
@@ -280,7 +282,7 @@ void Comparing::followCursor(model::SessionView& shown) {
     }
     m_state.alignment = m_partners->alignment();
     m_state.step = exporting::stepOf(m_state.alignment->by, m_partners->second());
-    const model::CharacterPose* first = shown.pose(m_state.pair->first);
+    const model::CharacterPose* first = shown.messages().pose(m_state.pair->first);
     const auto place = first != nullptr ? m_partners->of(momentOf(*first)) : std::nullopt;
     if (!place) {
         return;
@@ -288,10 +290,10 @@ void Comparing::followCursor(model::SessionView& shown) {
     model::Session& session = m_file->session();
     const exporting::SampleMoment& partner = m_partners->second().samples()[*place];
     const model::Cursor cursor{model::Cursor::Mode::Paused, partner.packet};
-    if (session.cursor() != cursor) {
+    if (session.choices().cursor != cursor) {
         session.setCursor(cursor);
     }
-    const model::CharacterPose* second = session.pose(m_state.pair->second);
+    const model::CharacterPose* second = session.messages().pose(m_state.pair->second);
     model::PoseDifference difference;
     if (second != nullptr && second->sample == partner.sample &&
         differenceOf(*first, *second, choice.frame, difference)) {
@@ -310,10 +312,10 @@ QString Comparing::problemOf(model::SessionView& shown) const {
     if (m_file->isReading()) {
         return {};
     }
-    if (m_file->session().atNow().currentCharacters().empty()) {
+    if (m_file->session().atNow().roster().listed().empty()) {
         return tr("There is no character in %1. Choose another recording.").arg(m_state.name);
     }
-    if (shown.atNow().currentCharacters().empty()) {
+    if (shown.atNow().roster().listed().empty()) {
         return tr("There is no character yet to compare with %1.").arg(m_state.name);
     }
     const bool hasTables = m_firstTable != nullptr && m_secondTable != nullptr;

@@ -2,6 +2,7 @@
 #include "app/gui/driver/files.h"
 
 #include "app/gui/base/logging.h"
+#include "core/model/session/verdict.h"
 
 #include <cmath>
 
@@ -17,7 +18,7 @@ void Files::open(const QString& path) {
     close();
     qCInfo(filesLog).noquote() << "opening" << path;
     m_file = std::make_unique<OpenedFile>(m_clock, path, m_cacheFolder);
-    m_file->session().setThresholds(m_commands.live().thresholds());
+    m_file->session().setThresholds(m_commands.live().verdicts().thresholds());
 }
 
 bool Files::follow(log::Duration most) {

@@ -105,7 +105,7 @@ void OpenedFile::readRest() {
 
 /// Nobody has looked elsewhere while it was read.
 bool OpenedFile::isShownAtEnd() const {
-    const model::Cursor& cursor = m_session.cursor();
+    const model::Cursor& cursor = m_session.choices().cursor;
     return cursor.speed == 0 && cursor.packet + 1 >= m_session.end();
 }
 

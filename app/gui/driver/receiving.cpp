@@ -4,6 +4,7 @@
 #include "app/gui/base/background.h"
 #include "app/gui/base/logging.h"
 #include "app/gui/base/saving.h"
+#include "core/model/session/roster.h"
 #include "core/wire/header.h"
 
 #include <QCoreApplication>
@@ -61,7 +62,7 @@ net::ConnectionFacts connectionFacts(const model::SessionView& session, const Re
         }
     }
     log::Stamp newest = opened;
-    for (const model::Sender& sender : session.senders()) {
+    for (const model::Sender& sender : session.roster().senders()) {
         if (!isFromNetwork(sender)) {
             continue;
         }

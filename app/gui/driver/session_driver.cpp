@@ -2,6 +2,7 @@
 #include "app/gui/driver/session_driver.h"
 
 #include "app/system/process_figures.h"
+#include "core/model/session/roster.h"
 
 #include <algorithm>
 
@@ -77,7 +78,7 @@ void SessionDriver::tick() {
         m_receiving.retry();
     }
     // Without new packets ages still grow: figures fade at the tables' pace.
-    const bool isMoving = hasNew || (isTableTick && !m_live.characters().empty());
+    const bool isMoving = hasNew || (isTableTick && !m_live.roster().characters().empty());
     if (m_isChanged || (isMoving && !m_playback.isPaused())) {
         m_isChanged = false;
         emit moved();

@@ -125,10 +125,10 @@ std::string Takes::takeProblem() {
 }
 
 void Takes::keepMarks() {
-    if (m_recording == nullptr || m_live.annotations() == m_annotations) {
+    if (m_recording == nullptr || m_live.choices().annotations == m_annotations) {
         return;
     }
-    m_annotations = m_live.annotations();
+    m_annotations = m_live.choices().annotations;
     std::vector<log::RecordedMark> marks;
     const auto& comments = m_annotations.comments;
     for (auto mark = m_annotations.marks.lower_bound(m_from); mark != m_annotations.marks.end(); ++mark) {

@@ -6,6 +6,10 @@
 #include "app/gui/models/text.h"
 #include "app/gui/theme/words.h"
 #include "core/model/body/character_pose.h"
+#include "core/model/session/accounts.h"
+#include "core/model/session/messages.h"
+#include "core/model/session/roster.h"
+#include "core/model/session/verdict.h"
 #include "core/wire/type_table.h"
 
 #include <algorithm>
@@ -159,13 +163,13 @@ QString boardSpanText(const model::SessionView& view) {
         return tr("whole recording");
     }
     const log::Duration recent = model::VerdictSpan::kRecent;
-    const bool isAll = view.reset() != log::Stamp() && view.now() - view.reset() < recent;
+    const bool isAll = view.choices().reset != log::Stamp() && view.now() - view.choices().reset < recent;
     return isAll ? tr("since the reset") : tr("last %1 s").arg(recent / std::chrono::seconds(1));
 }
 
 std::vector<model::CharacterKey> boardOf(const model::SessionView& view, BoardOrder order) {
     std::vector<model::CharacterKey> keys;
-    for (const model::Character* character : view.atNow().currentCharacters()) {
+    for (const model::Character* character : view.atNow().roster().listed()) {
         keys.push_back(character->key);
     }
     if (order == BoardOrder::TroubleFirst) {
@@ -173,7 +177,7 @@ std::vector<model::CharacterKey> boardOf(const model::SessionView& view, BoardOr
         std::ranges::stable_sort(keys, {}, [&view](const model::CharacterKey& key) {
             constexpr std::array kRanks{2, 3, 1, 0}; // by State
             static_assert(static_cast<int>(State::Bad) == 3);
-            return kRanks[static_cast<std::size_t>(view.verdict(key).state)];
+            return kRanks[static_cast<std::size_t>(view.verdicts().of(key).state)];
         });
     }
     return keys;
@@ -184,7 +188,7 @@ void NominalRates::follow(const model::SessionView& view,
     const std::set<model::CharacterKey> there(characters.begin(), characters.end());
     std::erase_if(m_rates, [&](const auto& entry) { return !there.contains(entry.first); });
     for (const model::CharacterKey& key : characters) {
-        const model::Character& character = *view.find(key);
+        const model::Character& character = *view.roster().find(key);
         const model::Stream* stream = leadingStream(character);
         if (stream == nullptr) {
             continue;
@@ -196,10 +200,11 @@ void NominalRates::follow(const model::SessionView& view,
         }
         if (view.isRecording()) {
             if (!learnt.rate.frameHz() && std::exchange(learnt.end, view.end()) != view.end()) {
-                view.visitHeaders(stream->key, stream->accounting.lastStamp() - kReadBack, kMostRead,
-                                  [&learnt](log::Stamp /*stamp*/, const wire::Header& header) {
-                                      learnt.rate.add(header.sampleCounter, header.timeCode);
-                                  });
+                view.messages().visitHeaders(stream->key, stream->accounting.lastStamp() - kReadBack,
+                                             kMostRead,
+                                             [&learnt](log::Stamp /*stamp*/, const wire::Header& header) {
+                                                 learnt.rate.add(header.sampleCounter, header.timeCode);
+                                             });
             }
         } else if (stream->newest.packet != UINT64_MAX) {
             const wire::Header& header = stream->newest.datagram.header;
@@ -228,19 +233,19 @@ void CharacterModel::refresh() {
     for (const model::CharacterKey& key : keys) {
         BoardRow row;
         row.key = key;
-        row.verdict = m_view.verdict(key);
-        row.restarts = m_view.restartsOf(key);
-        row.ageS = characterAge(m_view, m_view.find(key)->lastStamp);
-        if (const model::Stream* leading = leadingStream(*m_view.find(key))) {
+        row.verdict = m_view.verdicts().of(key);
+        row.restarts = m_view.accounts().restartsOf(key);
+        row.ageS = characterAge(m_view, m_view.roster().find(key)->lastStamp);
+        if (const model::Stream* leading = leadingStream(*m_view.roster().find(key))) {
             row.nominalHz = m_rates.of(*leading);
             row.measuredHz = measuredHz(*leading, row.ageS, m_view.isRecording());
         }
-        for (const model::Character* one : m_view.lineage(key)) {
+        for (const model::Character* one : m_view.roster().lineage(key)) {
             for (const model::Stream* stream : one->streams) {
                 model::addLosses(row.lost, losses.of(*stream).byCause);
             }
         }
-        if (const model::CharacterPose* pose = m_view.pose(key)) {
+        if (const model::CharacterPose* pose = m_view.messages().pose(key)) {
             row.poseType = pose->type;
         }
         rows.push_back(std::move(row));
@@ -259,7 +264,7 @@ std::vector<TableColumn<BoardRow>> CharacterModel::columns(model::SessionView& v
     const auto marks = [&view](const BoardRow& row, int role) {
         switch (role) {
         case Qt::CheckStateRole:
-            return QVariant(view.isHidden(row.key) ? Qt::Unchecked : Qt::Checked);
+            return QVariant(view.roster().isHidden(row.key) ? Qt::Unchecked : Qt::Checked);
         case kSuffixRole:
             return QVariant(idWords(view, row.key));
         case kDotRole:
@@ -308,8 +313,8 @@ std::optional<model::CharacterKey> CharacterModel::character(const QModelIndex& 
 }
 
 QModelIndex CharacterModel::indexOf(const model::CharacterKey& key) const {
-    const auto row =
-        std::ranges::find_if(rows(), [&](const BoardRow& one) { return m_view.isSame(one.key, key); });
+    const auto row = std::ranges::find_if(
+        rows(), [&](const BoardRow& one) { return m_view.roster().isSame(one.key, key); });
     return row == rows().end() ? QModelIndex() : index(static_cast<int>(row - rows().begin()), 0);
 }
 
@@ -336,7 +341,7 @@ CharacterDetailModel::CharacterDetailModel(model::SessionView& view, QObject* pa
 
 void CharacterDetailModel::refresh(const std::optional<model::CharacterKey>& key, const NominalRates& rates) {
     std::vector<DetailRow> rows;
-    const model::Character* character = key ? m_view.find(*key) : nullptr;
+    const model::Character* character = key ? m_view.roster().find(*key) : nullptr;
     if (character != nullptr) {
         const model::Losses losses(m_view, boardSpan(m_view));
         for (const model::Stream* stream : character->streams) {
@@ -360,7 +365,7 @@ EndedSenderModel::EndedSenderModel(model::SessionView& view, QObject* parent)
 
 void EndedSenderModel::refresh() {
     std::vector<EndedSender> rows;
-    for (const model::Sender* sender : m_view.endedSenders()) {
+    for (const model::Sender* sender : m_view.accounts().endedSenders()) {
         QStringList names;
         for (const model::Character* character : sender->characters) {
             names += characterName(m_view, character->key);
@@ -373,8 +378,8 @@ void EndedSenderModel::refresh() {
 
 QString portHistory(const model::SessionView& view, const model::CharacterKey& key) {
     QStringList parts;
-    for (const model::Character* one : view.lineage(key)) {
-        const QString address = shown(view.addressOf(one->key.sender));
+    for (const model::Character* one : view.roster().lineage(key)) {
+        const QString address = shown(view.roster().addressOf(one->key.sender));
         parts += one->key == key ? (parts.isEmpty() ? tr("from %1") : tr("now from %1")).arg(address)
                                  : tr("from %1 until %2").arg(address, clockOf(view, one->lastStamp));
     }

@@ -5,6 +5,8 @@
 #include "app/gui/theme/words.h"
 #include "core/model/accounting/probation.h"
 #include "core/model/session/ingest.h"
+#include "core/model/session/messages.h"
+#include "core/model/session/roster.h"
 
 #include <algorithm>
 #include <array>
@@ -32,7 +34,7 @@ constexpr std::array<std::uint8_t, 11> kClockTypes{2, 1, 5, 21, 22, 23, 20, 24, 
 std::optional<log::StreamKey> clockStream(model::SessionView& view, const model::CharacterKey& key) {
     for (const std::uint8_t type : kClockTypes) {
         const log::StreamKey stream{key.sender, key.character, type};
-        if (view.find(stream) != nullptr) {
+        if (view.roster().find(stream) != nullptr) {
             return stream;
         }
     }
@@ -95,7 +97,7 @@ std::optional<double> NominalRate::frameHz() const {
 
 void ClockHistory::follow(model::SessionView& view, const std::optional<model::CharacterKey>& key) {
     const auto stream = key ? clockStream(view, *key) : std::nullopt;
-    const log::Stamp newest = stream ? view.newestStamp(*stream) : log::Stamp();
+    const log::Stamp newest = stream ? view.messages().newestStamp(*stream) : log::Stamp();
     if (stream != m_stream || newest < m_lastStamp) {
         *this = {};
         m_stream = stream;
@@ -105,18 +107,20 @@ void ClockHistory::follow(model::SessionView& view, const std::optional<model::C
     }
     const log::Stamp from = std::max(newest - kWindow, m_lastStamp + log::Duration(1));
     m_lastStamp = newest;
-    view.visitHeaders(*stream, from, kMostReadings, [this](log::Stamp stamp, const wire::Header& header) {
-        add({stamp, header.sampleCounter, header.timeCode});
-    });
+    view.messages().visitHeaders(*stream, from, kMostReadings,
+                                 [this](log::Stamp stamp, const wire::Header& header) {
+                                     add({stamp, header.sampleCounter, header.timeCode});
+                                 });
     const model::ClockSkew skew =
-        view.find(*stream)
+        view.roster()
+            .find(*stream)
             ->accounting.clock(model::TimeRange{newest - kWindow, newest + log::Duration(1)})
             .skew;
     m_drift = skew.isKnown() ? std::optional(skew) : std::nullopt;
     if (m_jump) {
         m_jump->time = view.wallOf(m_jump->stamp);
     }
-    readType25(view.message(*key, wire::TimeCode::kType));
+    readType25(view.messages().message(*key, wire::TimeCode::kType));
 }
 
 void ClockHistory::add(const Reading& reading) {

@@ -3,7 +3,10 @@
 
 #include "app/gui/models/text.h"
 #include "app/gui/theme/words.h"
+#include "core/model/session/accounts.h"
 #include "core/model/session/losses.h"
+#include "core/model/session/memory_figures.h"
+#include "core/model/session/roster.h"
 
 #include <QStringList>
 
@@ -39,7 +42,7 @@ PropertyValue lostByCause(const Source& from) {
     const model::Losses losses(from.view, from.view.range());
     model::LossesByCause lost{};
     std::uint64_t pending = 0;
-    for (const model::Stream& stream : from.view.streams()) {
+    for (const model::Stream& stream : from.view.roster().streams()) {
         const model::StreamLosses more = losses.of(stream);
         model::addLosses(lost, more.byCause);
         pending += more.pending;
@@ -68,7 +71,7 @@ PropertyValue longestGap(const Source& from) {
     const model::Losses losses(from.view, from.view.range());
     std::uint64_t longest = 0;
     double rateHz = 0;
-    for (const model::Stream& stream : from.view.streams()) {
+    for (const model::Stream& stream : from.view.roster().streams()) {
         if (const std::uint64_t own = losses.longestGapOf(stream); own > longest) {
             longest = own;
             rateHz = stream.statistics.rateHz();
@@ -85,7 +88,7 @@ PropertyValue longestGap(const Source& from) {
 
 PropertyValue computer(const Source& from) {
     const MonitorHealth& health = from.monitor;
-    const std::uint64_t dropped = from.view.allSenders().kernelDrops;
+    const std::uint64_t dropped = from.view.accounts().allSenders().kernelDrops;
     Health state = health.bufferFill.value_or(0) >= kFullBuffer ? Health::Warning : Health::Good;
     if (dropped != 0) {
         state = Health::Error;
@@ -184,15 +187,15 @@ PropertyValue packets(const Source& from) {
 }
 
 PropertyValue overtaken(const Source& from) {
-    const std::uint64_t late = from.view.overtaken();
-    const std::uint64_t beyond = from.view.unfollowed();
+    const std::uint64_t late = from.view.accounts().overtaken();
+    const std::uint64_t beyond = from.view.accounts().unfollowed();
     const QString beyondText = tr("%1 of too many streams").arg(grouped(beyond));
     return {beyond == 0 ? grouped(late) : grouped(late) + QStringLiteral(" · ") + beyondText,
             late + beyond == 0 ? Health::Good : Health::Error};
 }
 
 PropertyValue retired(const Source& from) {
-    const model::RetiredTotals& sums = from.view.retired();
+    const model::RetiredTotals& sums = from.view.accounts().retired();
     return sums.senders == 0
                ? PropertyValue{tr("none"), Health::Good}
                : PropertyValue{tr("%1 · %2 datagrams · %3 lost")
@@ -217,7 +220,7 @@ std::vector<Property> computerFacts(model::SessionView& view, const ReceivingSta
     using Sums = model::SenderTotals;
     const auto trouble = [](std::uint64_t Sums::*counted, Health health) {
         return [=](const Source& source) {
-            const std::uint64_t count = source.view.allSenders().*counted;
+            const std::uint64_t count = source.view.accounts().allSenders().*counted;
             return PropertyValue{grouped(count), count == 0 ? Health::Good : health};
         };
     };

@@ -6,6 +6,9 @@
 #include "core/filter/completion.h"
 #include "core/model/accounting/gap.h"
 #include "core/model/incidents/thresholds.h"
+#include "core/model/session/accounts.h"
+#include "core/model/session/roster.h"
+#include "core/model/session/verdict.h"
 #include "core/wire/type_table.h"
 
 #include <QRegularExpression>
@@ -56,7 +59,7 @@ const char* conditionOf(model::IncidentKind kind) {
 
 /// A limit was exceeded in the window before; what is silent has no packets.
 model::TimeRange rangeOf(model::SessionView& view, const model::Incident& event) {
-    const auto window = log::durationOf(view.thresholds().windowS);
+    const auto window = log::durationOf(view.verdicts().thresholds().windowS);
     return {event.firstStamp - window,
             std::max(event.lastStamp, event.firstStamp + std::chrono::milliseconds(1))};
 }
@@ -94,11 +97,11 @@ QStringList conditionsOf(model::SessionView& view, const std::vector<log::Stream
     QStringList conditions = conditionsOf(onlyOne(types), onlyOne(characters), nullptr);
     QStringList sources;
     for (const log::SenderId id : senders) {
-        if (const model::Sender* sender = view.find(id)) {
+        if (const model::Sender* sender = view.roster().find(id)) {
             sources += expression("source", sender->info.address);
         }
     }
-    if (senders.size() < view.senders().size() && !sources.isEmpty()) {
+    if (senders.size() < view.roster().senders().size() && !sources.isEmpty()) {
         const QString any = sources.join(QStringLiteral(" || "));
         conditions += sources.size() == 1 ? any : QLatin1Char('(') + any + QLatin1Char(')');
     }
@@ -136,10 +139,10 @@ QString statisticsFilter(model::SessionView& view, const StatisticsModel& model,
     const auto sender = model.sender(index);
     const auto character = model.character(index);
     const model::Stream* stream = model.stream(index);
-    const bool needsSource = !character || view.senders().size() > 1;
+    const bool needsSource = !character || view.roster().senders().size() > 1;
     QStringList conditions = conditionsOf(stream == nullptr ? std::nullopt : std::optional(stream->key.type),
                                           character ? std::optional(character->character) : std::nullopt,
-                                          sender && needsSource ? view.find(*sender) : nullptr);
+                                          sender && needsSource ? view.roster().find(*sender) : nullptr);
     const auto figure = figureIn(index.column());
     if (const char* trouble = figure ? model::rowOf(*figure).condition : nullptr) {
         conditions += QLatin1String(trouble);
@@ -173,12 +176,12 @@ PacketsBehind lossesBehind(model::SessionView& view, const LossesSought& losses)
         mustName = mustName || !isSought;
         return isSought;
     };
-    for (const model::Gap& gap : view.gaps()) {
+    for (const model::Gap& gap : view.accounts().gaps()) {
         if (gap.lost != 0) {
             look(gap.stream, gap.toStamp, gap.cause, gap.toPacket);
         }
     }
-    view.forEachPartialLoss(
+    view.accounts().forEachPartialLoss(
         [&](const log::StreamKey& stream, log::Stamp stamp, model::LossCause cause, std::uint64_t packet) {
             mustName = look(stream, stamp, cause, packet) || mustName;
         });
@@ -235,15 +238,15 @@ QString statisticsFilterTitle(int column) {
 
 QString characterFilter(const model::SessionView& view, const model::CharacterKey& key) {
     QStringList sources;
-    for (const model::Character* one : view.lineage(key)) {
-        if (const model::Sender* sender = view.find(one->key.sender)) {
+    for (const model::Character* one : view.roster().lineage(key)) {
+        if (const model::Sender* sender = view.roster().find(one->key.sender)) {
             sources += expression("source", sender->info.address);
         }
     }
     const QString source = sources.join(QStringLiteral(" || "));
     const QString character = conditionsOf({}, key.character, nullptr).front();
-    return view.senders().size() < 2 || sources.empty() ? character
-           : sources.size() == 1                        ? character + QStringLiteral(" && ") + source
+    return view.roster().senders().size() < 2 || sources.empty() ? character
+           : sources.size() == 1                                 ? character + QStringLiteral(" && ") + source
                                  : character + QStringLiteral(" && (") + source + QLatin1Char(')');
 }
 
@@ -253,8 +256,9 @@ QString packetFilterOf(model::SessionView& view, const model::Incident& event) {
     if (condition == nullptr && !isLimit) {
         return {};
     }
-    QStringList conditions = conditionsOf(event.type(), event.character(),
-                                          view.senders().size() > 1 ? view.find(event.sender) : nullptr);
+    QStringList conditions =
+        conditionsOf(event.type(), event.character(),
+                     view.roster().senders().size() > 1 ? view.roster().find(event.sender) : nullptr);
     if (condition != nullptr) {
         const QString text = QLatin1String(condition);
         conditions.prepend(text.contains(QLatin1String("||")) ? QLatin1Char('(') + text + QLatin1Char(')')

@@ -6,6 +6,7 @@
 #include "app/gui/models/text.h"
 #include "app/gui/theme/words.h"
 #include "core/export/sheets.h"
+#include "core/model/session/roster.h"
 #include "core/wire/type_table.h"
 
 #include <algorithm>
@@ -132,7 +133,7 @@ QVariant FaultModel::marksOf(const FaultRow& row, int role) const {
         return role == kSuffixRole ? QVariant(id) : QVariant();
     }
     const QString apart = senderApart(m_view, row.current);
-    const QString sender = apart.isEmpty() ? shown(m_view.addressOf(row.current.sender)) : apart;
+    const QString sender = apart.isEmpty() ? shown(m_view.roster().addressOf(row.current.sender)) : apart;
     return tr("%1 · %2").arg(id, sender);
 }
 
@@ -256,7 +257,7 @@ QString FaultModel::csv() const {
         numbers.push_back(std::to_string(row.counts.expected));
         const bool isOfOne = row.kind == FaultRow::Character || row.kind == FaultRow::Stream;
         const QString name =
-            isOfOne ? QString::fromStdString(m_view.displayName(row.current).csv()) : nameOf(row);
+            isOfOne ? QString::fromStdString(m_view.roster().displayName(row.current).csv()) : nameOf(row);
         text += line(
             {isOfOne ? QString::number(row.current.character) : QString(), name,
              row.kind == FaultRow::Stream ? QString::fromStdString(wire::typeDigits(row.type)) : QString()},

@@ -4,6 +4,7 @@
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
 #include "app/gui/theme/words.h"
+#include "core/model/session/verdict.h"
 #include "core/wire/type_table.h"
 
 #include <algorithm>
@@ -196,7 +197,7 @@ std::optional<IncidentLine> IncidentModel::whole(Key key) const {
     const auto pending = m_pending.find(key);
     const auto current = m_current.find(key);
     IncidentLine line;
-    line.settled = key > 0 ? m_view.incidents().find(static_cast<std::uint64_t>(key)) : nullptr;
+    line.settled = key > 0 ? m_view.verdicts().incidents().find(static_cast<std::uint64_t>(key)) : nullptr;
     line.pending = pending == m_pending.end() ? nullptr : &pending->second.incident;
     line.state = current == m_current.end() ? State::Over : current->second;
     if (line.settled == nullptr && line.pending != nullptr) {
@@ -231,7 +232,7 @@ std::optional<IncidentModel::Key> IncidentModel::hostOf(const model::Incident& p
     using enum model::IncidentKind;
     constexpr std::array kHosts{Loss, Local, Outage, Reordered};
     constexpr log::Duration kJustNow = std::chrono::seconds(1);
-    const auto& all = m_view.incidents().all();
+    const auto& all = m_view.verdicts().incidents().all();
     const auto host = std::find_if(all.rbegin(), all.rend(), [&](const model::Incident& one) {
         const bool isRecent = one.isCurrent || m_view.now() - one.lastStamp < kJustNow;
         return isRecent && one.sender == pending.sender && std::ranges::count(kHosts, one.kind) != 0;
@@ -251,7 +252,7 @@ bool IncidentModel::readUnsettled() {
         pending.insert_or_assign(host.value_or(own), std::move(one));
     }
     std::map<Key, State> current;
-    for (const model::Incident* one : m_view.incidents().current()) {
+    for (const model::Incident* one : m_view.verdicts().incidents().current()) {
         current.emplace(one->number, stateOf(m_view, *one));
     }
     const bool isSame = pending.empty() && m_pending.empty() && current == m_current;
@@ -261,7 +262,7 @@ bool IncidentModel::readUnsettled() {
 }
 
 void IncidentModel::refresh() {
-    const model::Incidents& incidents = m_view.incidents();
+    const model::Incidents& incidents = m_view.verdicts().incidents();
     std::vector<Key> changed;
     for (const auto& [key, one] : m_pending) {
         changed.push_back(key);
@@ -355,14 +356,14 @@ void IncidentModel::setFilter(const Filter& filter) {
 }
 
 void IncidentModel::markSeen() {
-    const auto& all = m_view.incidents().all();
+    const auto& all = m_view.verdicts().incidents().all();
     m_seenEnd = all.empty() ? 0 : all.back().number + 1;
     announceChange();
 }
 
 IncidentModel::Counts IncidentModel::counts() const {
     Counts counts;
-    for (const model::Incident& incident : m_view.incidents().all()) {
+    for (const model::Incident& incident : m_view.verdicts().incidents().all()) {
         ++counts.all;
         counts.current += incident.isCurrent ? 1 : 0;
         counts.unseen += isSeen(incident) ? 0 : 1;

@@ -5,6 +5,7 @@
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
 #include "app/gui/theme/words.h"
+#include "core/model/session/roster.h"
 #include "core/wire/type_table.h"
 
 #include <algorithm>
@@ -40,7 +41,7 @@ QString groupWord(model::IncidentGroup group) {
 QString whoseWords(model::SessionView& view, const model::Incident& incident) {
     const std::vector<std::uint8_t> characters = incident.characters();
     if (characters.empty()) {
-        return shown(view.addressOf(incident.sender));
+        return shown(view.roster().addressOf(incident.sender));
     }
     const model::CharacterKey first{incident.sender, characters.front()};
     const QString count = tr("%1 characters").arg(grouped(characters.size()));
@@ -55,7 +56,7 @@ QString whoseWords(model::SessionView& view, const model::Incident& incident) {
 QString whoseWords(model::SessionView& view, const model::Incident& incident,
                    const model::Incident::Part& part) {
     if (!part.character) {
-        return shown(view.addressOf(incident.sender));
+        return shown(view.roster().addressOf(incident.sender));
     }
     return nameApart(view, {incident.sender, *part.character});
 }

@@ -6,6 +6,8 @@
 #include "app/gui/theme/words.h"
 #include "core/model/body/character_pose.h"
 #include "core/model/body/null_pose.h"
+#include "core/model/session/messages.h"
+#include "core/model/session/roster.h"
 
 #include <algorithm>
 #include <utility>
@@ -156,7 +158,7 @@ PropertyValue address(const model::Sender& sender) {
 }
 
 PropertyValue segments(model::SessionView& view, const Key& key) {
-    const model::CharacterPose* pose = view.pose(key);
+    const model::CharacterPose* pose = view.messages().pose(key);
     if (pose == nullptr) {
         return {tr("no pose yet")};
     }
@@ -169,7 +171,7 @@ PropertyValue segments(model::SessionView& view, const Key& key) {
 }
 
 PropertyValue nullPose(model::SessionView& view, const Key& key) {
-    const model::NullPose* pose = view.nullPose(key);
+    const model::NullPose* pose = view.messages().nullPose(key);
     if (pose == nullptr || pose->segments.empty()) {
         return {tr("not received · reference body"), Health::Unknown,
                 tr("Type 13 has not arrived: proportions of a reference body are used.")};
@@ -189,7 +191,7 @@ PropertyValue nullPose(model::SessionView& view, const Key& key) {
 std::vector<Property> characterFacts(model::SessionView& view, const std::optional<Key>& key) {
     const auto ofSender = [&view, &key](const QString& label, PropertyValue (*read)(const model::Sender&)) {
         return Property{label, [&view, &key, read] {
-                            const model::Sender* sender = key ? view.find(key->sender) : nullptr;
+                            const model::Sender* sender = key ? view.roster().find(key->sender) : nullptr;
                             return sender == nullptr ? PropertyValue{} : read(*sender);
                         }};
     };
@@ -208,8 +210,8 @@ MetadataModel::MetadataModel(model::SessionView& view, QObject* parent)
 
 void MetadataModel::refresh() {
     const auto key = shownCharacter(m_view);
-    const std::uint64_t dropped = key ? m_view.metadata(*key).droppedTags() : 0;
-    const std::size_t count = key ? m_view.metadata(*key).tags().size() : 0;
+    const std::uint64_t dropped = key ? m_view.messages().metadata(*key).droppedTags() : 0;
+    const std::size_t count = key ? m_view.messages().metadata(*key).tags().size() : 0;
     // Where tags were given up, others are at their places.
     if (key != m_key || std::exchange(m_dropped, dropped) != dropped || count < m_earlier.size()) {
         m_dropped = dropped;
@@ -230,7 +232,7 @@ void MetadataModel::changeCharacter(std::optional<model::CharacterKey> key) {
     if (!key) {
         return;
     }
-    const auto tags = m_view.metadata(*key).tags();
+    const auto tags = m_view.messages().metadata(*key).tags();
     beginInsertRows({}, 0, static_cast<int>(tags.size() + m_facts.size()) - 1);
     m_key = key;
     for (const model::MetadataTag& tag : tags) {
@@ -240,7 +242,7 @@ void MetadataModel::changeCharacter(std::optional<model::CharacterKey> key) {
 }
 
 bool MetadataModel::insertTags() {
-    const auto tags = m_view.metadata(*m_key).tags();
+    const auto tags = m_view.messages().metadata(*m_key).tags();
     const std::size_t first = m_earlier.size();
     if (first == tags.size()) {
         return false;
@@ -281,7 +283,7 @@ const model::MetadataTag* MetadataModel::tag(int row) const {
     if (!m_key || row < 0 || static_cast<std::size_t>(row) >= m_earlier.size()) {
         return nullptr;
     }
-    const auto tags = m_view.metadata(*m_key).tags();
+    const auto tags = m_view.messages().metadata(*m_key).tags();
     return static_cast<std::size_t>(row) < tags.size() ? &tags[static_cast<std::size_t>(row)] : nullptr;
 }
 

@@ -5,6 +5,7 @@
 #include "app/gui/models/text.h"
 #include "app/gui/theme/words.h"
 #include "core/model/session/ingest.h"
+#include "core/model/session/messages.h"
 
 namespace posewire::gui {
 
@@ -22,11 +23,11 @@ NullPoseReading::Signature NullPoseReading::signatureOf(const model::CharacterKe
     signature.isDue = evidence.poseSeconds >= model::kScaleMessageDue;
     signature.isOverdue = record.newest != nullptr && !record.newest->isComplete() &&
                           log::secondsOf(evidence.now - record.newest->stamp) >= model::kPartOverdue;
-    if (const auto* message = m_view.message(key, wire::ScaleInformation::kType)) {
+    if (const auto* message = m_view.messages().message(key, wire::ScaleInformation::kType)) {
         signature.scalePacket = message->packet;
         signature.scaleStamp = message->stamp;
     }
-    if (const auto* message = m_view.message(key, wire::PropInformation::kType)) {
+    if (const auto* message = m_view.messages().message(key, wire::PropInformation::kType)) {
         signature.propPacket = message->packet;
     }
     return signature;
@@ -34,7 +35,8 @@ NullPoseReading::Signature NullPoseReading::signatureOf(const model::CharacterKe
 
 bool NullPoseReading::refresh() {
     const auto key = shownCharacter(m_view);
-    const model::NullPoseEvidence evidence = key ? m_view.nullPoseEvidence(*key) : model::NullPoseEvidence();
+    const model::NullPoseEvidence evidence =
+        key ? m_view.messages().nullPoseEvidence(*key) : model::NullPoseEvidence();
     const Signature signature = key ? signatureOf(*key, evidence) : Signature();
     m_newest = evidence.record.newest == nullptr ? std::nullopt : std::optional(*evidence.record.newest);
     if (signature == m_signature) {
@@ -50,7 +52,8 @@ void NullPoseReading::take(const model::NullPoseEvidence& evidence) {
     m_repetition = record.repetition;
     m_findings = model::findContradictions(evidence);
     m_scale = evidence.scale == nullptr ? std::nullopt : std::optional(*evidence.scale);
-    const auto* sent = character() ? m_view.message(*character(), wire::PropInformation::kType) : nullptr;
+    const auto* sent =
+        character() ? m_view.messages().message(*character(), wire::PropInformation::kType) : nullptr;
     const auto* props = sent == nullptr ? nullptr : std::get_if<wire::PropInformation>(&sent->datagram.body);
     m_props = props == nullptr ? std::nullopt : std::optional(*props);
     m_fromBefore.clear();
@@ -78,7 +81,7 @@ int NullPoseReading::segmentAt(int place) const {
 }
 
 int NullPoseReading::selectedPlace() const {
-    const model::Selection& selection = m_view.selection();
+    const model::Selection& selection = m_view.choices().selection;
     if (!m_pose || selection.segment < 0 || selection.character != character()) {
         return -1;
     }

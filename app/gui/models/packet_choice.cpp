@@ -4,7 +4,9 @@
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
 #include "app/gui/theme/words.h"
+#include "core/model/session/accounts.h"
 #include "core/model/session/ingest.h"
+#include "core/model/session/messages.h"
 #include "core/wire/messages.h"
 #include "core/wire/type_table.h"
 
@@ -34,7 +36,7 @@ std::optional<std::uint64_t> newestOf(model::SessionView& view, const model::Cha
     }
     std::ranges::transform(wire::typeTable(), std::back_inserter(types), &wire::TypeInfo::type);
     for (const std::uint8_t type : types) {
-        if (const model::Message* message = view.message(key, type)) {
+        if (const model::Message* message = view.messages().message(key, type)) {
             return message->packet;
         }
     }
@@ -79,7 +81,7 @@ Target bounded(model::SessionView& view, std::uint64_t number) {
 Target relative(model::SessionView& view, const QString& digits, bool isForward) {
     bool isNumber = false;
     const std::uint64_t distance = digits.toULongLong(&isNumber);
-    const std::uint64_t from = view.selection().packet.value_or(view.end() - 1);
+    const std::uint64_t from = view.choices().selection.packet.value_or(view.end() - 1);
     if (!isNumber || (!isForward && distance > from)) {
         return bounded(view, view.end());
     }
@@ -89,7 +91,7 @@ Target relative(model::SessionView& view, const QString& digits, bool isForward)
 } // namespace
 
 std::optional<std::uint64_t> inspectedPacket(model::SessionView& view, std::uint8_t preferredType) {
-    const model::Selection& selection = view.selection();
+    const model::Selection& selection = view.choices().selection;
     if (selection.packet) {
         return selection.packet;
     }
@@ -103,7 +105,7 @@ std::optional<std::uint64_t> inspectedPacket(model::SessionView& view, std::uint
 
 std::optional<std::uint64_t> neighbourInStream(model::SessionView& view, std::uint64_t packet,
                                                int direction) {
-    const model::PacketDigests& digests = view.digests();
+    const model::PacketDigests& digests = view.accounts().digests();
     const model::PacketDigest* own = digests.find(packet);
     const auto ownPacket = view.packet(packet);
     if (own == nullptr || !ownPacket) {

@@ -5,6 +5,7 @@
 #include "app/gui/models/text.h"
 #include "app/gui/theme/words.h"
 #include "core/model/accounting/attribution.h"
+#include "core/model/session/accounts.h"
 #include "core/wire/codec.h"
 #include "core/wire/type_table.h"
 
@@ -61,7 +62,7 @@ QString findingsOf(model::SessionView& view, const log::Packet& packet, const mo
         texts += tr("this computer dropped %1 before").arg(grouped(packet.kernelDropsBefore));
     }
     if (digest.gap != 0) {
-        texts += gapText(view.gapEndedBy(packet.number), digest.gap);
+        texts += gapText(view.accounts().gapEndedBy(packet.number), digest.gap);
     }
     if (digest.isDuplicate) {
         texts += tr("duplicate");
@@ -87,7 +88,7 @@ QString findingsOf(model::SessionView& view, const log::Packet& packet, const mo
 } // namespace
 
 QStringList sequenceFindings(model::SessionView& view, std::uint64_t number) {
-    const model::PacketDigest* digest = view.digests().find(number);
+    const model::PacketDigest* digest = view.accounts().digests().find(number);
     if (digest == nullptr) {
         return {};
     }
@@ -98,7 +99,7 @@ QStringList sequenceFindings(model::SessionView& view, std::uint64_t number) {
                      .arg(packet ? grouped(packet->kernelDropsBefore) : QStringLiteral("?"));
     }
     if (digest->gap != 0) {
-        const model::Gap* gap = view.gapEndedBy(number);
+        const model::Gap* gap = view.accounts().gapEndedBy(number);
         const QString missing = digest->gap == 1
                                     ? tr("1 sample is missing just before it.")
                                     : tr("%1 samples are missing just before it.").arg(grouped(digest->gap));
@@ -124,7 +125,7 @@ QStringList sequenceFindings(model::SessionView& view, std::uint64_t number) {
 }
 
 std::optional<PacketFacts> packetFacts(model::SessionView& view, std::uint64_t number) {
-    const model::PacketDigest* digest = view.digests().find(number);
+    const model::PacketDigest* digest = view.accounts().digests().find(number);
     const auto packet = digest != nullptr ? view.packet(number) : std::nullopt;
     if (!packet) {
         return std::nullopt;
@@ -174,7 +175,7 @@ QString packetPart(model::SessionView& view, const PacketFacts& facts) {
     constexpr std::uint64_t kNear = 64;
     const std::uint64_t end = std::min(view.end(), facts.number + kNear);
     for (std::uint64_t number = facts.number + 1; number < end; ++number) {
-        const model::PacketDigest* digest = view.digests().find(number);
+        const model::PacketDigest* digest = view.accounts().digests().find(number);
         if (digest == nullptr || digest->type != facts.digest.type ||
             digest->character != facts.digest.character) {
             continue;
@@ -205,7 +206,7 @@ QString withComment(QString note, const model::Annotations& annotations, const P
 
 QString packetNote(model::SessionView& view, const PacketFacts& facts) {
     QString note = facts.findings.isEmpty() ? QString() : healthText(packetHealth(facts), facts.findings);
-    const model::Annotations& annotations = view.annotations();
+    const model::Annotations& annotations = view.choices().annotations;
     if (annotations.marks.contains(facts.number)) {
         note.prepend(note.isEmpty() ? tr("◆ marked") : QStringLiteral("◆ "));
     }
@@ -215,7 +216,7 @@ QString packetNote(model::SessionView& view, const PacketFacts& facts) {
 QString spokenNote(model::SessionView& view, const PacketFacts& facts) {
     QString note =
         facts.findings.isEmpty() ? QString() : PropertyValue{facts.findings, packetHealth(facts)}.spoken();
-    const model::Annotations& annotations = view.annotations();
+    const model::Annotations& annotations = view.choices().annotations;
     if (annotations.marks.contains(facts.number)) {
         note.prepend(note.isEmpty() ? tr("marked") : tr("marked, "));
     }

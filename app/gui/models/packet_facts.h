@@ -3,6 +3,7 @@
 
 #include "app/gui/theme/theme.h"
 #include "core/log/time.h"
+#include "core/model/accounting/packet_digest.h"
 #include "core/model/session/session_view.h"
 #include "core/wire/header.h"
 

@@ -6,6 +6,7 @@
 #include "app/gui/models/shown_character.h"
 #include "app/gui/theme/words.h"
 #include "core/filter/filter.h"
+#include "core/model/session/accounts.h"
 
 namespace posewire::gui {
 
@@ -26,7 +27,7 @@ public:
 
     [[nodiscard]] bool isYes(std::uint64_t number) {
         const auto packet = m_view.packet(number);
-        const model::PacketDigest* digest = m_view.digests().find(number);
+        const model::PacketDigest* digest = m_view.accounts().digests().find(number);
         if (!packet || digest == nullptr) {
             return false;
         }
@@ -54,7 +55,7 @@ bool mayBe(const PacketsBehind& behind, const model::PacketDigest& digest) {
 /// The newest of those from one packet to before another.
 std::optional<std::uint64_t> newestIn(model::SessionView& view, const PacketsBehind& behind,
                                       Question& question, std::uint64_t from, std::uint64_t end) {
-    const model::PacketDigests& digests = view.digests();
+    const model::PacketDigests& digests = view.accounts().digests();
     const std::uint64_t oldest = std::max({digests.begin(), from, end - std::min(end, kMostDigests)});
     int decoded = 0;
     for (std::uint64_t number = end; number-- > oldest && decoded < kMostDecoded;) {
@@ -93,7 +94,7 @@ bool showPackets(model::SessionView& view, Commands& commands, const PacketsBehi
     if (!packet || !view.packet(*packet)) {
         return false;
     }
-    QString filter = QString::fromStdString(view.ownFilter());
+    QString filter = QString::fromStdString(view.choices().ownFilter());
     const QString alone =
         behind.filter.isEmpty() ? QStringLiteral("number == %1").arg(*packet) : behind.filter;
     if (look == PacketLook::Alone) {

@@ -4,6 +4,8 @@
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
 #include "app/gui/theme/words.h"
+#include "core/model/session/accounts.h"
+#include "core/model/session/roster.h"
 
 #include <QDateTime>
 
@@ -126,8 +128,8 @@ void PacketModel::refresh() {
     removeDropped();
     insertNew();
     noteSenders();
-    const model::Annotations& annotations = m_view.annotations();
-    const model::Cursor& cursor = m_view.cursor();
+    const model::Annotations& annotations = m_view.choices().annotations;
+    const model::Cursor& cursor = m_view.choices().cursor;
     const bool isChanged =
         annotations != m_annotations || cursor.mode != m_cursor.mode || cursor.packet != m_cursor.packet;
     if (isChanged && rowCount() > 0) {
@@ -139,7 +141,7 @@ void PacketModel::refresh() {
 
 /// If everything comes from one sender, its address says nothing, and the note has the room.
 void PacketModel::noteSenders() {
-    const bool hasSenders = m_view.senders().size() > 1;
+    const bool hasSenders = m_view.roster().senders().size() > 1;
     if (std::exchange(m_hasSenders, hasSenders) != hasSenders) {
         emit headerDataChanged(Qt::Horizontal, kSender, kSender);
     }
@@ -156,7 +158,7 @@ ColumnRoom PacketModel::room(int column) const {
 }
 
 void PacketModel::removeDropped() {
-    const std::uint64_t begin = m_view.digests().begin();
+    const std::uint64_t begin = m_view.accounts().digests().begin();
     const int rows = rowFrom(begin);
     if (rows > 0) {
         beginRemoveRows({}, 0, rows - 1);
@@ -175,7 +177,7 @@ void PacketModel::removeDropped() {
 }
 
 int PacketModel::rowsThere() const {
-    const std::uint64_t all = m_isFiltered ? m_matches.size() : m_view.digests().end() - m_begin;
+    const std::uint64_t all = m_isFiltered ? m_matches.size() : m_view.accounts().digests().end() - m_begin;
     return static_cast<int>(std::min(all, kMostRows));
 }
 
@@ -194,7 +196,7 @@ void PacketModel::startAgain(bool isFiltered) {
     m_matches.clear();
     m_problems.clear();
     if (!isFiltered) {
-        m_begin = m_view.digests().begin();
+        m_begin = m_view.accounts().digests().begin();
         m_removed = m_begin;
     }
     m_rows = rowsThere();
@@ -244,7 +246,7 @@ int PacketModel::rowOf(std::uint64_t number) const {
 
 std::optional<std::uint64_t> PacketModel::nextProblem(std::uint64_t after) const {
     if (!m_isFiltered) {
-        return m_view.digests().nextProblem(after);
+        return m_view.accounts().digests().nextProblem(after);
     }
     const std::size_t place = m_problems.placeOf(after + 1);
     const bool isThere = place < m_problems.size() && rowOf(m_problems[place]) >= 0;
@@ -253,7 +255,7 @@ std::optional<std::uint64_t> PacketModel::nextProblem(std::uint64_t after) const
 
 std::optional<std::uint64_t> PacketModel::previousProblem(std::uint64_t before) const {
     if (!m_isFiltered) {
-        return m_view.digests().previousProblem(before);
+        return m_view.accounts().digests().previousProblem(before);
     }
     const std::size_t place = m_problems.placeOf(before);
     const bool isThere = place > 0 && rowOf(m_problems[place - 1]) >= 0;
@@ -261,10 +263,10 @@ std::optional<std::uint64_t> PacketModel::previousProblem(std::uint64_t before) 
 }
 
 bool PacketModel::isOf(const model::CharacterKey& key, std::uint64_t packet) const {
-    const model::PacketDigest* digest = m_view.digests().find(packet);
+    const model::PacketDigest* digest = m_view.accounts().digests().find(packet);
     const bool mayBe = digest != nullptr && digest->type != 0 && digest->character == key.character;
     const auto read = mayBe ? m_view.packet(packet) : std::nullopt;
-    return read && std::ranges::any_of(m_view.lineage(key), [&read](const model::Character* one) {
+    return read && std::ranges::any_of(m_view.roster().lineage(key), [&read](const model::Character* one) {
                return one->key.sender == read->sender;
            });
 }
@@ -309,7 +311,7 @@ QString PacketModel::senderText(const PacketFacts& facts) const {
 
 QVariant PacketModel::characterMark(const PacketFacts& facts, int role) const {
     const model::CharacterKey key{facts.sender, facts.digest.character};
-    if ((role != kDotRole && role != kSuffixRole) || !facts.header || m_view.find(key) == nullptr) {
+    if ((role != kDotRole && role != kSuffixRole) || !facts.header || m_view.roster().find(key) == nullptr) {
         return {};
     }
     return role == kDotRole ? QVariant::fromValue(gui::characterMark(m_view, key))
@@ -325,8 +327,8 @@ QVariant PacketModel::data(const QModelIndex& index, int role) const {
         return (m_removed + static_cast<std::uint64_t>(row)) % 2 != 0;
     }
     if (role == kPausedHereRole) {
-        return m_view.cursor().mode == model::Cursor::Mode::Paused &&
-               row + 1 == rowFrom(m_view.cursor().packet + 1);
+        return m_view.choices().cursor.mode == model::Cursor::Mode::Paused &&
+               row + 1 == rowFrom(m_view.choices().cursor.packet + 1);
     }
     if (role == Qt::TextAlignmentRole) {
         return headerData(index.column(), Qt::Horizontal, role); // no packet has to be read for that

@@ -2,6 +2,8 @@
 #include "app/gui/models/packet_search.h"
 
 #include "app/gui/theme/words.h"
+#include "core/model/session/accounts.h"
+#include "core/model/session/roster.h"
 #include "core/wire/text.h"
 #include "core/wire/type_table.h"
 
@@ -102,7 +104,7 @@ PacketFilterRun::PacketFilterRun(const model::SessionView& view, filter::Filter 
       m_filter(std::move(filter)),
       m_firstStamp(view.firstStamp()),
       m_units(std::move(units)),
-      m_begin(view.digests().begin()),
+      m_begin(view.accounts().digests().begin()),
       m_next(m_begin),
       m_end(m_begin),
       m_thread([this](const std::stop_token& stop) { run(stop); }) {
@@ -110,14 +112,14 @@ PacketFilterRun::PacketFilterRun(const model::SessionView& view, filter::Filter 
 }
 
 std::uint64_t PacketFilterRun::endOf(const model::SessionView& view) const {
-    return m_filter.comparesJudged() ? view.settledEnd() : view.digests().end();
+    return m_filter.comparesJudged() ? view.accounts().settledEnd() : view.accounts().digests().end();
 }
 
 PacketFilterRun::Found PacketFilterRun::take(const model::SessionView& view) {
     const std::uint64_t end = endOf(view);
     const std::lock_guard lock(m_mutex);
     if (end > m_end && !isCancelled()) {
-        m_excerpts.push_back(view.digests().excerpt(m_end, end));
+        m_excerpts.push_back(view.accounts().digests().excerpt(m_end, end));
         m_end = end;
         m_changed.notify_all();
     }
@@ -202,7 +204,7 @@ void PacketFilterRun::run(const std::stop_token& stop) {
 PositionUnits unusualPositionUnits(const model::SessionView& view) {
     const model::Sender usual{log::SenderId{}};
     PositionUnits units;
-    for (const model::Sender& sender : view.senders()) {
+    for (const model::Sender& sender : view.roster().senders()) {
         for (const wire::TypeInfo& info : wire::typeTable()) {
             const model::LengthUnit unit = sender.positionUnit(info.type);
             if (unit != usual.positionUnit(info.type)) {

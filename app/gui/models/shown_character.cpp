@@ -3,6 +3,7 @@
 
 #include "app/gui/models/text.h"
 #include "app/gui/theme/words.h"
+#include "core/model/session/roster.h"
 
 #include <algorithm>
 
@@ -13,10 +14,11 @@ namespace {
 /// Others of now with the same name.
 std::vector<const model::Character*> namesakesOf(const model::SessionView& view,
                                                  const model::CharacterKey& key) {
-    const model::ForeignText name = view.displayName(key);
-    std::vector<const model::Character*> others = view.atNow().currentCharacters();
+    const model::ForeignText name = view.roster().displayName(key);
+    std::vector<const model::Character*> others = view.atNow().roster().listed();
     std::erase_if(others, [&](const model::Character* one) {
-        return view.isSame(one->key, key) || view.displayName(one->key).shown() != name.shown();
+        return view.roster().isSame(one->key, key) ||
+               view.roster().displayName(one->key).shown() != name.shown();
     });
     return others;
 }
@@ -28,12 +30,12 @@ qsizetype portAt(const QString& address) {
 
 QString senderAmong(const model::SessionView& view, const model::CharacterKey& key,
                     const std::vector<const model::Character*>& namesakes) {
-    const QString own = shown(view.addressOf(key.sender));
+    const QString own = shown(view.roster().addressOf(key.sender));
     std::size_t twins = 0;
     std::size_t ofThisHost = 0;
     for (const model::Character* one : namesakes) {
         if (one->key.character == key.character) {
-            const QString other = shown(view.addressOf(one->key.sender));
+            const QString other = shown(view.roster().addressOf(one->key.sender));
             ++twins;
             ofThisHost += own.left(portAt(own)) == other.left(portAt(other)) ? 1 : 0;
         }
@@ -44,11 +46,11 @@ QString senderAmong(const model::SessionView& view, const model::CharacterKey& k
 } // namespace
 
 std::optional<model::CharacterKey> shownCharacter(model::SessionView& view) {
-    const model::Selection& selection = view.selection();
-    if (selection.character && view.find(*selection.character) != nullptr) {
-        return view.current(*selection.character);
+    const model::Selection& selection = view.choices().selection;
+    if (selection.character && view.roster().find(*selection.character) != nullptr) {
+        return view.roster().current(*selection.character);
     }
-    const auto characters = view.currentCharacters();
+    const auto characters = view.roster().listed();
     const auto first = std::ranges::find_if(characters, [&](const model::Character* character) {
         return !selection.sender || character->key.sender == *selection.sender;
     });
@@ -56,7 +58,7 @@ std::optional<model::CharacterKey> shownCharacter(model::SessionView& view) {
 }
 
 model::Selection selectionOf(model::SessionView& view, const model::CharacterKey& key) {
-    model::Selection selection = view.selection();
+    model::Selection selection = view.choices().selection;
     if (selection.character != key) {
         selection.segment = -1;
     }
@@ -66,11 +68,11 @@ model::Selection selectionOf(model::SessionView& view, const model::CharacterKey
 }
 
 QString characterName(model::SessionView& view, const model::CharacterKey& key) {
-    return shown(view.displayName(key));
+    return shown(view.roster().displayName(key));
 }
 
 QString nameApart(const model::SessionView& view, const model::CharacterKey& key) {
-    QString name = shown(view.displayName(key));
+    QString name = shown(view.roster().displayName(key));
     const auto namesakes = namesakesOf(view, key);
     if (!namesakes.empty()) {
         name += QStringLiteral(" · %1").arg(key.character);
@@ -85,7 +87,7 @@ QString senderApart(const model::SessionView& view, const model::CharacterKey& k
 }
 
 CharacterMark characterMark(model::SessionView& view, const model::CharacterKey& key) {
-    const model::Colour colour = view.colour(key);
+    const model::Colour colour = view.roster().colour(key);
     return {QColor::fromRgbF(std::clamp(colour.red, 0.0F, 1.0F), std::clamp(colour.green, 0.0F, 1.0F),
                              std::clamp(colour.blue, 0.0F, 1.0F)),
             key.character};
@@ -93,8 +95,9 @@ CharacterMark characterMark(model::SessionView& view, const model::CharacterKey&
 
 std::uint64_t newestVisiblePacket(model::SessionView& view) {
     const std::uint64_t newest = view.end() == 0 ? 0 : view.end() - 1;
-    return view.cursor().mode == model::Cursor::Mode::Paused ? std::min(view.cursor().packet, newest)
-                                                             : newest;
+    return view.choices().cursor.mode == model::Cursor::Mode::Paused
+               ? std::min(view.choices().cursor.packet, newest)
+               : newest;
 }
 
 std::optional<model::TimeRange> wholeSpan(const model::SessionView& view) {
@@ -116,10 +119,10 @@ QString spanText(const model::SessionView& view) {
         return tr("all, %1").arg(duration(whole->seconds()));
     }
     const QString length = duration(range->seconds());
-    if (view.rangeChoice().isSinceReset) {
+    if (view.choices().range.isSinceReset) {
         return tr("since reset, %1").arg(length);
     }
-    if (!view.rangeChoice().fixed) {
+    if (!view.choices().range.fixed) {
         return tr("last %1").arg(length);
     }
     return tr("selection %1 + %2").arg(timeOfDay(view.wallOf(range->from)).chopped(2), length);

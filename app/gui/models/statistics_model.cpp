@@ -5,6 +5,7 @@
 #include "app/gui/models/stream_state.h"
 #include "app/gui/models/text.h"
 #include "core/export/sheets.h"
+#include "core/model/session/roster.h"
 #include "core/wire/type_table.h"
 
 #include <algorithm>
@@ -208,9 +209,9 @@ TableColumn<StreamRow> StatisticsModel::curveColumn(const StatisticsModel& model
 
 void StatisticsModel::refresh() {
     const auto second = std::chrono::time_point_cast<std::chrono::seconds>(view().cursorStamp());
-    const bool hasNewCurves = second != m_curveSecond || m_choice != view().rangeChoice();
+    const bool hasNewCurves = second != m_curveSecond || m_choice != view().choices().range;
     m_curveSecond = second;
-    m_choice = view().rangeChoice();
+    m_choice = view().choices().range;
     for (Cached& kept : m_cache) {
         kept.figures.reset();
         kept.curve = hasNewCurves ? std::nullopt : std::move(kept.curve);
@@ -308,9 +309,9 @@ StatisticsModel::Curve StatisticsModel::makeCurve(const QModelIndex& index) cons
 std::string StatisticsModel::csvLine(const model::Stream& stream) const {
     const model::StreamFigures figures = m_losses->figuresOf(stream);
     const model::CharacterKey key = characterOf(stream.key);
-    const model::Sender* sender = view().find(key.sender);
+    const model::Sender* sender = view().roster().find(key.sender);
     std::vector<std::string> cells{sender == nullptr ? std::string() : sender->address().csv(),
-                                   std::to_string(key.character), view().displayName(key).csv(),
+                                   std::to_string(key.character), view().roster().displayName(key).csv(),
                                    wire::typeDigits(stream.key.type)};
     for (const Column& column : kColumns) {
         if (column.figure) {
@@ -341,7 +342,7 @@ QString StatisticsModel::csv() const {
 
 void RangeOverview::refresh() {
     const auto whole = wholeSpan(m_view);
-    if (m_view.streams().empty() || !whole) {
+    if (m_view.roster().streams().empty() || !whole) {
         return;
     }
     using std::chrono::seconds;
@@ -352,13 +353,13 @@ void RangeOverview::refresh() {
         return;
     }
     m_resolution = log::Duration(1);
-    for (const model::Stream& stream : m_view.streams()) {
+    for (const model::Stream& stream : m_view.roster().streams()) {
         m_resolution = std::max(m_resolution, stream.accounting.resolution());
     }
     m_parts = model::partsOf(m_span, kMostParts, kLeastOverviewPart, m_resolution);
     m_counted.assign(m_parts.count, {});
     const model::Losses losses(m_view, {});
-    for (const model::Stream& stream : m_view.streams()) {
+    for (const model::Stream& stream : m_view.roster().streams()) {
         losses.addParts(stream, m_parts, m_counted);
     }
 }

@@ -3,6 +3,9 @@
 
 #include "app/gui/models/text.h"
 #include "app/gui/theme/words.h"
+#include "core/model/session/messages.h"
+#include "core/model/session/roster.h"
+#include "core/model/session/verdict.h"
 #include "core/wire/type_table.h"
 
 #include <algorithm>
@@ -58,7 +61,7 @@ PropertyValue verdictState(const model::TakeVerdict& verdict) {
 
 PropertyValue streamState(model::SessionView& view, const model::Losses& losses,
                           const model::Stream& stream) {
-    if (view.isSuperseded({stream.key.sender, stream.key.character})) {
+    if (view.roster().isSuperseded({stream.key.sender, stream.key.character})) {
         return ended();
     }
     if (wire::isSampled(stream.key.type)) {
@@ -77,14 +80,14 @@ PropertyValue streamState(model::SessionView& view, const model::Losses& losses,
 }
 
 PropertyValue characterState(model::SessionView& view, const model::Character& character) {
-    if (view.isSuperseded(character.key)) {
+    if (view.roster().isSuperseded(character.key)) {
         return ended();
     }
-    return verdictState(view.verdict(character.key));
+    return verdictState(view.verdicts().of(character.key));
 }
 
 bool isLive(model::SessionView& view, const model::Character& character) {
-    return view.ageSeconds(character.key) < kStaleAge;
+    return view.messages().ageSeconds(character.key) < kStaleAge;
 }
 
 } // namespace posewire::gui

@@ -3,6 +3,8 @@
 
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
+#include "core/model/session/accounts.h"
+#include "core/model/session/roster.h"
 #include "core/wire/type_table.h"
 
 #include <algorithm>
@@ -26,7 +28,7 @@ StreamTreeModel::StreamTreeModel(model::SessionView& view, std::vector<TableColu
     : TreeModel(std::move(columns), parent), m_view(view) {}
 
 bool StreamTreeModel::insertNew() {
-    const std::uint64_t retired = m_view.retired().senders;
+    const std::uint64_t retired = m_view.accounts().retired().senders;
     if (m_retired == retired) {
         if (!insert(Kind::Sender) && !insert(Kind::Character)) {
             insertStreams();
@@ -54,17 +56,17 @@ std::vector<StreamRow> StreamTreeModel::rowsWithout(Kind kind) const {
         }
     };
     if (kind == Kind::Sender) {
-        for (const model::Sender& sender : m_view.senders()) {
+        for (const model::Sender& sender : m_view.roster().senders()) {
             add({kind, {sender.id, 0, 0}});
         }
     } else if (kind == Kind::Character) {
-        for (const model::Character& character : m_view.characters()) {
+        for (const model::Character& character : m_view.roster().characters()) {
             if (character.isConfirmed) {
                 add(characterRow(character.key));
             }
         }
     } else {
-        for (const model::Stream& stream : m_view.streams()) {
+        for (const model::Stream& stream : m_view.roster().streams()) {
             add({kind, stream.key});
         }
     }
@@ -143,13 +145,13 @@ std::optional<int> StreamTreeModel::parentOf(const StreamRow& row) const {
 bool StreamTreeModel::isThere(const StreamRow& row) const {
     switch (row.kind) {
     case Kind::Sender:
-        return m_view.find(row.key.sender) != nullptr;
+        return m_view.roster().find(row.key.sender) != nullptr;
     case Kind::Character:
-        return m_view.find(characterOf(row.key)) != nullptr;
+        return m_view.roster().find(characterOf(row.key)) != nullptr;
     case Kind::Stream:
         break;
     }
-    return m_view.find(row.key) != nullptr;
+    return m_view.roster().find(row.key) != nullptr;
 }
 
 const StreamRow& StreamTreeModel::rowOf(const QModelIndex& index) const {
@@ -177,7 +179,7 @@ bool StreamTreeModel::isEnded(const QModelIndex& index) const {
     }
     const auto& characters = senderOf(rowOf(index)).characters;
     return !characters.empty() && std::ranges::all_of(characters, [this](const auto* character) {
-        return m_view.isSuperseded(character->key);
+        return m_view.roster().isSuperseded(character->key);
     });
 }
 
@@ -204,7 +206,7 @@ std::optional<log::SenderId> StreamTreeModel::sender(const QModelIndex& index) c
 
 const model::Stream* StreamTreeModel::stream(const QModelIndex& index) const {
     const bool isStream = index.isValid() && rowOf(index).kind == Kind::Stream;
-    return isStream ? m_view.find(rowOf(index).key) : nullptr;
+    return isStream ? m_view.roster().find(rowOf(index).key) : nullptr;
 }
 
 QModelIndex StreamTreeModel::indexOf(const model::CharacterKey& key) const {

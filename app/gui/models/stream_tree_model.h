@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/gui/models/tree_model.h"
+#include "core/model/session/roster.h"
 #include "core/model/session/session_view.h"
 
 #include <array>
@@ -48,12 +49,14 @@ protected:
     [[nodiscard]] const StreamRow& rowOf(const QModelIndex& index) const;
     // What a row is of. Cells are asked for only where it is there.
     [[nodiscard]] const model::Sender& senderOf(const StreamRow& row) const {
-        return *m_view.find(row.key.sender);
+        return *m_view.roster().find(row.key.sender);
     }
     [[nodiscard]] const model::Character& characterAt(const StreamRow& row) const {
-        return *m_view.find(characterOf(row.key));
+        return *m_view.roster().find(characterOf(row.key));
     }
-    [[nodiscard]] const model::Stream& streamOf(const StreamRow& row) const { return *m_view.find(row.key); }
+    [[nodiscard]] const model::Stream& streamOf(const StreamRow& row) const {
+        return *m_view.roster().find(row.key);
+    }
     [[nodiscard]] QModelIndex indexOf(const StreamRow& row) const;
     [[nodiscard]] model::SessionView& view() const { return m_view; }
     /// Address of a sender, name of a character, title of a type.

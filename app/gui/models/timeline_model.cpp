@@ -3,6 +3,8 @@
 
 #include "app/gui/models/character_model.h"
 #include "app/gui/models/shown_character.h"
+#include "core/model/session/messages.h"
+#include "core/model/session/roster.h"
 #include "core/wire/type_table.h"
 
 #include <algorithm>
@@ -23,7 +25,7 @@ model::RangeParts fineParts(const model::TimeRange& window, std::size_t most) {
 
 void TimelineModel::refresh(const model::TimeRange& window, std::size_t most) {
     log::Duration resolution(1);
-    for (const model::Stream& stream : m_view.streams()) {
+    for (const model::Stream& stream : m_view.roster().streams()) {
         resolution = std::max(resolution, stream.accounting.resolution(window.from));
     }
     constexpr std::int64_t kLeastBuckets = 2; // per part, or its edges would show
@@ -42,7 +44,7 @@ void TimelineModel::refresh(const model::TimeRange& window, std::size_t most) {
 /// To the accounting's buckets.
 std::uint64_t TimelineModel::datagramsIn(const model::TimeRange& window) const {
     std::uint64_t datagrams = 0;
-    for (const model::Stream& stream : m_view.streams()) {
+    for (const model::Stream& stream : m_view.roster().streams()) {
         datagrams += stream.accounting.countsBetween(window.from, window.to).datagrams;
     }
     return datagrams;
@@ -52,7 +54,7 @@ void TimelineModel::addRows(const model::CharacterKey& key) {
     Row whole{key, std::nullopt, nameApart(m_view, key), characterMark(m_view, key), {}, m_open.contains(key),
               {}};
     std::map<std::uint8_t, std::vector<log::StreamKey>> byType;
-    for (const model::Character* one : m_view.lineage(key)) {
+    for (const model::Character* one : m_view.roster().lineage(key)) {
         for (const model::Stream* stream : one->streams) {
             whole.streams.push_back(stream->key);
             byType[stream->key.type].push_back(stream->key);
@@ -81,9 +83,9 @@ const TimelineModel::Row& TimelineModel::shown(std::size_t row) {
     read.parts.resize(m_parts.count);
     for (const log::StreamKey& key : read.streams) {
         if (m_isFine) {
-            m_view.addArrivals(key, m_parts, 2 * kMostArrivals, read.parts); // edges of buckets
+            m_view.messages().addArrivals(key, m_parts, 2 * kMostArrivals, read.parts); // edges of buckets
             m_settled->addParts(key, m_parts, read.parts);
-        } else if (const model::Stream* stream = m_view.find(key)) {
+        } else if (const model::Stream* stream = m_view.roster().find(key)) {
             m_losses->addParts(*stream, m_parts, read.parts);
         }
     }

@@ -7,6 +7,8 @@
 #include "app/gui/theme/words.h"
 #include "core/model/body/segments.h"
 #include "core/model/body/spaces.h"
+#include "core/model/session/messages.h"
+#include "core/model/session/roster.h"
 
 #include <algorithm>
 #include <cmath>
@@ -42,7 +44,7 @@ double dipDegrees(const wire::Tracker& tracker) {
 
 void TrackerHistory::follow(model::SessionView& view, const std::optional<model::CharacterKey>& key,
                             std::uint32_t trackerId) {
-    const auto* newest = key ? view.message(*key, wire::TrackerKinematics::kType) : nullptr;
+    const auto* newest = key ? view.messages().message(*key, wire::TrackerKinematics::kType) : nullptr;
     const bool wentBack = newest != nullptr && newest->stamp < m_lastStamp;
     if (key != m_key || wentBack) {
         *this = {};
@@ -58,11 +60,11 @@ void TrackerHistory::follow(model::SessionView& view, const std::optional<model:
         return;
     }
     const log::StreamKey stream{key->sender, key->character, wire::TrackerKinematics::kType};
-    const model::Stream* figures = view.find(stream);
+    const model::Stream* figures = view.roster().find(stream);
     const std::uint32_t step = figures == nullptr ? 0 : figures->accounting.step();
     const log::Stamp from = std::max(newest->stamp - kPlot, m_lastStamp + log::Duration(1));
     const std::size_t added =
-        view.visit(stream, from, kMostMessages, [&](const auto& message) { add(message, step); });
+        view.messages().visit(stream, from, kMostMessages, [&](const auto& message) { add(message, step); });
     if (added != 0) {
         computeMedians();
     }
@@ -202,7 +204,7 @@ TrackerModel::TrackerModel(model::SessionView& view, QObject* parent)
 
 void TrackerModel::refresh() {
     m_key = shownCharacter(m_view);
-    const auto* message = m_key ? m_view.message(*m_key, wire::TrackerKinematics::kType) : nullptr;
+    const auto* message = m_key ? m_view.messages().message(*m_key, wire::TrackerKinematics::kType) : nullptr;
     const auto* body =
         message == nullptr ? nullptr : std::get_if<wire::TrackerKinematics>(&message->datagram.body);
     m_stale = body == nullptr ? QString() : staleTextAt(message->stamp);
@@ -212,7 +214,7 @@ void TrackerModel::refresh() {
         m_hasInertialData = body->hasInertialData;
     }
     const auto wanted = std::ranges::find_if(trackers, [this](const wire::Tracker& tracker) {
-        return static_cast<int>(tracker.id) - 1 == m_view.selection().segment;
+        return static_cast<int>(tracker.id) - 1 == m_view.choices().selection.segment;
     });
     if (wanted != trackers.end()) {
         m_shownRow = static_cast<int>(wanted - trackers.begin());
@@ -224,7 +226,7 @@ void TrackerModel::refresh() {
 
 QString TrackerModel::staleTextAt(log::Stamp newest) const {
     const model::Stream* stream =
-        m_view.find(log::StreamKey{m_key->sender, m_key->character, wire::TrackerKinematics::kType});
+        m_view.roster().find(log::StreamKey{m_key->sender, m_key->character, wire::TrackerKinematics::kType});
     return gui::staleText(log::secondsOf(m_view.cursorStamp() - newest),
                           stream == nullptr ? 0 : stream->statistics.rateHz());
 }

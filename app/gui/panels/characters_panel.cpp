@@ -7,6 +7,9 @@
 #include "app/gui/panels/cell_delegate.h"
 #include "app/gui/theme/plain_text.h"
 #include "app/gui/theme/widgets.h"
+#include "core/model/session/accounts.h"
+#include "core/model/session/roster.h"
+#include "core/model/session/verdict.h"
 
 #include <QEvent>
 #include <QHBoxLayout>
@@ -191,7 +194,7 @@ void CharactersPanel::refresh() {
     showEmptyState();
     followSelection();
     m_isFollowing = false;
-    const model::Unproven unproven = m_view.unproven();
+    const model::Unproven unproven = m_view.accounts().unproven();
     // Beside the columns that it is about.
     const bool hasLosses = !m_table->isColumnHidden(CharacterModel::kLostOnNetwork);
     QString span = hasLosses ? tr("lost: %1").arg(boardSpanText(m_view)) : QString();
@@ -214,12 +217,12 @@ void CharactersPanel::refresh() {
 }
 
 QString CharactersPanel::summary() const {
-    const auto characters = m_view.atNow().currentCharacters();
+    const auto characters = m_view.atNow().roster().listed();
     if (characters.empty()) {
         return {};
     }
     const auto good = std::ranges::count_if(characters, [this](const model::Character* character) {
-        return m_view.verdict(character->key).state == model::TakeVerdict::State::Good;
+        return m_view.verdicts().of(character->key).state == model::TakeVerdict::State::Good;
     });
     return tr("%1 of %2 good").arg(good).arg(characters.size());
 }
@@ -258,7 +261,7 @@ void CharactersPanel::showDetail() {
     const bool isShown = isDetailShown() && key;
     if (isShown) {
         m_detailModel.refresh(key, m_model.nominalRates());
-        QStringList parts{characterName(m_view, *key), restartWords(m_view.restartsOf(*key)),
+        QStringList parts{characterName(m_view, *key), restartWords(m_view.accounts().restartsOf(*key)),
                           portHistory(m_view, *key)};
         parts.removeAll(QString());
         m_history->setText(parts.join(QStringLiteral(" · ")));
@@ -302,7 +305,7 @@ bool CharactersPanel::eventFilter(QObject* watched, QEvent* event) {
 
 /// Rows may have changed places: the current one is that of the selection, wherever it is now.
 void CharactersPanel::followSelection() {
-    const model::Selection& selection = m_view.selection();
+    const model::Selection& selection = m_view.choices().selection;
     const QModelIndex wanted = selection.character ? m_model.indexOf(*selection.character) : QModelIndex();
     if (m_table->currentIndex().row() != wanted.row()) {
         m_table->setCurrentIndex(wanted);
@@ -316,8 +319,9 @@ void CharactersPanel::followSelection() {
 }
 
 std::optional<model::CharacterKey> CharactersPanel::selected() const {
-    const auto& key = m_view.selection().character;
-    return key && m_view.find(*key) != nullptr ? std::optional(m_view.atNow().current(*key)) : std::nullopt;
+    const auto& key = m_view.choices().selection.character;
+    return key && m_view.roster().find(*key) != nullptr ? std::optional(m_view.atNow().roster().current(*key))
+                                                        : std::nullopt;
 }
 
 std::optional<model::CharacterKey> CharactersPanel::selectedOrSay() const {
@@ -334,8 +338,8 @@ void CharactersPanel::select(const QModelIndex& index) {
 }
 
 bool CharactersPanel::isSolo(const model::CharacterKey& key) const {
-    return std::ranges::all_of(m_view.atNow().currentCharacters(), [&](const model::Character* one) {
-        return m_view.isHidden(one->key) != m_view.isSame(one->key, key);
+    return std::ranges::all_of(m_view.atNow().roster().listed(), [&](const model::Character* one) {
+        return m_view.roster().isHidden(one->key) != m_view.roster().isSame(one->key, key);
     });
 }
 
@@ -346,23 +350,24 @@ void CharactersPanel::frameSelected() {
 }
 
 void CharactersPanel::soloSelected() {
-    const std::vector<const model::Character*> all = m_view.atNow().currentCharacters();
-    const bool isAnyHidden =
-        std::ranges::any_of(all, [this](const model::Character* one) { return m_view.isHidden(one->key); });
-    const bool showsAll = !m_view.selection().character && isAnyHidden;
+    const std::vector<const model::Character*> all = m_view.atNow().roster().listed();
+    const bool isAnyHidden = std::ranges::any_of(
+        all, [this](const model::Character* one) { return m_view.roster().isHidden(one->key); });
+    const bool showsAll = !m_view.choices().selection.character && isAnyHidden;
     const auto key = showsAll ? std::nullopt : selectedOrSay();
     if (!showsAll && !key) {
         return;
     }
     const bool isAgain = key && isSolo(*key);
     for (const model::Character* one : all) {
-        m_commands.setCharacterVisible(one->key, showsAll || isAgain || m_view.isSame(one->key, *key));
+        m_commands.setCharacterVisible(one->key,
+                                       showsAll || isAgain || m_view.roster().isSame(one->key, *key));
     }
 }
 
 void CharactersPanel::toggleSelected() {
     if (const auto key = selectedOrSay()) {
-        m_commands.setCharacterVisible(*key, m_view.isHidden(*key));
+        m_commands.setCharacterVisible(*key, m_view.roster().isHidden(*key));
     }
 }
 
@@ -375,7 +380,7 @@ void CharactersPanel::showPacketsOfSelected() {
 
 void CharactersPanel::showIncidentsOfSelected() {
     if (const auto key = selectedOrSay()) {
-        m_commands.showIncident(m_view.verdict(*key).incident, *key);
+        m_commands.showIncident(m_view.verdicts().of(*key).incident, *key);
     }
 }
 
@@ -405,13 +410,14 @@ void CharactersPanel::addActions(QMenu& menu, const QModelIndex& index) {
     };
     add(tr("Frame"), &CharactersPanel::frameSelected);
     add(isSolo(*key) && m_model.rowCount() > 1 ? tr("Show all") : tr("Solo"), &CharactersPanel::soloSelected);
-    add(m_view.isHidden(*key) ? tr("Show") : tr("Hide"), &CharactersPanel::toggleSelected);
+    add(m_view.roster().isHidden(*key) ? tr("Show") : tr("Hide"), &CharactersPanel::toggleSelected);
     menu.addSeparator();
     add(tr("Show packets"), &CharactersPanel::showPacketsOfSelected);
     add(tr("Show incidents"), &CharactersPanel::showIncidentsOfSelected);
     menu.addSeparator();
-    QAction* forget = menu.addAction(tr("Forget sender %1").arg(shown(m_view.addressOf(key->sender))));
-    forget->setEnabled(m_view.isForgettable(key->sender));
+    QAction* forget =
+        menu.addAction(tr("Forget sender %1").arg(shown(m_view.roster().addressOf(key->sender))));
+    forget->setEnabled(m_view.accounts().isForgettable(key->sender));
     connect(forget, &QAction::triggered, this,
             [this, sender = key->sender] { m_commands.forgetSender(sender); });
     menu.addSeparator();

@@ -4,6 +4,7 @@
 #include "app/gui/models/shown_character.h"
 #include "app/gui/theme/plain_text.h"
 #include "app/gui/theme/theme.h"
+#include "core/model/session/roster.h"
 
 #include <QAbstractItemView>
 #include <QDoubleSpinBox>
@@ -151,7 +152,7 @@ void CompareBar::layOut() {
 
 void CompareBar::fillPartners(const ComparisonState& state) {
     std::vector<model::CharacterKey> keys;
-    for (const model::Character* one : state.second->atNow().currentCharacters()) {
+    for (const model::Character* one : state.second->atNow().roster().listed()) {
         keys.push_back(one->key);
     }
     QStringList names;

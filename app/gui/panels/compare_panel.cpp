@@ -283,7 +283,7 @@ void ComparePanel::plot() {
 }
 
 void ComparePanel::followSelection() {
-    const int segment = m_view.selection().segment;
+    const int segment = m_view.choices().selection.segment;
     if (segment < 0 || !comparison().atCursor) {
         return;
     }

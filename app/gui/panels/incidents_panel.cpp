@@ -6,6 +6,7 @@
 #include "app/gui/models/text.h"
 #include "app/gui/panels/table_view.h"
 #include "app/gui/theme/help_link.h"
+#include "core/model/session/verdict.h"
 
 #include <QEvent>
 #include <QHeaderView>
@@ -198,7 +199,7 @@ IncidentsPanel::~IncidentsPanel() {
 
 /// What somebody elsewhere asked for, once.
 void IncidentsPanel::showAskedFor() {
-    const model::IncidentRequest& request = m_view.incidentRequest();
+    const model::IncidentRequest& request = m_view.choices().incidentRequest;
     if (std::exchange(m_requests, request.count) == request.count) {
         return;
     }
@@ -265,7 +266,7 @@ void IncidentsPanel::placeChip() {
 }
 
 void IncidentsPanel::showEmptyState() {
-    const bool isAll = m_view.incidents().all().empty();
+    const bool isAll = m_view.verdicts().incidents().all().empty();
     const IncidentModel::Filter& filter = m_incidents.filter();
     m_table->setEmptyText(
         isAll ? tr("No incidents.\nLosses and whose they are, outages, restarts, malformed data, changes and "

@@ -70,7 +70,7 @@ void InspectorPanel::toggleOnlyDifferences() {
 }
 
 bool InspectorPanel::isHeld() const {
-    return m_view.selection().packet.has_value();
+    return m_view.choices().selection.packet.has_value();
 }
 
 void InspectorPanel::toggleHold() {

@@ -9,6 +9,8 @@
 #include "app/gui/panels/cell_delegate.h"
 #include "app/gui/theme/plain_text.h"
 #include "app/gui/theme/widgets.h"
+#include "core/model/session/accounts.h"
+#include "core/model/session/roster.h"
 
 #include <QMenu>
 
@@ -19,8 +21,8 @@ namespace {
 constexpr int kDetailLines = 4;
 
 model::LengthUnit unitOf(model::SessionView& view, const log::Packet& packet) {
-    const model::Sender* sender = view.find(packet.sender);
-    const model::PacketDigest* digest = view.digests().find(packet.number);
+    const model::Sender* sender = view.roster().find(packet.sender);
+    const model::PacketDigest* digest = view.accounts().digests().find(packet.number);
     return sender == nullptr || digest == nullptr ? model::LengthUnit::Metre
                                                   : sender->positionUnit(digest->type);
 }
@@ -139,7 +141,7 @@ void InspectorPanel::refresh() {
         m_sequence = std::move(sequence);
         describeProblems();
     }
-    m_hold->setChecked(m_view.selection().packet.has_value());
+    m_hold->setChecked(m_view.choices().selection.packet.has_value());
     followSelection(isNew);
 }
 
@@ -221,7 +223,7 @@ void InspectorPanel::compare(Comparison comparison) {
     if (!m_isShown) {
         return;
     }
-    if (comparison != Comparison::None && !m_view.selection().packet) {
+    if (comparison != Comparison::None && !m_view.choices().selection.packet) {
         m_commands.selectPacket(m_document->number());
     }
     m_fields->change([this] { showComparison(); });
@@ -322,7 +324,7 @@ void InspectorPanel::describeCurrent() {
 }
 
 void InspectorPanel::followSelection(bool isNewPacket) {
-    const model::Selection& selection = m_view.selection();
+    const model::Selection& selection = m_view.choices().selection;
     const bool isOtherSegment = selection.segment != m_followed.segment;
     const bool isOtherPacket = selection.packet != m_followed.packet && selection.packet;
     const bool isFound = selection.found && selection.packet == selection.found->packet &&
@@ -369,8 +371,8 @@ void InspectorPanel::select(std::int32_t node) {
     m_bytes->scrollTo(range.begin);
     describe(node);
     const int segment = m_document->segmentOf(node);
-    if (segment >= 0 && m_document->hasHeader() && segment != m_view.selection().segment) {
-        model::Selection selection = m_view.selection();
+    if (segment >= 0 && m_document->hasHeader() && segment != m_view.choices().selection.segment) {
+        model::Selection selection = m_view.choices().selection;
         selection.sender = m_document->sender();
         selection.character = model::CharacterKey{m_document->sender(), m_document->header().character};
         selection.segment = segment;
@@ -406,7 +408,7 @@ void InspectorPanel::showField(std::int32_t node) {
 }
 
 void InspectorPanel::openMenu(const QPoint& at) {
-    m_fields->showMenu(at, QString::fromStdString(m_view.displayFilter()));
+    m_fields->showMenu(at, QString::fromStdString(m_view.choices().displayFilter));
 }
 
 void InspectorPanel::step(int direction) {
@@ -420,7 +422,7 @@ void InspectorPanel::hold(bool isHeld) {
     if (isHeld && m_isShown) {
         m_commands.selectPacket(m_document->number());
     } else {
-        model::Selection selection = m_view.selection();
+        model::Selection selection = m_view.choices().selection;
         selection.packet.reset();
         m_commands.select(selection);
     }
@@ -431,7 +433,7 @@ QString InspectorPanel::summary() const {
         return {};
     }
     const QString number = tr("packet %1").arg(grouped(m_document->number()));
-    return m_view.selection().packet ? number : tr("following · %1").arg(number);
+    return m_view.choices().selection.packet ? number : tr("following · %1").arg(number);
 }
 
 void InspectorPanel::resizeEvent(QResizeEvent* event) {

@@ -6,6 +6,7 @@
 #include "app/gui/panels/cell_delegate.h"
 #include "app/gui/theme/theme.h"
 #include "app/gui/theme/widgets.h"
+#include "core/model/session/roster.h"
 
 #include <QActionGroup>
 #include <QMenu>
@@ -129,19 +130,19 @@ DetectionBar::addChoice(const QString& toolTip, std::optional<Value> SenderOverr
 }
 
 SenderOverride DetectionBar::declared() const {
-    const model::Sender* sender = m_sender ? m_view.find(*m_sender) : nullptr;
+    const model::Sender* sender = m_sender ? m_view.roster().find(*m_sender) : nullptr;
     return sender == nullptr ? SenderOverride() : sender->overrides;
 }
 
 void DetectionBar::declare(const SenderOverride& overrides) {
-    if (m_sender && m_view.find(*m_sender) != nullptr) {
+    if (m_sender && m_view.roster().find(*m_sender) != nullptr) {
         m_commands.setOverride(*m_sender, overrides);
     }
 }
 
 void DetectionBar::showSender(std::optional<log::SenderId> sender) {
     m_sender = sender;
-    const model::Sender* found = sender ? m_view.find(*sender) : nullptr;
+    const model::Sender* found = sender ? m_view.roster().find(*sender) : nullptr;
     setVisible(found != nullptr);
     if (found == nullptr) {
         return;

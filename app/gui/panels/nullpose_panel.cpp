@@ -8,6 +8,7 @@
 #include "app/gui/panels/cell_delegate.h"
 #include "app/gui/theme/help_link.h"
 #include "app/gui/theme/widgets.h"
+#include "core/model/session/roster.h"
 
 #include <QItemSelectionModel>
 #include <QMenu>
@@ -198,7 +199,7 @@ void NullPosePanel::refresh() {
     }
     m_segmentTable->setEmptyText(emptyText());
     m_facts.refresh();
-    m_ghost->setChecked(m_view.isGhostShown());
+    m_ghost->setChecked(m_view.choices().isGhostShown);
     followSelection();
     arrange();
     m_isFollowing = false;
@@ -321,7 +322,8 @@ QString NullPosePanel::summary() const {
 }
 
 exporting::NullPoseSheet NullPosePanel::sheet() const {
-    return {m_reading.character() ? m_view.displayName(*m_reading.character()) : model::ForeignText(),
+    return {m_reading.character() ? m_view.roster().displayName(*m_reading.character())
+                                  : model::ForeignText(),
             m_reading.pose(), m_reading.scale(), m_reading.props(),
             m_reading.pose() != nullptr ? m_view.wallOf(m_reading.pose()->stamp) : log::WallTime()};
 }

@@ -7,6 +7,7 @@
 #include "app/gui/models/text.h"
 #include "app/gui/panels/filter_bar.h"
 #include "app/gui/panels/packets_panel.h"
+#include "core/model/session/accounts.h"
 
 #include <QMenu>
 
@@ -197,7 +198,7 @@ void PacketsPanel::goToFirst() {
 }
 
 void PacketsPanel::goToNewest() {
-    model::Selection selection = m_view.selection();
+    model::Selection selection = m_view.choices().selection;
     selection.packet.reset();
     m_commands.select(selection);
     m_list->setFollowing(true);
@@ -206,14 +207,14 @@ void PacketsPanel::goToNewest() {
 
 void PacketsPanel::goToProblem(Direction direction, ProblemsOf of) {
     const bool isForward = direction == Direction::Forward;
-    const auto& selected = m_view.selection().character;
+    const auto& selected = m_view.choices().selection.character;
     const bool isOfOne = of == ProblemsOf::Selected && selected && !m_packets.isFiltered();
     const auto isWanted = [&](std::uint64_t packet) { return !isOfOne || m_packets.isOf(*selected, packet); };
     const auto step = [&](std::uint64_t from) {
         return isForward ? m_packets.nextProblem(from) : m_packets.previousProblem(from);
     };
-    const model::PacketDigests& digests = m_view.digests();
-    const auto from = m_view.selection().packet;
+    const model::PacketDigests& digests = m_view.accounts().digests();
+    const auto from = m_view.choices().selection.packet;
     const model::PacketDigest* first = from || !isForward ? nullptr : digests.find(digests.begin());
     const bool isAtBegin = first != nullptr && first->isProblem() && m_packets.rowOf(digests.begin()) >= 0;
     std::optional<std::uint64_t> found =
@@ -232,16 +233,16 @@ void PacketsPanel::goToProblem(Direction direction, ProblemsOf of) {
 
 void PacketsPanel::goToSameStream(Direction direction) {
     const bool isForward = direction == Direction::Forward;
-    const auto from = m_view.selection().packet;
+    const auto from = m_view.choices().selection.packet;
     const std::uint64_t number = from.value_or(m_view.end() - 1);
     const auto packet = m_view.packet(number);
-    const model::PacketDigest* wanted = m_view.digests().find(number);
+    const model::PacketDigest* wanted = m_view.accounts().digests().find(number);
     if (!packet || wanted == nullptr) {
         say(tr("No packet is selected."));
         return;
     }
     const auto mayBe = [&](std::uint64_t other) {
-        const model::PacketDigest* candidate = m_view.digests().find(other);
+        const model::PacketDigest* candidate = m_view.accounts().digests().find(other);
         return other != number && candidate != nullptr && candidate->type == wanted->type &&
                candidate->character == wanted->character;
     };
@@ -269,9 +270,9 @@ void PacketsPanel::goToSameStream(Direction direction) {
 void PacketsPanel::goToMark(Direction direction) {
     const bool isForward = direction == Direction::Forward;
     std::vector<std::uint64_t> listed;
-    std::ranges::copy_if(m_view.annotations().marks, std::back_inserter(listed),
+    std::ranges::copy_if(m_view.choices().annotations.marks, std::back_inserter(listed),
                          [&](std::uint64_t number) { return m_packets.rowOf(number) >= 0; });
-    const auto selected = m_view.selection().packet;
+    const auto selected = m_view.choices().selection.packet;
     const std::uint64_t from = selected.value_or(isForward ? 0 : m_view.end());
     const auto after = selected && isForward ? std::ranges::upper_bound(listed, from)
                                              : std::ranges::lower_bound(listed, from);
@@ -294,7 +295,7 @@ void PacketsPanel::search(Direction direction) {
         return;
     }
     PacketSearch::Request request{*std::move(pattern),
-                                  m_view.selection().packet.value_or(m_view.end()),
+                                  m_view.choices().selection.packet.value_or(m_view.end()),
                                   direction == Direction::Forward,
                                   {}};
     if (m_packets.isFiltered()) {
@@ -324,7 +325,7 @@ void PacketsPanel::takeFound() {
         return;
     }
     showPacket(*result->packet);
-    model::Selection selection = m_view.selection();
+    model::Selection selection = m_view.choices().selection;
     selection.found = {*result->packet, static_cast<std::uint32_t>(result->offset),
                        static_cast<std::uint32_t>(result->offset + result->size)};
     m_commands.select(selection);
@@ -337,7 +338,7 @@ std::vector<std::uint64_t> PacketsPanel::selectedPackets() const {
     for (const int row : m_list->selectedRows(kMostCopied)) {
         numbers.push_back(m_packets.packetAt(row));
     }
-    if (const auto packet = m_view.selection().packet; numbers.empty() && packet) {
+    if (const auto packet = m_view.choices().selection.packet; numbers.empty() && packet) {
         numbers.push_back(*packet);
     }
     return numbers;
@@ -383,7 +384,7 @@ std::vector<std::uint64_t> PacketsPanel::meantPackets() const {
 
 bool PacketsPanel::areMarked() const {
     const auto packets = meantPackets();
-    const auto& marks = m_view.annotations().marks;
+    const auto& marks = m_view.choices().annotations.marks;
     return !packets.empty() &&
            std::ranges::all_of(packets, [&](std::uint64_t number) { return marks.contains(number); });
 }
@@ -412,8 +413,8 @@ void PacketsPanel::editComment() {
         say(tr("No packet is selected."));
         return;
     }
-    const std::uint64_t packet = m_view.selection().packet.value_or(meant.front());
-    const auto& comments = m_view.annotations().comments;
+    const std::uint64_t packet = m_view.choices().selection.packet.value_or(meant.front());
+    const auto& comments = m_view.choices().annotations.comments;
     const auto before = comments.find(packet);
     const auto comment = askForText(
         {tr("Comment on packet %1").arg(grouped(packet)), tr("&Comment (leave empty to remove it)"),
@@ -440,7 +441,7 @@ void PacketsPanel::applyCell(FilterJoin join) {
         return;
     }
     m_commands.setDisplayFilter(
-        joinedFilter(QString::fromStdString(m_view.displayFilter()), condition, join));
+        joinedFilter(QString::fromStdString(m_view.choices().displayFilter), condition, join));
     refresh();
 }
 

@@ -5,6 +5,7 @@
 #include "app/gui/models/text.h"
 #include "app/gui/panels/filter_bar.h"
 #include "app/gui/panels/fitting_header.h"
+#include "core/model/session/accounts.h"
 
 #include <QPushButton>
 #include <QScopedValueRollback>
@@ -73,7 +74,8 @@ void PacketsPanel::refresh() {
     m_packets.refresh();
     followSelection();
     followCursor();
-    const bool isHeld = m_view.selection().packet || m_view.cursor().mode == model::Cursor::Mode::Paused;
+    const bool isHeld =
+        m_view.choices().selection.packet || m_view.choices().cursor.mode == model::Cursor::Mode::Paused;
     if (std::exchange(m_isHeld, isHeld) && !isHeld) {
         m_list->setFollowing(true); // all is live again
     }
@@ -96,7 +98,7 @@ void PacketsPanel::takeMatches() {
 
 /// Where the operator stops in the past, the list shows what was received by then.
 void PacketsPanel::followCursor() {
-    const model::Cursor& cursor = m_view.cursor();
+    const model::Cursor& cursor = m_view.choices().cursor;
     const bool isPaused = cursor.mode == model::Cursor::Mode::Paused;
     const std::optional<std::uint64_t> stop = isPaused ? std::optional(cursor.packet) : std::nullopt;
     if (stop == m_stoppedAt) {
@@ -112,8 +114,8 @@ void PacketsPanel::followCursor() {
 }
 
 void PacketsPanel::followRange() {
-    const auto chosen = m_view.rangeChoice().fixed;
-    const auto packet = m_view.selection().packet;
+    const auto chosen = m_view.choices().range.fixed;
+    const auto packet = m_view.choices().selection.packet;
     if (std::exchange(m_chosenRange, chosen) != chosen) {
         m_range = chosen;
     } else if (m_range && packet && packet != m_selectedPacket) {
@@ -126,10 +128,10 @@ void PacketsPanel::followRange() {
 
 /// The session's filter may have been set by another dock.
 void PacketsPanel::followFilter() {
-    const model::Jump* jump = m_view.filterJump();
+    const model::Jump* jump = m_view.choices().filterJump();
     m_filter->setJump(jump == nullptr ? std::nullopt
                                       : std::optional(QString::fromStdString(jump->filterBefore)));
-    const QString text = QString::fromStdString(m_view.displayFilter());
+    const QString text = QString::fromStdString(m_view.choices().displayFilter);
     // What a sender's positions come in turns out, or is declared, while it sends.
     const auto units = m_comparesLengths ? unusualPositionUnits(m_view) : PositionUnits();
     const log::Stamp first = m_view.firstStamp(); // from which times count: of the first packet, once there
@@ -158,7 +160,7 @@ void PacketsPanel::followFilter() {
         m_packets.beginMatches();
         m_filtered = 0;
         m_unfiltered = 0;
-        m_backlog = m_view.digests().end() - m_view.digests().begin();
+        m_backlog = m_view.accounts().digests().end() - m_view.accounts().digests().begin();
         m_run = std::make_unique<PacketFilterRun>(m_view, *std::move(compiled), m_filterUnits);
     }
 }
@@ -185,18 +187,18 @@ void PacketsPanel::focusList() {
 }
 
 void PacketsPanel::goBack() {
-    if (!m_view.canGoBack()) {
+    if (!m_view.choices().canGoBack()) {
         say(tr("There is nothing to go back to: no jump led here."));
         return;
     }
     focusList();
     m_commands.goBack();
     refresh();
-    m_list->setFollowing(!m_view.selection().packet);
+    m_list->setFollowing(!m_view.choices().selection.packet);
 }
 
 void PacketsPanel::followSelection() {
-    const auto packet = m_view.selection().packet;
+    const auto packet = m_view.choices().selection.packet;
     const int row = packet ? m_packets.rowOf(*packet) : -1;
     if (row == m_list->currentIndex().row()) {
         return;

@@ -91,7 +91,7 @@ void RangeStrip::paintRange(QPainter& painter) const {
 
 /// Only where it is not at the end.
 void RangeStrip::paintCursor(QPainter& painter) const {
-    if (m_view.cursor().mode == model::Cursor::Mode::Paused) {
+    if (m_view.choices().cursor.mode == model::Cursor::Mode::Paused) {
         const double x = std::clamp(placeOf(m_view.cursorStamp()), 0.0, width() - 1.0);
         painter.setPen(QPen(theme().text, 1.5));
         painter.drawLine(QPointF(x, 0), QPointF(x, height()));
@@ -305,10 +305,11 @@ void SpanBar::add(const QString& text, const QString& toolTip,
 }
 
 void SpanBar::refresh() {
-    const model::RangeChoice& chosen = m_view.rangeChoice();
+    const model::RangeChoice& chosen = m_view.choices().range;
     for (const auto& [button, choice] : m_buttons) {
         const bool isDragged = !choice && chosen.fixed;
-        const bool isThere = choice ? !choice->isSinceReset || m_view.reset() != log::Stamp() : isDragged;
+        const bool isThere =
+            choice ? !choice->isSinceReset || m_view.choices().reset != log::Stamp() : isDragged;
         button->setChecked(isDragged || choice == std::optional(chosen));
         button->setVisible(isThere);
     }

@@ -5,6 +5,7 @@
 #include "app/gui/models/computer_facts.h"
 #include "app/gui/models/display_filter.h"
 #include "app/gui/models/shown_character.h"
+#include "core/model/session/roster.h"
 
 #include <QMenu>
 #include <QSplitter>
@@ -84,7 +85,7 @@ void StatisticsPanel::foldEnded() {
 }
 
 QString StatisticsPanel::summary() const {
-    const std::size_t count = m_view.streams().size();
+    const std::size_t count = m_view.roster().streams().size();
     if (count == 0) {
         return {};
     }

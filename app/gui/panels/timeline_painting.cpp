@@ -6,6 +6,8 @@
 #include "app/gui/panels/table_view.h"
 #include "app/gui/panels/timeline_view.h"
 #include "app/gui/theme/theme.h"
+#include "core/model/session/roster.h"
+#include "core/model/session/verdict.h"
 
 #include <QDateTime>
 #include <QPainter>
@@ -154,7 +156,7 @@ void TimelineView::paintIncidents(QPainter& painter) const {
     painter.setRenderHint(QPainter::Antialiasing);
     painter.setPen(Qt::NoPen);
     double last = -2 * size;
-    for (const model::Incident* one : worstLast(m_view.incidents().all())) {
+    for (const model::Incident* one : worstLast(m_view.verdicts().incidents().all())) {
         const model::Incident& incident = *one;
         const double x = placeOf(incident.firstStamp);
         const bool goesOn = incident.isCurrent && incident.kind == model::IncidentKind::Outage;
@@ -190,7 +192,7 @@ void TimelineView::paintRow(QPainter& painter, std::size_t row) {
     if (row % 2 == 1) {
         painter.fillRect(rect, withAlpha(theme().raised, 0.5));
     }
-    const bool isSelected = m_view.isSelected(shown.character) && !shown.type;
+    const bool isSelected = m_view.roster().isSelected(shown.character) && !shown.type;
     if (isSelected) {
         painter.fillRect(QRect(rect.left(), rect.top(), namesWidth(), rect.height()), theme().selection);
     }
@@ -251,7 +253,7 @@ void TimelineView::paintStrip(QPainter& painter, const TimelineModel::Row& row, 
 
 void TimelineView::paintRange(QPainter& painter) const {
     const auto range = m_view.range();
-    if (!range || !m_view.rangeChoice().fixed) {
+    if (!range || !m_view.choices().range.fixed) {
         return;
     }
     const QRectF shade(QPointF(placeOf(range->from), 0),

@@ -9,6 +9,7 @@
 #include "app/gui/theme/theme.h"
 #include "app/gui/theme/widgets.h"
 #include "core/model/body/character_pose.h"
+#include "core/model/session/messages.h"
 
 #include <QAction>
 #include <QHBoxLayout>
@@ -83,8 +84,8 @@ void TimelinePanel::refresh() {
     m_timeline->refresh();
     m_thumbnail->refresh();
     m_live->setVisible(!m_view.isRecording());
-    m_live->setEnabled(m_view.cursor().mode == model::Cursor::Mode::Paused);
-    m_range->setEnabled(m_view.rangeChoice().fixed.has_value());
+    m_live->setEnabled(m_view.choices().cursor.mode == model::Cursor::Mode::Paused);
+    m_range->setEnabled(m_view.choices().range.fixed.has_value());
     m_moment->setText(momentText());
 }
 
@@ -97,7 +98,7 @@ QString TimelinePanel::momentText() const {
         tr("%1 · +%2 s")
             .arg(timeOfDay(m_view.wallOf(moment)), fixed(log::secondsOf(moment - m_view.firstStamp()), 3));
     const auto key = shownCharacter(m_view);
-    if (const model::CharacterPose* pose = key ? m_view.pose(*key) : nullptr) {
+    if (const model::CharacterPose* pose = key ? m_view.messages().pose(*key) : nullptr) {
         text += tr(" · TC %1").arg(milliClock(pose->timeCode));
     }
     return text;

@@ -6,6 +6,8 @@
 #include "app/gui/panels/cell_delegate.h"
 #include "app/gui/theme/plain_text.h"
 #include "app/gui/theme/theme.h"
+#include "core/model/session/roster.h"
+#include "core/model/session/verdict.h"
 
 #include <QHelpEvent>
 #include <QKeyEvent>
@@ -84,7 +86,7 @@ void TimelineView::followNow(const model::TimeRange& span) {
         return;
     }
     const log::Duration length = m_window.to - m_window.from;
-    const bool isLive = m_view.cursor().mode == model::Cursor::Mode::Following;
+    const bool isLive = m_view.choices().cursor.mode == model::Cursor::Mode::Following;
     if (m_isAtNow && isLive) {
         m_window = {span.to - length, span.to};
     }
@@ -272,7 +274,7 @@ void TimelineView::keyPressEvent(QKeyEvent* event) {
 
 void TimelineView::toggleStreams() {
     const auto isWanted = [this](const TimelineModel::Row& row) {
-        return !row.type && m_view.isSelected(row.character);
+        return !row.type && m_view.roster().isSelected(row.character);
     };
     const auto chosen = std::ranges::find_if(m_model.rows(), isWanted);
     if (!m_model.rows().empty()) {
@@ -292,7 +294,7 @@ const model::Incident* TimelineView::incidentAt(const QPoint& place) const {
         place.x() >= namesWidth() && place.y() >= rulerHeight() - lane && place.y() < rulerHeight();
     const model::Incident* nearest = nullptr;
     double least = lane / 2.0;
-    for (const model::Incident& incident : m_view.incidents().all()) {
+    for (const model::Incident& incident : m_view.verdicts().incidents().all()) {
         const double distance = std::abs(placeOf(incident.firstStamp) - place.x());
         // Of those in one place the worst lies on top.
         const bool isOver = nearest != nullptr && std::abs(distance - least) < 1;

@@ -8,6 +8,8 @@
 #include "app/net/connection_help.h"
 #include "core/log/ip_address.h"
 #include "core/model/body/character_pose.h"
+#include "core/model/session/messages.h"
+#include "core/model/session/roster.h"
 
 #include <algorithm>
 #include <chrono>
@@ -20,9 +22,10 @@ namespace {
 
 /// Of the poses that are shown; 0 where there is none.
 double poseRateHz(model::SessionView& session, const model::CharacterKey& key) {
-    const model::CharacterPose* pose = session.pose(key);
+    const model::CharacterPose* pose = session.messages().pose(key);
     const model::Stream* stream =
-        pose == nullptr ? nullptr : session.find(log::StreamKey{key.sender, key.character, pose->type});
+        pose == nullptr ? nullptr
+                        : session.roster().find(log::StreamKey{key.sender, key.character, pose->type});
     return stream == nullptr ? 0 : stream->statistics.rateHz();
 }
 
@@ -145,7 +148,7 @@ EmptyState waiting(const ReceivingState& receiving) {
 
 EmptyState withoutPose(model::SessionView& session, const QString& file) {
     QStringList types;
-    for (const model::Stream& stream : session.streams()) {
+    for (const model::Stream& stream : session.roster().streams()) {
         const QString type = QStringLiteral("%1").arg(stream.key.type, 2, 10, QLatin1Char('0'));
         if (!types.contains(type)) {
             types += type;
@@ -167,41 +170,42 @@ EmptyState withoutPose(model::SessionView& session, const QString& file) {
 } // namespace
 
 double shownAgeSeconds(model::SessionView& session, const model::CharacterKey& key) {
-    const model::CharacterPose* pose = session.pose(key);
+    const model::CharacterPose* pose = session.messages().pose(key);
     if (pose == nullptr) {
-        return session.ageSeconds(key);
+        return session.messages().ageSeconds(key);
     }
     return std::max(0.0, log::secondsOf(session.cursorStamp() - pose->stamp));
 }
 
 bool isRenumbered(model::SessionView& session, const model::CharacterKey& key) {
     constexpr log::Duration kEarly = std::chrono::seconds(2); // metadata may come before the last pose
-    const model::CharacterPose* pose = session.pose(key);
+    const model::CharacterPose* pose = session.messages().pose(key);
     if (pose == nullptr || shownAgeSeconds(session, key) < kStaleAge) {
         return false;
     }
     const log::Stamp silent = pose->stamp;
-    const model::ForeignText name = session.displayName(key);
+    const model::ForeignText name = session.roster().displayName(key);
     const auto hostOf = [&session](const model::CharacterKey& one) {
-        return std::string(log::hostOf(session.addressOf(one.sender).shown()));
+        return std::string(log::hostOf(session.roster().addressOf(one.sender).shown()));
     };
-    return std::ranges::any_of(session.currentCharacters(), [&](const model::Character* other) {
-        const model::MetadataTag* tag = session.metadata(other->key).find("name");
+    return std::ranges::any_of(session.roster().listed(), [&](const model::Character* other) {
+        const model::MetadataTag* tag = session.messages().metadata(other->key).find("name");
         const bool isNamesake = other->key != key && tag != nullptr &&
-                                session.displayName(other->key) == name && hostOf(other->key) == hostOf(key);
-        const model::CharacterPose* its = isNamesake ? session.pose(other->key) : nullptr;
+                                session.roster().displayName(other->key) == name &&
+                                hostOf(other->key) == hostOf(key);
+        const model::CharacterPose* its = isNamesake ? session.messages().pose(other->key) : nullptr;
         return its != nullptr && log::secondsOf(its->stamp - silent) >= kStaleAge &&
                tag->values.back().stamp + kEarly >= silent;
     });
 }
 
 PropertyValue characterHealth(model::SessionView& session, const model::CharacterKey& key) {
-    const model::Character* character = session.find(key);
+    const model::Character* character = session.roster().find(key);
     const PropertyValue state = character == nullptr ? PropertyValue{} : characterState(session, *character);
     if (state.health != Health::Good) {
         return state;
     }
-    if (session.pose(key) == nullptr) {
+    if (session.messages().pose(key) == nullptr) {
         return {tr("no pose"), Health::Good};
     }
     const double rateHz = poseRateHz(session, key);
@@ -209,9 +213,9 @@ PropertyValue characterHealth(model::SessionView& session, const model::Characte
 }
 
 EmptyState emptyState(model::SessionView& session, const ReceivingState& receiving, const QString& file) {
-    const auto characters = session.currentCharacters();
+    const auto characters = session.roster().listed();
     const bool hasPose = std::ranges::any_of(characters, [&](const model::Character* character) {
-        return session.pose(character->key) != nullptr;
+        return session.messages().pose(character->key) != nullptr;
     });
     if (hasPose) {
         return {};
@@ -219,10 +223,10 @@ EmptyState emptyState(model::SessionView& session, const ReceivingState& receivi
     if (!characters.empty()) {
         return withoutPose(session, file);
     }
-    const auto stranger = std::ranges::find_if(session.senders(), [](const model::Sender& sender) {
+    const auto stranger = std::ranges::find_if(session.roster().senders(), [](const model::Sender& sender) {
         return sender.foreign > 0 && !sender.foreignHead.empty();
     });
-    if (stranger != session.senders().end()) {
+    if (stranger != session.roster().senders().end()) {
         return foreign(*stranger);
     }
     if (!file.isEmpty()) {

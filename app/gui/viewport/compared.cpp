@@ -6,6 +6,8 @@
 #include "app/gui/theme/words.h"
 #include "app/gui/viewport/overlays.h"
 #include "app/gui/viewport/scene.h"
+#include "core/model/session/messages.h"
+#include "core/model/session/roster.h"
 
 #include <algorithm>
 
@@ -34,21 +36,21 @@ model::CharacterPose laid(model::CharacterPose pose, const model::SegmentPose& p
 
 void SceneBuilder::addCompared(SceneFrame& frame) {
     if (m_comparison == nullptr || m_comparison->second == nullptr || !m_comparison->atCursor ||
-        m_session.isHidden(m_comparison->pair->first)) {
+        m_session.roster().isHidden(m_comparison->pair->first)) {
         return;
     }
     const model::SessionView& second = *m_comparison->second;
-    const model::CharacterPose* first = m_session.pose(m_comparison->pair->first);
+    const model::CharacterPose* first = m_session.messages().pose(m_comparison->pair->first);
     const bool isAsSent = m_comparison->choice.frame == model::DifferenceFrame::World;
-    for (const model::Character* one : second.currentCharacters()) {
+    for (const model::Character* one : second.roster().listed()) {
         const bool isIts = one->key == m_comparison->pair->second;
-        const model::CharacterPose* pose = isIts || isAsSent ? second.pose(one->key) : nullptr;
+        const model::CharacterPose* pose = isIts || isAsSent ? second.messages().pose(one->key) : nullptr;
         if (pose == nullptr || pose->isObjects || first == nullptr) {
             continue;
         }
         const model::CharacterPose placed = laid(*pose, placeOf(*m_comparison, first->moved));
         Figure body = bodyOf(second, one->key, placed);
-        const model::Colour colour = second.colour(one->key);
+        const model::Colour colour = second.roster().colour(one->key);
         body.look.colour = {colour.red, colour.green, colour.blue};
         body.look.opacity = kComparedOpacity;
         if (isIts) {
@@ -69,12 +71,12 @@ void SceneBuilder::addDifferences(const model::CharacterPose& first, const model
     constexpr float kPoint = 8.0F;
     constexpr float kSelected = 1.6F;
     const DifferenceScale scale = scaleOf(*m_comparison);
-    const model::Selection& selection = m_session.selection();
+    const model::Selection& selection = m_session.choices().selection;
     const bool isBeside = m_comparison->choice.isBeside;
     for (const model::SegmentDifference& one : m_comparison->atCursor->segments) {
         const bool isFinger = one.slot >= model::kBodySegmentCount + model::kMaxPropCount;
         const bool isSelected =
-            selection.segment == one.first && m_session.isSelected(m_comparison->pair->first);
+            selection.segment == one.first && m_session.roster().isSelected(m_comparison->pair->first);
         if (isFinger && !isSelected) {
             continue; // a hand is as one
         }

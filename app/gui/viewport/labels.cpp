@@ -5,6 +5,7 @@
 #include "app/gui/models/text.h"
 #include "app/gui/viewport/camera_motion.h"
 #include "app/gui/viewport/picking.h"
+#include "core/model/session/roster.h"
 
 #include <algorithm>
 #include <cmath>
@@ -37,7 +38,7 @@ std::optional<ViewportLabel> labelOf(const Figure& figure, const render::Camera&
                   figure.key.character};
     label.name = nameApart(session, figure.key);
     label.state = characterHealth(session, figure.key);
-    label.isSelected = session.isSelected(figure.key);
+    label.isSelected = session.roster().isSelected(figure.key);
     return label;
 }
 

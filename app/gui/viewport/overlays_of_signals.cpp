@@ -3,6 +3,7 @@
 #include "app/gui/viewport/overlays.h"
 #include "core/model/body/ground_contact.h"
 #include "core/model/body/points.h"
+#include "core/model/session/messages.h"
 
 #include <algorithm>
 
@@ -129,7 +130,7 @@ void drawCentreOfMass(const OverlaySubject& subject, SceneFrame& frame) {
     const double unit = model::metresPer(unitOf(subject, wire::CentreOfMass::kType));
     std::vector<glm::vec3> way;
     const log::StreamKey stream{subject.key.sender, subject.key.character, wire::CentreOfMass::kType};
-    subject.session.visit(
+    subject.session.messages().visit(
         stream, subject.session.cursorStamp() - kBack, kMost, [&](const model::Message& one) {
             const auto* sent = std::get_if<wire::CentreOfMass>(&one.datagram.body);
             const Eigen::Vector3d place = unit * model::toVector(sent->position) + subject.pose.moved;
@@ -152,7 +153,8 @@ void drawCentreOfMass(const OverlaySubject& subject, SceneFrame& frame) {
 }
 
 void drawContacts(const OverlaySubject& subject, SceneFrame& frame) {
-    const auto contacts = model::soleContacts(subject.pose, subject.session.bodyOrigins(subject.key));
+    const auto contacts =
+        model::soleContacts(subject.pose, subject.session.messages().bodyOrigins(subject.key));
     const glm::vec4 ink = inkOf(theme().good, subject.strength);
     for (const Eigen::Vector3d& contact : contacts) {
         frame.points.push_back({onFloor(pointOf(contact)), ink, 6.0F, 1.0F});
@@ -187,17 +189,17 @@ void drawTrails(const OverlaySubject& subject, SceneFrame& frame) {
     const std::uint8_t type = subject.pose.type;
     const model::LengthUnit unit = unitOf(subject, type);
     std::vector<std::vector<glm::vec3>> ways(segments.size());
-    subject.session.visit({subject.key.sender, subject.key.character, type},
-                          subject.session.cursorStamp() - kBack, kMost, [&](const model::Message& one) {
-                              for (std::size_t i = 0; i < segments.size(); ++i) {
-                                  const auto place = positionIn(one.datagram.body, segments[i], unit);
-                                  const auto at = place ? pointOf(*place + subject.pose.moved) : glm::vec3();
-                                  if (place &&
-                                      (ways[i].empty() || glm::distance(ways[i].back(), at) > 0.01F)) {
-                                      ways[i].push_back(at);
-                                  }
-                              }
-                          });
+    subject.session.messages().visit(
+        {subject.key.sender, subject.key.character, type}, subject.session.cursorStamp() - kBack, kMost,
+        [&](const model::Message& one) {
+            for (std::size_t i = 0; i < segments.size(); ++i) {
+                const auto place = positionIn(one.datagram.body, segments[i], unit);
+                const auto at = place ? pointOf(*place + subject.pose.moved) : glm::vec3();
+                if (place && (ways[i].empty() || glm::distance(ways[i].back(), at) > 0.01F)) {
+                    ways[i].push_back(at);
+                }
+            }
+        });
     for (const auto& way : ways) {
         addWay(way, glm::vec4(subject.colour, subject.strength), 2.2F, frame);
     }

@@ -93,7 +93,7 @@ void PictureLoop::drawNext() {
     m_builder->setInterpolating(m_isInterpolating);
     m_builder->setComparison(m_comparison);
     // Between two moments at rest no pictures come in which the camera could glide.
-    const model::Cursor& cursor = m_session->cursor();
+    const model::Cursor& cursor = m_session->choices().cursor;
     const bool isAtRest = cursor.mode == model::Cursor::Mode::Paused && cursor.speed == 0;
     const bool isElsewhere = isAtRest && cursor.packet != m_followedPacket;
     const double seconds =
@@ -139,7 +139,7 @@ bool PictureLoop::isSettled() const {
     const bool isIdle = !m_isOutdated && m_drawing == nullptr;
     // A moment that is held has to be shown itself.
     const bool isStreaming =
-        !m_session->isRecording() && m_session->cursor().mode == model::Cursor::Mode::Following;
+        !m_session->isRecording() && m_session->choices().cursor.mode == model::Cursor::Mode::Following;
     return m_shown != nullptr && (isIdle || (isStreaming && m_session->now() - m_shownBuilt < kFresh));
 }
 

@@ -42,7 +42,7 @@ PictureSeries::PictureSeries(model::SessionView& session, Playback& playback, co
       m_request(std::move(request)),
       m_builder(session, render::Detail::High),
       m_overlay(new ViewportOverlay(&m_host)),
-      m_wasLive(session.cursor().mode == model::Cursor::Mode::Following),
+      m_wasLive(session.choices().cursor.mode == model::Cursor::Mode::Following),
       m_shownBefore(session.cursorStamp()),
       m_thread(std::make_unique<DrawingThread>([this] {
           QMetaObject::invokeMethod(

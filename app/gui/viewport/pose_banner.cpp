@@ -7,6 +7,8 @@
 #include "app/gui/viewport/viewport_overlay.h"
 #include "core/model/body/character_pose.h"
 #include "core/model/body/pose_remark.h"
+#include "core/model/session/messages.h"
+#include "core/model/session/roster.h"
 #include "core/model/text.h"
 
 #include <QEvent>
@@ -30,11 +32,11 @@ struct Group {
 
 std::vector<Group> groupsOf(const model::SessionView& session) {
     std::vector<Group> groups;
-    for (const model::Character* character : session.currentCharacters()) {
-        if (session.isHidden(character->key)) {
+    for (const model::Character* character : session.roster().listed()) {
+        if (session.roster().isHidden(character->key)) {
             continue;
         }
-        model::PoseRemark remark = session.poseRemark(character->key);
+        model::PoseRemark remark = session.messages().poseRemark(character->key);
         if (remark.isEmpty()) {
             continue;
         }
@@ -43,7 +45,7 @@ std::vector<Group> groupsOf(const model::SessionView& session) {
         if (same == groups.end()) {
             same = groups.insert(groups.end(), {std::move(remark), {}});
         }
-        same->names.push_back(session.displayName(character->key).shown());
+        same->names.push_back(session.roster().displayName(character->key).shown());
     }
     std::ranges::stable_sort(groups, std::ranges::greater(),
                              [](const Group& group) { return group.remark.isAssumed; });
@@ -107,9 +109,9 @@ void PoseBanner::refresh(const model::SessionView& session, bool isInterpolated)
             {Health::Unknown, tr("Interpolated between samples: bodies are shown up to one sample late")});
     }
     std::vector<model::CharacterKey> below;
-    for (const model::Character* character : session.currentCharacters()) {
-        const model::CharacterPose* pose = session.pose(character->key);
-        if (pose != nullptr && !session.isHidden(character->key) && model::isBelowFloor(*pose)) {
+    for (const model::Character* character : session.roster().listed()) {
+        const model::CharacterPose* pose = session.messages().pose(character->key);
+        if (pose != nullptr && !session.roster().isHidden(character->key) && model::isBelowFloor(*pose)) {
             below.push_back(character->key);
         }
     }

@@ -11,7 +11,9 @@
 #include "core/model/body/null_pose_measures.h"
 #include "core/model/body/pose_remark.h"
 #include "core/model/body/reference_body.h"
+#include "core/model/session/messages.h"
 #include "core/model/session/prop_names.h"
+#include "core/model/session/roster.h"
 
 #include <algorithm>
 #include <cmath>
@@ -192,11 +194,11 @@ float dimFor(double ageSeconds) {
 std::shared_ptr<const FigureBody> SceneBuilder::fitOf(const model::SessionView& session,
                                                       const model::CharacterKey& key, double scale) {
     render::NullPose performer{};
-    const model::BodyOrigins& origins = session.bodyOrigins(key);
+    const model::BodyOrigins& origins = session.messages().bodyOrigins(key);
     static_assert(std::tuple_size_v<decltype(origins.places)> == std::tuple_size_v<render::NullPose>);
     std::ranges::transform(origins.places, performer.begin(),
                            [&](const Eigen::Vector3d& origin) { return pointOf(scale * origin); });
-    const model::NullPose* nullPose = session.nullPose(key);
+    const model::NullPose* nullPose = session.messages().nullPose(key);
     return nullPose == nullptr || scale != 1 ? m_bodies.of(performer)
                                              : m_bodies.of(performer, fingerOriginsOf(*nullPose, origins));
 }
@@ -206,8 +208,9 @@ bool SceneBuilder::isUnderWay() const {
 }
 
 const model::CharacterPose* SceneBuilder::poseOf(const model::CharacterKey& key) {
-    const model::CharacterPose* pose = m_session.isHidden(key) ? nullptr : m_session.pose(key);
-    const bool isFollowing = m_session.cursor().mode == model::Cursor::Mode::Following;
+    const model::CharacterPose* pose =
+        m_session.roster().isHidden(key) ? nullptr : m_session.messages().pose(key);
+    const bool isFollowing = m_session.choices().cursor.mode == model::Cursor::Mode::Following;
     if (pose == nullptr || !m_isInterpolating || !isFollowing || m_session.isRecording()) {
         m_motions.erase(key);
         return pose;
@@ -217,14 +220,14 @@ const model::CharacterPose* SceneBuilder::poseOf(const model::CharacterKey& key)
 
 void SceneBuilder::build(AxesMode axes, const Overlays& overlays, SceneFrame& frame) {
     frame.colours = themedSceneColours();
-    const model::Selection& selection = m_session.selection();
-    const std::vector<const model::Character*> characters = m_session.currentCharacters();
+    const model::Selection& selection = m_session.choices().selection;
+    const std::vector<const model::Character*> characters = m_session.roster().listed();
     std::erase_if(m_motions, [&characters](const auto& motion) {
         return std::ranges::none_of(
             characters, [&motion](const model::Character* one) { return one->key == motion.first; });
     });
     const bool isOneSelected = std::ranges::any_of(
-        characters, [this](const model::Character* one) { return m_session.isSelected(one->key); });
+        characters, [this](const model::Character* one) { return m_session.roster().isSelected(one->key); });
     for (const model::Character* shown : characters) {
         const model::Character& character = *shown;
         const model::CharacterPose* pose = poseOf(character.key);
@@ -237,7 +240,7 @@ void SceneBuilder::build(AxesMode axes, const Overlays& overlays, SceneFrame& fr
         }
         addFigure(character, *pose, frame);
         Figure& figure = frame.figures.back();
-        const bool isSelected = m_session.isSelected(character.key);
+        const bool isSelected = m_session.roster().isSelected(character.key);
         figure.look.isSelected = isSelected;
         figure.look.selectedSegment =
             isSelected && selection.segment < model::kBodySegmentCount ? selection.segment : -1;
@@ -258,7 +261,7 @@ void SceneBuilder::build(AxesMode axes, const Overlays& overlays, SceneFrame& fr
                          1.0F - figure.look.dim},
                         frame);
         }
-        if (m_session.isGhostShown() && shownCharacter(m_session) == character.key) {
+        if (m_session.choices().isGhostShown && shownCharacter(m_session) == character.key) {
             addGhost(figure, *pose, frame);
         }
     }
@@ -294,7 +297,7 @@ Figure SceneBuilder::bodyOf(const model::SessionView& session, const model::Char
                             const model::CharacterPose& pose) {
     Figure figure;
     figure.key = key;
-    figure.body = fitOf(session, key, model::scaleInPose(pose, session.bodyOrigins(key)));
+    figure.body = fitOf(session, key, model::scaleInPose(pose, session.messages().bodyOrigins(key)));
     makePalette(pose, figure);
     const glm::vec3 head = figure.body->fit.origins[render::Head];
     figure.labelPosition =
@@ -305,7 +308,7 @@ Figure SceneBuilder::bodyOf(const model::SessionView& session, const model::Char
 /// The user's own body in the pose that the mannequin has.
 void SceneBuilder::dress(Figure& figure) {
     const auto dressed =
-        m_wardrobe.isEmpty() ? nullptr : m_wardrobe.of(shown(m_session.displayName(figure.key)));
+        m_wardrobe.isEmpty() ? nullptr : m_wardrobe.of(shown(m_session.roster().displayName(figure.key)));
     if (dressed == nullptr) {
         return;
     }
@@ -327,7 +330,7 @@ void SceneBuilder::dress(Figure& figure) {
 
 render::CharacterLook SceneBuilder::lookOf(const model::CharacterKey& key) const {
     render::CharacterLook look;
-    const model::Colour colour = m_session.colour(key);
+    const model::Colour colour = m_session.roster().colour(key);
     look.colour = {colour.red, colour.green, colour.blue};
     const double age = shownAgeSeconds(m_session, key);
     look.dim = dimFor(age);
@@ -360,7 +363,7 @@ void SceneBuilder::addObjects(const model::Character& character, const model::Ch
 }
 
 void SceneBuilder::addGhost(const Figure& figure, const model::CharacterPose& pose, SceneFrame& frame) {
-    const model::NullPose* nullPose = m_session.nullPose(figure.key);
+    const model::NullPose* nullPose = m_session.messages().nullPose(figure.key);
     if (nullPose == nullptr || !pose.isPresent(render::Pelvis)) {
         return;
     }

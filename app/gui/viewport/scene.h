@@ -5,7 +5,7 @@
 #include "core/log/time.h"
 #include "core/model/body/character_pose.h"
 #include "core/model/body/pose_interpolation.h"
-#include "core/model/keys.h"
+#include "core/model/session/roster.h"
 #include "core/model/session/session_view.h"
 #include "render/mesh/prop_shapes.h"
 #include "render/renderer.h"

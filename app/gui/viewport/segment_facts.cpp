@@ -6,6 +6,8 @@
 #include "app/gui/theme/words.h"
 #include "core/model/body/joint_angles.h"
 #include "core/model/body/source_text.h"
+#include "core/model/session/messages.h"
+#include "core/model/session/roster.h"
 
 #include <algorithm>
 #include <cmath>
@@ -81,12 +83,12 @@ void addJoint(const PoseSubject& subject, int segment, SegmentFacts& known) {
 
 const model::Message* freshMessage(const PoseSubject& subject, std::uint8_t type) {
     constexpr log::Duration kTogether = std::chrono::milliseconds(250);
-    const model::Message* message = subject.session.message(subject.key, type);
+    const model::Message* message = subject.session.messages().message(subject.key, type);
     return message != nullptr && message->stamp + kTogether >= subject.pose.stamp ? message : nullptr;
 }
 
 model::LengthUnit unitOf(const PoseSubject& subject, std::uint8_t type) {
-    const model::Sender* sender = subject.session.find(subject.key.sender);
+    const model::Sender* sender = subject.session.roster().find(subject.key.sender);
     return sender != nullptr ? sender->positionUnit(type) : model::LengthUnit::Metre;
 }
 

@@ -8,6 +8,8 @@
 #include "app/gui/viewport/pose_banner.h"
 #include "app/gui/viewport/segment_card.h"
 #include "app/gui/viewport/viewport_overlay.h"
+#include "core/model/session/messages.h"
+#include "core/model/session/roster.h"
 
 #include <QApplication>
 #include <QMouseEvent>
@@ -96,11 +98,11 @@ void ViewportWidget::updateOverlay() {
 void ViewportWidget::updateWords() {
     constexpr log::Duration kEvery = std::chrono::milliseconds(100);
     const log::Stamp now = m_session->now();
-    const bool isFollowing = m_session->cursor().mode == model::Cursor::Mode::Following;
-    const bool isAsked = m_session->selection() != m_wordsSelection;
+    const bool isFollowing = m_session->choices().cursor.mode == model::Cursor::Mode::Following;
+    const bool isAsked = m_session->choices().selection != m_wordsSelection;
     if (isAsked || !isFollowing || now >= m_wordsStamp + kEvery || now < m_wordsStamp) {
         m_wordsStamp = now;
-        m_wordsSelection = m_session->selection();
+        m_wordsSelection = m_session->choices().selection;
         m_banner->refresh(*m_session, m_choice->isSwitchedOn(ViewSwitch::Interpolation));
         updateCard();
     }
@@ -109,13 +111,13 @@ void ViewportWidget::updateWords() {
 /// Of what the pointer rests on, else of the selected segment.
 void ViewportWidget::updateCard() {
     std::optional<PickedSegment> about = m_hovered;
-    if (const model::Selection& selected = m_session->selection();
+    if (const model::Selection& selected = m_session->choices().selection;
         !about && selected.character && selected.segment >= 0) {
         about = {*selected.character, selected.segment};
     }
     const bool isWanted =
-        m_choice->isSwitchedOn(ViewSwitch::Card) && about && !m_session->isHidden(about->key);
-    const model::CharacterPose* pose = isWanted ? m_session->pose(about->key) : nullptr;
+        m_choice->isSwitchedOn(ViewSwitch::Card) && about && !m_session->roster().isHidden(about->key);
+    const model::CharacterPose* pose = isWanted ? m_session->messages().pose(about->key) : nullptr;
     const bool isThere = pose != nullptr && pose->isPresent(static_cast<std::size_t>(about->segment));
     if (isThere && m_pictures->shown() != nullptr) {
         const QRect pane = m_choice->look().panes.place();
@@ -155,7 +157,7 @@ void ViewportWidget::updatePanes() {
 
 float ViewportWidget::heading() const {
     const auto key = shownCharacter(*m_session);
-    const model::CharacterPose* pose = key ? m_session->pose(*key) : nullptr;
+    const model::CharacterPose* pose = key ? m_session->messages().pose(*key) : nullptr;
     const bool isRelative = m_choice->isSwitchedOn(ViewSwitch::RelativeViews);
     if (!isRelative || pose == nullptr || pose->isObjects || !pose->isPresent(render::Pelvis)) {
         return 0;
@@ -188,7 +190,7 @@ void ViewportWidget::frameCharacter(const model::CharacterKey& key) {
     const SceneFrame* shown = m_pictures->shown();
     for (std::size_t i = 0; shown != nullptr && i < shown->figures.size(); ++i) {
         const Figure& figure = shown->figures[i];
-        if (m_session->isSame(figure.key, key) && !figure.bounds.isEmpty()) {
+        if (m_session->roster().isSame(figure.key, key) && !figure.bounds.isEmpty()) {
             ViewPanes& panes = m_choice->look().panes;
             panes.motion().show(paddedBounds(figure), panes.aspect());
             refresh();

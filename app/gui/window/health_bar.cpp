@@ -12,6 +12,7 @@
 #include "app/gui/theme/words.h"
 #include "app/gui/window/colour_text.h"
 #include "app/gui/window/health_popup.h"
+#include "core/model/session/verdict.h"
 
 #include <QHBoxLayout>
 #include <QToolButton>
@@ -175,7 +176,7 @@ void HealthBar::measure(const QFontMetrics& metrics) {
     grow(m_stateWidth, QStringLiteral("99 lost, network"), QStringLiteral("10.0 % lost, network, over"));
     grow(m_whatWidth, QStringLiteral("10.0 % lost"), QStringLiteral("10.0 % lost, over"));
     for (const model::CharacterKey& key : m_shown) {
-        const model::TakeVerdict& verdict = m_session.verdict(key);
+        const model::TakeVerdict& verdict = m_session.verdicts().of(key);
         grow(m_stateWidth, gui::said(verdict.said, words::Form::Brief),
              QStringLiteral("10.0 % lost, network, over"));
         grow(m_whatWidth, whatOf(verdict), QStringLiteral("10.0 % lost, over"));
@@ -220,12 +221,12 @@ void HealthBar::fitEntries() {
     m_more->setVisible(fitting < all);
     // The first that has no room is the worst of them.
     const Health worst =
-        fitting < all ? healthOf(m_session.verdict(m_shown[fitting]).state) : Health::Unknown;
+        fitting < all ? healthOf(m_session.verdicts().of(m_shown[fitting]).state) : Health::Unknown;
     m_more->setContent(worst == Health::Good ? Health::Unknown : worst, leftOut(all, fitting));
 }
 
 void HealthBar::showEntry(std::size_t index, const EntryRoom& room) {
-    const model::TakeVerdict& verdict = m_session.verdict(m_shown[index]);
+    const model::TakeVerdict& verdict = m_session.verdicts().of(m_shown[index]);
     const PropertyValue state = verdictState(verdict);
     const QString name = nameApart(m_session, m_shown[index]);
     ColourText* entry = m_entries[index];

@@ -11,6 +11,8 @@
 #include "app/gui/theme/plain_text.h"
 #include "app/gui/theme/widgets.h"
 #include "app/gui/theme/words.h"
+#include "core/model/session/accounts.h"
+#include "core/model/session/verdict.h"
 
 #include <QAbstractButton>
 #include <QKeyEvent>
@@ -146,7 +148,7 @@ protected:
 
 private:
     void addTitle(QVBoxLayout& column) {
-        const model::TakeVerdict& verdict = m_session.verdict(m_key);
+        const model::TakeVerdict& verdict = m_session.verdicts().of(m_key);
         const Health health = healthOf(verdict.state);
         auto* title = plainLabel(nameApart(m_session, m_key), this);
         QFont bold = title->font();
@@ -165,7 +167,7 @@ private:
     }
 
     void addTroubles(QVBoxLayout& column) {
-        const auto troubles = m_session.troublesOf(m_key);
+        const auto troubles = m_session.verdicts().troublesOf(m_key);
         for (std::size_t i = 0; i < std::min(kMostLines, troubles.size()); ++i) {
             const model::Incident& event = *troubles[i];
             QString text = said(event.of(m_key.character).fact(), words::Form::Sentence);
@@ -203,9 +205,9 @@ private:
             m_commands.frameCharacter(m_key);
         });
         add(QStringLiteral("allEvents"), tr("Show incidents"),
-            [this] { m_commands.showIncident(m_session.verdict(m_key).incident, m_key); });
-        if (const auto incident = m_session.verdict(m_key).incident) {
-            if (const model::Incident* found = m_session.incidents().find(*incident)) {
+            [this] { m_commands.showIncident(m_session.verdicts().of(m_key).incident, m_key); });
+        if (const auto incident = m_session.verdicts().of(m_key).incident) {
+            if (const model::Incident* found = m_session.verdicts().incidents().find(*incident)) {
                 add(QStringLiteral("meaning"), tr("What it means"),
                     [place = helpPlaceOf(*found)] { openHelp(place); });
             }
@@ -214,7 +216,7 @@ private:
     }
 
     void showPackets(std::uint64_t number) {
-        const model::Incident* event = m_session.incidents().find(number);
+        const model::Incident* event = m_session.verdicts().incidents().find(number);
         if (event == nullptr || !showPacketsOf(m_session, m_commands, *event)) {
             m_commands.showDock(QStringLiteral("events"));
         }
@@ -230,7 +232,7 @@ private:
 
 QString lossText(model::SessionView& session, const model::CharacterKey& key) {
     const model::TimeRange all{session.firstStamp(), session.cursorStamp() + log::Duration(1)};
-    const model::StreamCounts counts = session.countsOf(key, boardSpan(session).value_or(all));
+    const model::StreamCounts counts = session.accounts().countsOf(key, boardSpan(session).value_or(all));
     const QString span = boardSpanText(session);
     if (counts.expected() == 0) {
         return tr("No samples · %1").arg(span);

@@ -17,6 +17,7 @@
 #include "app/gui/window/keyboard.h"
 #include "app/gui/window/transport_bar.h"
 #include "app/gui/window/verdict_bar.h"
+#include "core/model/session/verdict.h"
 
 #include <QApplication>
 #include <QCloseEvent>
@@ -267,13 +268,14 @@ Settings MainWindow::settings() const {
         }
     }
     settings.viewport = m_viewport->choice().state();
-    settings.filter = QString::fromStdString(m_driver.commands().live().ownFilter());
+    settings.filter = QString::fromStdString(m_driver.commands().live().choices().ownFilter());
     const auto pathOf = [](const OpenedFile* file) {
         return file != nullptr ? QDir().absoluteFilePath(file->path()) : QString();
     };
     OpenedFile* const file = m_driver.commands().isFileShown() ? m_driver.files().file() : nullptr;
     settings.file = pathOf(file);
-    settings.fileFilter = file != nullptr ? QString::fromStdString(file->session().ownFilter()) : QString();
+    settings.fileFilter =
+        file != nullptr ? QString::fromStdString(file->session().choices().ownFilter()) : QString();
     settings.comparedFile = pathOf(m_driver.files().comparing().file());
     return settings;
 }
@@ -355,7 +357,7 @@ void MainWindow::editThresholds() {
 }
 
 void MainWindow::alert() {
-    if (m_sounds.isDue(m_driver.commands().live().incidents(), m_settings.alerts)) {
+    if (m_sounds.isDue(m_driver.commands().live().verdicts().incidents(), m_settings.alerts)) {
         QApplication::beep();
     }
     m_notifier.look(m_verdict->verdict(), m_settings.alerts.hasNotification);

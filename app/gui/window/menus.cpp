@@ -9,6 +9,7 @@
 #include "app/gui/window/report_saving.h"
 #include "app/gui/window/texts.h"
 #include "app/gui/window/viewport_entries.h"
+#include "core/model/session/verdict.h"
 
 #include <QAction>
 #include <QCoreApplication>
@@ -130,7 +131,7 @@ bool hasSpeed(const Window& window) {
 
 /// The evidence of the live verdict, as a click on it gives it.
 void showEvidence(Window& window) {
-    window.showEvidence(commands(window).live().verdicts().all.incident);
+    window.showEvidence(commands(window).live().verdicts().all().all.incident);
 }
 
 /// What figures are of: the newest seconds, or all.
@@ -143,11 +144,11 @@ void useSinceReset(Window& window) {
 }
 template <int seconds>
 bool isNewestUsed(const Window& window) {
-    return commands(window).session().rangeChoice() ==
+    return commands(window).session().choices().range ==
            model::RangeChoice{.last = std::chrono::seconds(seconds)};
 }
 bool isSinceResetUsed(const Window& window) {
-    return commands(window).session().rangeChoice().isSinceReset;
+    return commands(window).session().choices().range.isSinceReset;
 }
 
 /// Where the entries of panels go in a menu and in its submenus.

@@ -10,6 +10,8 @@
 #include "app/gui/theme/words.h"
 #include "app/gui/window/range_box.h"
 #include "core/model/accounting/stream_figures.h"
+#include "core/model/session/messages.h"
+#include "core/model/session/roster.h"
 
 #include <QCoreApplication>
 #include <QDialogButtonBox>
@@ -94,10 +96,10 @@ MotionExportDialog::~MotionExportDialog() {
 }
 
 void MotionExportDialog::listCharacters() {
-    for (const model::Character* one : m_view.atNow().currentCharacters()) {
+    for (const model::Character* one : m_view.atNow().roster().listed()) {
         auto* item = new QListWidgetItem(characterName(m_view, one->key), m_characters);
         item->setFlags(Qt::ItemIsEnabled | Qt::ItemIsSelectable | Qt::ItemIsUserCheckable);
-        item->setCheckState(m_view.isHidden(one->key) ? Qt::Unchecked : Qt::Checked);
+        item->setCheckState(m_view.roster().isHidden(one->key) ? Qt::Unchecked : Qt::Checked);
         item->setData(Qt::UserRole, QVariant::fromValue(static_cast<quint32>(one->key.sender)));
         item->setData(Qt::UserRole + 1, one->key.character);
     }
@@ -130,10 +132,10 @@ void MotionExportDialog::describe() {
     }
     for (const model::CharacterKey& key : chosen()) {
         const QString name = characterName(m_view, key);
-        if (m_view.pose(key) == nullptr) {
+        if (m_view.messages().pose(key) == nullptr) {
             text += u'\n' + tr("%1 sends no pose and is left out.").arg(name);
         }
-        for (const words::Fact& line : m_view.poseRemark(key).lines) {
+        for (const words::Fact& line : m_view.messages().poseRemark(key).lines) {
             text += u'\n' + tr("%1: %2.").arg(name, said(line, words::Form::Headline));
         }
     }

@@ -10,6 +10,7 @@
 #include "app/gui/window/recording_dialog.h"
 #include "app/gui/window/recovery_dialog.h"
 #include "app/gui/window/replay_dialog.h"
+#include "core/model/session/roster.h"
 
 #include <QDir>
 #include <QDockWidget>
@@ -142,7 +143,7 @@ void MainWindow::showReplay() {
 
 void MainWindow::exportMotion() {
     model::SessionView& session = m_driver.commands().session();
-    if (session.atNow().currentCharacters().empty()) {
+    if (session.atNow().roster().listed().empty()) {
         say(tr("There is no motion to export: no character has arrived yet."), HelpTopic::NothingToExport);
         return;
     }
@@ -150,7 +151,7 @@ void MainWindow::exportMotion() {
 }
 
 void MainWindow::exportPictures() {
-    if (m_driver.commands().session().atNow().currentCharacters().empty()) {
+    if (m_driver.commands().session().atNow().roster().listed().empty()) {
         say(tr("There is nothing to draw: no character has arrived yet."), HelpTopic::NothingToExport);
         return;
     }
@@ -162,12 +163,12 @@ void MainWindow::exportPictures() {
 void MainWindow::editOwnCharacter() {
     model::SessionView& session = m_driver.commands().session();
     QStringList names;
-    for (const model::Character* character : session.currentCharacters()) {
-        names += shown(session.displayName(character->key));
+    for (const model::Character* character : session.roster().listed()) {
+        names += shown(session.roster().displayName(character->key));
     }
     names.removeDuplicates();
-    const std::optional<model::CharacterKey>& selected = session.selection().character;
-    const QString name = selected ? shown(session.displayName(*selected)) : QString();
+    const std::optional<model::CharacterKey>& selected = session.choices().selection.character;
+    const QString name = selected ? shown(session.roster().displayName(*selected)) : QString();
     OwnCharacterDialog(m_viewport->choice().ownCharacters(), names, name, this).exec();
 }
 

@@ -6,6 +6,8 @@
 #include "app/gui/models/text.h"
 #include "app/gui/theme/widgets.h"
 #include "app/gui/theme/words.h"
+#include "core/model/session/roster.h"
+#include "core/model/session/verdict.h"
 #include "core/words/say.h"
 
 #include <QApplication>
@@ -23,7 +25,7 @@ exporting::StreamReportOptions optionsFor(model::SessionView& session,
     exporting::StreamReportOptions options;
     options.application = ("Posewire " + QCoreApplication::applicationVersion()).toStdString();
     options.range = range;
-    for (const model::Incident& event : session.incidents().all()) {
+    for (const model::Incident& event : session.verdicts().incidents().all()) {
         const bool isInside = !range || (event.firstStamp < range->to && event.lastStamp >= range->from);
         if (isInside && event.group() == model::IncidentGroup::Limit) {
             options.exceeded.push_back(whoseWords(session, event).toStdString() + ": " +
@@ -70,7 +72,7 @@ QString writeStreamReport(model::SessionView& session, const std::optional<model
 }
 
 QString saveStreamReport(model::SessionView& session, QWidget* parent) {
-    if (session.streams().empty()) {
+    if (session.roster().streams().empty()) {
         return tr("There is nothing to report on: no stream has arrived yet.");
     }
     const auto range = askForRange(session, parent);

@@ -9,6 +9,7 @@
 #include "app/gui/theme/words.h"
 #include "app/gui/window/menus.h"
 #include "core/export/protocol_reference.h"
+#include "core/model/session/roster.h"
 
 #include <QGuiApplication>
 #include <QKeySequence>
@@ -43,14 +44,14 @@ void writeReceiving(QTextStream& out, const ReceivingState& receiving) {
 }
 
 void writeSenders(QTextStream& out, model::SessionView& session) {
-    for (const model::Sender& sender : session.senders()) {
+    for (const model::Sender& sender : session.roster().senders()) {
         out << "sender " << shown(sender.address()) << ": " << sender.datagrams << " datagrams, "
             << sender.malformed << " malformed, " << sender.foreign << " foreign, " << sender.skippedBytes
             << " bytes skipped\n";
     }
-    for (const model::Stream& stream : session.streams()) {
+    for (const model::Stream& stream : session.roster().streams()) {
         const model::CharacterKey key{stream.key.sender, stream.key.character};
-        out << "stream " << shown(session.displayName(key)) << " type " << stream.key.type << ": "
+        out << "stream " << shown(session.roster().displayName(key)) << " type " << stream.key.type << ": "
             << stream.accounting.datagrams() << " datagrams, " << stream.statistics.rateHz() << " Hz, "
             << stream.accounting.counts().lost << " lost, " << stream.accounting.malformed()
             << " malformed\n";

@@ -11,6 +11,8 @@
 #include "app/gui/theme/widgets.h"
 #include "app/gui/window/colour_text.h"
 #include "core/model/body/character_pose.h"
+#include "core/model/session/messages.h"
+#include "core/model/session/roster.h"
 
 #include <QAction>
 #include <QHBoxLayout>
@@ -127,11 +129,11 @@ void TransportBar::showSession(model::SessionView& session, bool isLive) {
 }
 
 TransportBar::Mode TransportBar::modeNow() const {
-    if (m_session->cursor().mode == model::Cursor::Mode::Paused) {
-        return m_session->cursor().speed == 0 ? Mode::Paused : Mode::Playing;
+    if (m_session->choices().cursor.mode == model::Cursor::Mode::Paused) {
+        return m_session->choices().cursor.speed == 0 ? Mode::Paused : Mode::Playing;
     }
     const bool isAnyLive =
-        std::ranges::any_of(m_session->characters(), [this](const model::Character& character) {
+        std::ranges::any_of(m_session->roster().characters(), [this](const model::Character& character) {
             return isLive(*m_session, character);
         });
     return isAnyLive ? Mode::Live : m_inputs.empty() ? Mode::Idle : Mode::Waiting;
@@ -167,15 +169,15 @@ void TransportBar::followMode() {
 /// Of the character that is shown; of another that still sends poses where that one does not.
 const model::CharacterPose* TransportBar::timedPose() {
     const auto key = shownCharacter(*m_session);
-    const model::CharacterPose* shown = key ? m_session->pose(*key) : nullptr;
+    const model::CharacterPose* shown = key ? m_session->messages().pose(*key) : nullptr;
     const auto isNew = [this](const model::CharacterPose* pose) {
         return pose != nullptr && log::secondsOf(m_session->cursorStamp() - pose->stamp) < kStaleAge;
     };
     if (!key || isNew(shown)) {
         return shown;
     }
-    for (const model::Character* other : m_session->currentCharacters()) {
-        if (const model::CharacterPose* pose = m_session->pose(other->key); isNew(pose)) {
+    for (const model::Character* other : m_session->roster().listed()) {
+        if (const model::CharacterPose* pose = m_session->messages().pose(other->key); isNew(pose)) {
             return pose;
         }
     }
@@ -184,8 +186,8 @@ const model::CharacterPose* TransportBar::timedPose() {
 
 void TransportBar::refresh() {
     followMode();
-    m_past->setVisible(m_session->cursor().mode == model::Cursor::Mode::Paused);
-    m_past->refresh(m_session->cursor());
+    m_past->setVisible(m_session->choices().cursor.mode == model::Cursor::Mode::Paused);
+    m_past->refresh(m_session->choices().cursor);
     const model::CharacterPose* pose = timedPose();
     if (pose == nullptr) {
         m_time->setText(m_session->now() == log::Stamp()
@@ -195,7 +197,7 @@ void TransportBar::refresh() {
         return;
     }
     // In the past it is the moment that is shown, as everything else in the window says it.
-    const bool isPast = m_session->cursor().mode == model::Cursor::Mode::Paused;
+    const bool isPast = m_session->choices().cursor.mode == model::Cursor::Mode::Paused;
     m_time->setText(timeOfDay(m_session->wallOf(isPast ? m_session->cursorStamp() : pose->stamp)));
     m_detail->setText(
         (isPast ? tr("shown · sample %1") : tr("received · sample %1")).arg(grouped(pose->sample)));

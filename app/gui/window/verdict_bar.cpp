@@ -7,6 +7,8 @@
 #include "app/gui/theme/event_watch.h"
 #include "app/gui/theme/plain_text.h"
 #include "app/gui/theme/widgets.h"
+#include "core/model/session/roster.h"
+#include "core/model/session/verdict.h"
 
 #include <QAccessible>
 #include <QAction>
@@ -36,9 +38,9 @@ QString liveText(const model::SessionView& live, const model::TakeVerdict& verdi
     if (verdict.state == model::TakeVerdict::State::None) {
         return VerdictBar::tr("no data yet");
     }
-    const auto characters = live.atNow().currentCharacters();
+    const auto characters = live.atNow().roster().listed();
     const auto good = std::ranges::count_if(characters, [&](const model::Character* character) {
-        return live.verdict(character->key).state == model::TakeVerdict::State::Good;
+        return live.verdicts().of(character->key).state == model::TakeVerdict::State::Good;
     });
     return static_cast<std::size_t>(good) == characters.size()
                ? VerdictBar::tr("%1 good").arg(good)
@@ -47,12 +49,12 @@ QString liveText(const model::SessionView& live, const model::TakeVerdict& verdi
 
 /// What time the verdict is of, and when the operator began to count anew.
 QString spanOf(const model::SessionView& live) {
-    if (live.reset() == log::Stamp()) {
+    if (live.choices().reset == log::Stamp()) {
         return boardSpanText(live);
     }
-    const bool isAll = live.now() - live.reset() < model::VerdictSpan::kRecent;
+    const bool isAll = live.now() - live.choices().reset < model::VerdictSpan::kRecent;
     return (isAll ? VerdictBar::tr("since the reset at %1") : VerdictBar::tr("last 10 s · reset at %1"))
-        .arg(timeOfDay(live.wallOf(live.reset())).chopped(4));
+        .arg(timeOfDay(live.wallOf(live.choices().reset)).chopped(4));
 }
 
 } // namespace
@@ -199,7 +201,7 @@ void VerdictBar::setLarge(bool isLarge) {
 }
 
 void VerdictBar::refresh(const ShownFile& file, bool hasInputs, const QString& blocked) {
-    m_verdict = m_live.verdicts().all;
+    m_verdict = m_live.verdicts().all().all;
     showVerdict(file.isShown, blocked);
     showStrip(file, hasInputs);
     m_headline->setVisible(hasInputs || file.name.isEmpty());
@@ -220,7 +222,7 @@ void VerdictBar::showVerdict(bool isBehindFile, const QString& blocked) {
 }
 
 void VerdictBar::showStrip(const ShownFile& file, bool hasInputs) {
-    const bool isPaused = !file.isShown && m_live.cursor().mode == model::Cursor::Mode::Paused;
+    const bool isPaused = !file.isShown && m_live.choices().cursor.mode == model::Cursor::Mode::Paused;
     const QString compared = file.comparison.isEmpty() ? QString() : QLatin1Char(' ') + file.comparison;
     m_strip->setVisible(file.isShown || isPaused || !compared.isEmpty());
     m_showFile->setVisible(!file.isShown && !file.name.isEmpty());
@@ -233,7 +235,7 @@ void VerdictBar::showStrip(const ShownFile& file, bool hasInputs) {
         m_what->setText(tr("Recording %1").arg(file.name) + compared,
                         QStringLiteral(" · ") + lines.join(QStringLiteral(" · ")));
     } else if (isPaused) {
-        const double speed = m_live.cursor().speed;
+        const double speed = m_live.choices().cursor.speed;
         m_what->setText((speed == 0 ? tr("▮▮ Display paused at %1") : tr("▶ Playing the past: %1"))
                                 .arg(timeOfDay(m_live.wallOf(m_live.cursorStamp()))) +
                             compared,

@@ -4,6 +4,7 @@
 #include "app/gui/theme/words.h"
 #include "app/gui/viewport/overlays.h"
 #include "app/gui/window/main_window.h"
+#include "core/model/session/roster.h"
 
 #include <algorithm>
 
@@ -24,7 +25,7 @@ void nextAxes(Window& window) {
 }
 
 bool isGhostOn(const Window& window) {
-    return window.driver().commands().session().isGhostShown();
+    return window.driver().commands().session().choices().isGhostShown;
 }
 
 void toggleGhost(Window& window) {
@@ -33,21 +34,21 @@ void toggleGhost(Window& window) {
 
 bool isAnyLifted(const Window& window) {
     const model::SessionView& session = window.driver().commands().session();
-    return std::ranges::any_of(session.currentCharacters(), [&session](const model::Character* character) {
-        return session.isLifted(character->key);
+    return std::ranges::any_of(session.roster().listed(), [&session](const model::Character* character) {
+        return session.roster().isLifted(character->key);
     });
 }
 
 void toggleLifted(Window& window) {
     const bool isOn = !isAnyLifted(window);
-    for (const model::Character* character : window.driver().commands().session().currentCharacters()) {
+    for (const model::Character* character : window.driver().commands().session().roster().listed()) {
         window.driver().commands().setLifted(character->key, isOn);
     }
 }
 
 template <int index>
 void selectCharacter(Window& window) {
-    const auto characters = window.driver().commands().session().currentCharacters();
+    const auto characters = window.driver().commands().session().roster().listed();
     if (index < static_cast<int>(characters.size())) {
         const model::CharacterKey& key = characters[index]->key;
         window.driver().commands().select({key.sender, key, -1});

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "core/export/comparison/character_pairs.h"
 
+#include "core/model/session/roster.h"
+
 #include <algorithm>
 #include <map>
 
 namespace posewire::exporting {
 
 std::vector<CharacterPair> pairCharacters(const model::SessionView& first, const model::SessionView& second) {
-    const std::vector<const model::Character*> ours = first.atNow().currentCharacters();
-    std::vector<const model::Character*> theirs = second.atNow().currentCharacters();
+    const std::vector<const model::Character*> ours = first.atNow().roster().listed();
+    std::vector<const model::Character*> theirs = second.atNow().roster().listed();
     std::map<model::CharacterKey, model::CharacterKey> partners;
     const auto pairWhere = [&](auto&& isSame) {
         for (const model::Character* one : ours) {
@@ -21,7 +23,7 @@ std::vector<CharacterPair> pairCharacters(const model::SessionView& first, const
         }
     };
     pairWhere([&](const model::CharacterKey& one, const model::CharacterKey& other) {
-        return first.displayName(one) == second.displayName(other);
+        return first.roster().displayName(one) == second.roster().displayName(other);
     });
     pairWhere([](const model::CharacterKey& one, const model::CharacterKey& other) {
         return one.character == other.character;

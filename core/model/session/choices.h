@@ -95,6 +95,8 @@ struct Choices {
     [[nodiscard]] const Jump* filterJump() const;
     /// What the operator filters by, also while a jump put another filter in its place.
     [[nodiscard]] const std::string& ownFilter() const;
+    /// Whether goBack() has somewhere to go.
+    [[nodiscard]] bool canGoBack() const { return !jumps.empty(); }
     /// Shows packets from elsewhere, and stops at the one that is selected. From a filter that a jump put
     /// there one goes back to the operator's own.
     void jump(const Selection& to, std::string filter);

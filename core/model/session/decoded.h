@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/model/body/pose_messages.h"
-#include "core/model/session/session_view.h"
+#include "core/model/session/messages.h"
 
 #include <array>
 #include <map>
@@ -12,8 +12,8 @@
 namespace posewire::model {
 
 /// Bounded by the streams and characters of the session; what is asked for again while the cursor is where it
-/// was is not decoded again. For the implementation of SessionView alone.
-struct SessionView::Decoded {
+/// was is not decoded again. For the implementation of Messages alone.
+struct Messages::Decoded {
     struct OfStream {
         std::uint64_t packet = UINT64_MAX; ///< the newest datagram it was made from
         bool isValid = false;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/session/fault_matrix.h"
 
+#include "core/model/session/roster.h"
+
 #include <algorithm>
 #include <functional>
 #include <numeric>
@@ -43,8 +45,8 @@ FaultMatrix faultMatrix(const SessionView& session, const std::optional<TimeRang
     const Losses losses(session, range);
     FaultMatrix matrix;
     CharacterFaults unconfirmed;
-    for (const Character& character : session.characters()) {
-        const CharacterKey current = session.current(character.key);
+    for (const Character& character : session.roster().characters()) {
+        const CharacterKey current = session.roster().current(character.key);
         auto row = std::ranges::find(matrix.characters, current, &CharacterFaults::current);
         if (character.isConfirmed && row == matrix.characters.end()) {
             matrix.characters.push_back({character.key, current});

@@ -6,7 +6,10 @@
 #include "core/model/accounting/count_history.h"
 #include "core/model/accounting/gap.h"
 #include "core/model/incidents/incident_kinds.h"
+#include "core/model/session/accounts.h"
 #include "core/model/session/losses.h"
+#include "core/model/session/roster.h"
+#include "core/model/session/verdict.h"
 
 #include <algorithm>
 #include <array>
@@ -43,7 +46,7 @@ struct Untold {
 
 std::map<log::SenderId, Untold> untoldOf(const SessionView& session) {
     std::map<log::SenderId, Untold> rest;
-    for (const Stream& stream : session.streams()) {
+    for (const Stream& stream : session.roster().streams()) {
         Untold& own = rest[stream.key.sender];
         addLosses(own.lost, stream.lostByCause());
         if (stream.isStalled) {
@@ -51,14 +54,14 @@ std::map<log::SenderId, Untold> untoldOf(const SessionView& session) {
                                    session.knownUntil()});
         }
     }
-    for (const Incident& incident : session.incidents().all()) {
+    for (const Incident& incident : session.verdicts().incidents().all()) {
         if (const auto own = rest.find(incident.sender); own != rest.end() && incident.samples != 0) {
             std::uint64_t& sum =
                 own->second.lost[static_cast<std::size_t>(incident.cause.value_or(LossCause::Unknown))];
             sum -= std::min(sum, incident.samples);
         }
     }
-    session.forEachPending([&](const PendingLoss& loss) {
+    session.accounts().forEachPending([&](const PendingLoss& loss) {
         if (const auto own = rest.find(loss.stream.sender); own != rest.end() && loss.isUnderWay) {
             std::uint64_t& sum = own->second.lost[kUnknownCause];
             sum -= std::min(sum, loss.samples);
@@ -78,8 +81,8 @@ ListedIncident provisionalOf(const SessionView& session, log::SenderId sender, c
     incident.cause = LossCause::Unknown;
     incident.samples = untold.lost[kUnknownCause];
     incident.firstStamp = log::Stamp::max();
-    incident.version = session.incidents().version();
-    session.forEachPending([&](const PendingLoss& loss) {
+    incident.version = session.verdicts().incidents().version();
+    session.accounts().forEachPending([&](const PendingLoss& loss) {
         if (loss.stream.sender == sender && !loss.isUnderWay) {
             incident.firstStamp = std::min(incident.firstStamp, loss.from);
             incident.lastStamp = std::max(incident.lastStamp, loss.to);
@@ -94,10 +97,10 @@ ListedIncident provisionalOf(const SessionView& session, log::SenderId sender, c
         incident.parts.push_back(part);
     }
     if (incident.parts.empty()) {
-        const Sender* from = session.find(sender);
+        const Sender* from = session.roster().find(sender);
         incident.firstStamp = incident.lastStamp = from != nullptr ? from->lastStamp : session.now();
     }
-    incident.number = session.provisionalNumber(sender);
+    incident.number = session.verdicts().provisionalNumber(sender);
     return listed;
 }
 
@@ -122,7 +125,7 @@ bool hasCeased(const SessionView& session, const Incident& incident) {
         return false;
     }
     const bool isLoss = incident.kind == IncidentKind::Loss || incident.kind == IncidentKind::Local;
-    const log::Stamp known = isLoss ? session.judgedUntil() : session.knownUntil();
+    const log::Stamp known = isLoss ? session.accounts().judgedUntil() : session.knownUntil();
     return !factsOf(incident.kind).lasts &&
            known - incident.lastStamp >= std::clamp(kPatience * between, kLeast, Incidents::kQuiet);
 }
@@ -142,20 +145,20 @@ ListedIncident forgottenOf(log::SenderId sender, LossCause cause, std::uint64_t 
 
 /// Whether another sender has one of the same ID: its name does not say which of them is meant.
 bool hasNamesake(const SessionView& session, const Incident& incident) {
-    if (session.senders().size() < 2 || session.find(incident.sender) == nullptr) {
+    if (session.roster().senders().size() < 2 || session.roster().find(incident.sender) == nullptr) {
         return false;
     }
     const std::vector<std::uint8_t> own = incident.characters();
-    return std::ranges::any_of(session.atNow().currentCharacters(), [&](const Character* one) {
+    return std::ranges::any_of(session.atNow().roster().listed(), [&](const Character* one) {
         return one->key.sender != incident.sender &&
                std::ranges::find(own, one->key.character) != own.end() &&
-               !session.isSame(one->key, {incident.sender, one->key.character});
+               !session.roster().isSame(one->key, {incident.sender, one->key.character});
     });
 }
 
 /// Its characters, or the sender; with it if others send the same characters.
 words::Value whom(const SessionView& session, const Incident& incident) {
-    const std::string address = session.addressOf(incident.sender).shown();
+    const std::string address = session.roster().addressOf(incident.sender).shown();
     std::vector<CharacterKey> keys;
     for (const std::uint8_t character : incident.characters()) {
         keys.push_back({incident.sender, character});
@@ -241,7 +244,7 @@ std::vector<ListedIncident> unlistedOf(const SessionView& session) {
 words::Value whoOf(const SessionView& session, std::span<const CharacterKey> characters) {
     std::vector<std::string> names;
     for (const CharacterKey& key : characters) {
-        names.push_back(session.displayName(key).shown());
+        names.push_back(session.roster().displayName(key).shown());
     }
     return namesOrCount(std::move(names));
 }
@@ -259,8 +262,9 @@ words::Fact lostFact(const Incident& incident, std::uint64_t samples, std::uint6
 }
 
 const Stream* streamOf(const SessionView& session, log::SenderId sender, const Incident::Part& part) {
-    return part.character && part.type ? session.find(log::StreamKey{sender, *part.character, *part.type})
-                                       : nullptr;
+    return part.character && part.type
+               ? session.roster().find(log::StreamKey{sender, *part.character, *part.type})
+               : nullptr;
 }
 
 std::string_view nameOf(ListedIncident::State state) {
@@ -289,7 +293,7 @@ bool isOnlyComing(const ListedIncident& one) {
 
 std::vector<ListedIncident> listedIncidents(const SessionView& session, log::Stamp from, log::Stamp to) {
     std::vector<ListedIncident> all = unlistedOf(session);
-    for (const Incident& incident : session.incidents().all()) {
+    for (const Incident& incident : session.verdicts().incidents().all()) {
         const bool isMeant = (incident.isCurrent || incident.lastStamp >= from) &&
                              incident.firstStamp <= to && !isNote(incident);
         if (isMeant) {
@@ -306,7 +310,7 @@ words::Fact factOf(const SessionView& session, const ListedIncident& listed) {
         return provisionalFact(session, incident);
     }
     words::Fact fact = incident.fact();
-    const std::string address = session.addressOf(incident.sender).shown();
+    const std::string address = session.roster().addressOf(incident.sender).shown();
     set(fact, "who", whom(session, incident));
     set(fact, "address", address);
     if (incident.kind == IncidentKind::Outage) {
@@ -329,13 +333,13 @@ words::Fact factOf(const SessionView& session, std::span<const ListedIncident> t
     for (const ListedIncident& one : inOrder) {
         isOneCause = isOneCause && one.incident.cause == first.incident.cause;
         for (const std::uint8_t character : one.incident.characters()) {
-            const std::string name = session.displayName({one.incident.sender, character}).shown();
+            const std::string name = session.roster().displayName({one.incident.sender, character}).shown();
             if (std::ranges::find(names, name) == names.end()) {
                 names.push_back(name);
             }
         }
         if (one.incident.characters().empty()) {
-            names.push_back(session.addressOf(one.incident.sender).shown());
+            names.push_back(session.roster().addressOf(one.incident.sender).shown());
         }
     }
     words::Fact fact = factOf(session, first);

@@ -4,7 +4,8 @@
 #include "core/model/accounting/attribution.h"
 #include "core/model/body/null_pose.h"
 #include "core/model/incidents/incident_follower.h"
-#include "core/model/session/session_view.h"
+#include "core/model/session/ingest.h"
+#include "core/model/session/messages.h"
 
 #include <algorithm>
 #include <array>
@@ -17,23 +18,23 @@ namespace {
 /// Of all streams, as many as there may be at the depth that they have then.
 constexpr std::size_t mostStreamBytes() {
     std::size_t most = 0;
-    for (std::size_t streams = AccountingDepth::kFullStreams; streams <= Ingest::kMostStreams; streams *= 2) {
+    for (std::size_t streams = AccountingDepth::kFullStreams; streams <= Roll::kMostStreams; streams *= 2) {
         const std::size_t each = sizeof(Stream) + StreamAccounting::mostBytes(AccountingDepth::of(streams));
         most = std::max(most, streams * each);
     }
     return most;
 }
 
-constexpr std::size_t kMostSenders = Ingest::kMostSenders + Ingest::kMostStrangers;
+constexpr std::size_t kMostSenders = Roll::kMostSenders + Roll::kMostStrangers;
 constexpr std::size_t kMostAccounting =
-    mostStreamBytes() + kMostSenders * (sizeof(Sender) + CountHistory::mostBytes(Ingest::kBucketsOfSender)) +
+    mostStreamBytes() + kMostSenders * (sizeof(Sender) + CountHistory::mostBytes(Roll::kBucketsOfSender)) +
     Attribution::kMostBytes;
 static_assert(kMostAccounting <= std::size_t{416} << 20);
 
 /// Decoded values are not larger than twice what was sent, as long as they are items of fixed size.
 constexpr std::size_t kPerSentByte = 2;
 constexpr std::size_t kMostMessages =
-    Ingest::kMostStreams * kPerSentByte * Ingest::kMostNewestBytes + SessionView::kMostDecodedBytes;
+    Roll::kMostStreams * kPerSentByte * Ingest::kMostNewestBytes + Messages::kMostDecodedBytes;
 
 constexpr std::size_t kMostIncidents =
     Incidents::kMost * (sizeof(Incident) + Incidents::kMostDetailBytes + 128) +
@@ -51,35 +52,26 @@ std::size_t MemoryFigures::budget() const {
                                  [](const Part& part) { return part.most; });
 }
 
-std::size_t Ingest::metadataBytes() const {
-    return std::transform_reduce(m_characters.begin(), m_characters.end(), std::size_t{0}, std::plus(),
-                                 [](const Character& each) { return each.metadata.memoryBytes(); });
-}
-
-std::size_t Ingest::nullPoseBytes() const {
-    return std::transform_reduce(m_nullPoses.begin(), m_nullPoses.end(), std::size_t{0}, std::plus(),
-                                 [](const auto& each) { return each.second->memoryBytes(); });
-}
-
-MemoryFigures Ingest::memory() const {
-    std::size_t accounting = m_attribution->memoryBytes();
-    std::size_t messages = 0;
-    for (const Stream& stream : m_streams) {
+MemoryFigures memoryOf(const Ingest& ingest, std::size_t decodedBytes) {
+    const Counting& counting = ingest.counting();
+    std::size_t accounting = counting.attribution().memoryBytes();
+    std::size_t messages = decodedBytes;
+    for (const Stream& stream : ingest.roll().streams()) {
         accounting += sizeof(Stream) + stream.accounting.memoryBytes();
         messages += kPerSentByte * stream.newestBytes;
     }
-    for (const Sender& sender : m_senders) {
+    for (const Sender& sender : ingest.roll().senders()) {
         accounting += sizeof(Sender) + sender.history.memoryBytes();
     }
-    const log::LogFigures log = m_log.figures();
-    const std::size_t index = m_index.memoryBytes() + m_digests.memoryBytes();
+    const log::LogFigures log = ingest.log().figures();
+    const std::size_t index = counting.index().memoryBytes() + counting.digests().memoryBytes();
     return {{{"log", "packets", log.chunkBytes, log.memoryCap},
-             {"index", "index", m_log.scratch()->hasFile() ? 0 : index, 0},
+             {"index", "index", ingest.log().scratch()->hasFile() ? 0 : index, 0},
              {"accounting", "accounting", accounting, kMostAccounting},
              {"messages", "messages", messages, kMostMessages},
-             {"metadata", "metadata", metadataBytes(), kMetadataBudget},
-             {"nullPoses", "null poses", nullPoseBytes(), kNullPoseBudget},
-             {"events", "incidents", m_incidents->incidents().memoryBytes(), kMostIncidents}}};
+             {"metadata", "metadata", ingest.content().metadataBytes(), Content::kMetadataBudget},
+             {"nullPoses", "null poses", ingest.content().nullPoseBytes(), Content::kNullPoseBudget},
+             {"events", "incidents", ingest.incidents().incidents().memoryBytes(), kMostIncidents}}};
 }
 
 } // namespace posewire::model

@@ -7,6 +7,8 @@
 
 namespace posewire::model {
 
+class Ingest;
+
 /// What is kept of what came, about, and what it can become at most whatever comes.
 struct MemoryFigures {
     struct Part {
@@ -20,5 +22,8 @@ struct MemoryFigures {
     [[nodiscard]] std::size_t sum() const;
     [[nodiscard]] std::size_t budget() const;
 };
+
+/// `decodedBytes`: what readers keep of decoded messages.
+[[nodiscard]] MemoryFigures memoryOf(const Ingest& ingest, std::size_t decodedBytes);
 
 } // namespace posewire::model

@@ -2,6 +2,7 @@
 #include "core/model/session/recent_losses.h"
 
 #include "core/model/incidents/thresholds.h"
+#include "core/model/session/verdict.h"
 
 #include <algorithm>
 
@@ -11,7 +12,8 @@ std::optional<words::Fact> RecentLosses::amountOf(const ListedIncident& one) {
     const Incident& incident = one.incident;
     const bool isOngoing = one.state == ListedIncident::State::Ongoing;
     const bool isLoss = incident.kind == IncidentKind::Loss || incident.kind == IncidentKind::Local;
-    const bool isOlder = m_range && incident.firstStamp < (isOngoing ? m_range->from : m_session.reset());
+    const bool isOlder =
+        m_range && incident.firstStamp < (isOngoing ? m_range->from : m_session.choices().reset);
     if (!isLoss || !isOlder || one.state == ListedIncident::State::Provisional || !incident.cause) {
         return {};
     }
@@ -21,7 +23,7 @@ std::optional<words::Fact> RecentLosses::amountOf(const ListedIncident& one) {
 }
 
 bool RecentLosses::isAboveLimit(const Incident& incident) {
-    const double window = m_session.thresholds().windowS;
+    const double window = m_session.verdicts().thresholds().windowS;
     if (m_range && log::secondsOf(m_session.now() - m_range->from) >= window) {
         return std::ranges::any_of(incident.parts, &Incident::Part::isAbove);
     }
@@ -29,7 +31,8 @@ bool RecentLosses::isAboveLimit(const Incident& incident) {
         const FaultCounts counts = countsOf(incident.sender, part);
         return LossShare{counts.total(), counts.expected};
     });
-    const double limit = m_session.isRecording() ? incident.limit : m_session.thresholds().lossPercent;
+    const double limit =
+        m_session.isRecording() ? incident.limit : m_session.verdicts().thresholds().lossPercent;
     return limit > 0 && std::ranges::any_of(shares, [&](double share) { return 100 * share > limit; });
 }
 
@@ -53,7 +56,7 @@ FaultCounts RecentLosses::countsOf(log::SenderId sender, const Incident::Part& p
     }
     if (!m_losses) {
         m_losses.emplace(m_session, m_range);
-        m_silent = lossesInSilences(m_session.incidents(), m_range);
+        m_silent = lossesInSilences(m_session.verdicts().incidents(), m_range);
     }
     const StreamLosses losses = m_losses->of(*stream);
     FaultCounts counts{losses.byCause, 0, losses.expected};

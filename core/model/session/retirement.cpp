@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "core/model/accounting/attribution.h"
-#include "core/model/incidents/incident_follower.h"
-#include "core/model/session/ingest.h"
+#include "core/model/session/roll.h"
 
 #include <algorithm>
 #include <unordered_set>
 
-/// How an ingest makes room for new senders.
+/// How a roll makes room for new senders.
 namespace posewire::model {
 namespace {
 
@@ -53,7 +51,7 @@ void RetiredTotals::retire(const Sender& sender) {
 
 /// What it is and how long it has been there decide who makes room for a sender: first those who have been
 /// silent for long, then those who have said little.
-void Ingest::promote(const Sender& sender) {
+void Roll::promote(const Sender& sender) {
     Place& place = m_recencies.at(sender.id);
     if (place.list == &m_performers) {
         return;
@@ -73,10 +71,10 @@ void Ingest::promote(const Sender& sender) {
 }
 
 /// False where nobody has been silent for long.
-bool Ingest::retireSilent() {
+bool Roll::retireSilent() {
     for (const Recency* list : {&m_performers, &m_newcomers}) {
         const auto silent = std::ranges::find_if(
-            *list, [this](log::SenderId id) { return m_observed - find(id)->lastStamp < kSilent; });
+            *list, [this](log::SenderId id) { return m_observed - m_senders.find(id)->lastStamp < kSilent; });
         if (const auto count = static_cast<std::size_t>(std::distance(list->begin(), silent)); count != 0) {
             retireOldest(*list, std::min(count, kAtOnce));
             return true;
@@ -85,7 +83,7 @@ bool Ingest::retireSilent() {
     return false;
 }
 
-void Ingest::retireOldest(const Recency& recency, std::size_t count) {
+void Roll::retireOldest(const Recency& recency, std::size_t count) {
     std::unordered_set<log::SenderId> going;
     for (auto id = recency.begin(); id != recency.end() && going.size() < count; ++id) {
         going.insert(*id);
@@ -93,9 +91,9 @@ void Ingest::retireOldest(const Recency& recency, std::size_t count) {
     retire(going);
 }
 
-void Ingest::retire(const std::unordered_set<log::SenderId>& going) {
+void Roll::retire(const std::unordered_set<log::SenderId>& going) {
     for (const log::SenderId id : going) {
-        const Sender& sender = *find(id);
+        const Sender& sender = *m_senders.find(id);
         remember(sender);
         for (const Character* character : sender.characters) {
             bequeath(*character);
@@ -106,27 +104,20 @@ void Ingest::retire(const std::unordered_set<log::SenderId>& going) {
             m_passersBy.clear();
         }
         m_passersBy[id] += sender.datagrams;
-        m_attribution->retire(id);
-        m_incidents->retire(id);
+        m_listener.goes(sender);
         m_unconfirmed.retire(id);
         const Place place = m_recencies.at(id);
         place.list->erase(place.at);
         m_recencies.erase(id);
     }
-    std::erase_if(m_nullPoses, [&](const auto& entry) { return going.contains(entry.first.sender); });
-    for (const Stream& stream : m_streams) {
-        if (going.contains(stream.key.sender)) {
-            m_index.forget(stream.key);
-        }
-    }
     m_streams.eraseIf([&](const Stream& stream) { return going.contains(stream.key.sender); });
     m_characters.eraseIf([&](const Character& character) { return going.contains(character.key.sender); });
     m_senders.eraseIf([&](const Sender& sender) { return going.contains(sender.id); });
-    fitDepth();
+    m_listener.haveGone();
 }
 
 /// So that what is told of its past can name it.
-void Ingest::remember(const Sender& sender) {
+void Roll::remember(const Sender& sender) {
     if (!sender.isPerforming()) {
         return;
     }
@@ -134,7 +125,7 @@ void Ingest::remember(const Sender& sender) {
     for (const Character* character : sender.characters) {
         const MetadataTag* name = nullptr;
         for (const Character* one = character; one != nullptr && name == nullptr;
-             one = one->before ? find(*one->before) : nullptr) {
+             one = one->before ? m_characters.find(*one->before) : nullptr) {
             name = one->metadata.find("name");
         }
         if (name != nullptr && former.names.size() < kMostFormerNames) {
@@ -147,28 +138,28 @@ void Ingest::remember(const Sender& sender) {
     }
 }
 
-const FormerSender* Ingest::former(log::SenderId id) const {
+const FormerSender* Roll::former(log::SenderId id) const {
     const auto found = std::ranges::find(m_former, id, &FormerSender::id);
     return found == m_former.end() ? nullptr : &*found;
 }
 
-bool Ingest::isForgettable(log::SenderId sender) const {
-    const Sender* known = find(sender);
-    return known != nullptr && (hasEnded(*known) || m_now - known->lastStamp >= kForgettable);
+bool Roll::isForgettable(log::SenderId sender, log::Stamp now) const {
+    const Sender* known = m_senders.find(sender);
+    return known != nullptr && (hasEnded(*known) || now - known->lastStamp >= kForgettable);
 }
 
-bool Ingest::forget(log::SenderId sender) {
-    if (!isForgettable(sender)) {
+bool Roll::forget(log::SenderId sender, log::Stamp now) {
+    if (!isForgettable(sender, now)) {
         return false;
     }
     // With those that it took over from: nobody asked for them back.
     std::unordered_set<log::SenderId> going{sender};
-    for (const Character* character : find(sender)->characters) {
+    for (const Character* character : m_senders.find(sender)->characters) {
         const bool isLast = heirOf(*character) == nullptr;
         const Character* one = isLast ? character : nullptr;
         while (one != nullptr) {
-            one = one->before ? find(*one->before) : nullptr;
-            if (one != nullptr && hasEnded(*find(one->key.sender))) {
+            one = one->before ? m_characters.find(*one->before) : nullptr;
+            if (one != nullptr && hasEnded(*m_senders.find(one->key.sender))) {
                 going.insert(one->key.sender);
             }
         }
@@ -177,29 +168,27 @@ bool Ingest::forget(log::SenderId sender) {
     return true;
 }
 
-bool Ingest::hasEnded(const Sender& sender) const {
+bool Roll::hasEnded(const Sender& sender) const {
     return sender.isPerforming() && std::ranges::all_of(sender.characters, [this](const Character* one) {
-               const Character* after = one->after ? find(*one->after) : nullptr;
-               return after != nullptr && after->firstPacket > one->lastPacket;
+               return heirOf(*one) != nullptr;
            });
 }
 
-/// Null where nobody has taken over.
-Character* Ingest::heirOf(const Character& character) {
-    Character* after = character.after ? m_characters.find(*character.after) : nullptr;
+const Character* Roll::heirOf(const Character& character) const {
+    const Character* after = character.after ? m_characters.find(*character.after) : nullptr;
     return after != nullptr && after->firstPacket > character.lastPacket ? after : nullptr;
 }
 
 /// What is known of a character that goes stays with the one that has taken over: it is the same one.
-void Ingest::bequeath(const Character& character) {
+void Roll::bequeath(const Character& character) {
     Character* before = character.before ? m_characters.find(*character.before) : nullptr;
-    Character* heir = heirOf(character);
+    Character* heir = heirOf(character) != nullptr ? m_characters.find(*character.after) : nullptr;
     if (before != nullptr) {
         before->after = heir != nullptr ? std::optional(heir->key) : std::nullopt;
     }
     if (heir == nullptr) {
         if (before != nullptr) {
-            m_incidents->expect(before->key);
+            m_listener.isAwaited(before->key);
         }
         return;
     }
@@ -211,13 +200,12 @@ void Ingest::bequeath(const Character& character) {
     if (heir->metadata.tags().empty()) {
         heir->metadata = character.metadata;
     }
-    const auto poses = m_nullPoses.find(character.key);
-    if (poses != m_nullPoses.end() && !m_nullPoses.contains(heir->key)) {
-        m_nullPoses[heir->key] = poses->second;
+    if (heir->nullPoses == nullptr) {
+        heir->nullPoses = character.nullPoses;
     }
 }
 
-void Ingest::forgetHostOf(const Sender& sender) {
+void Roll::forgetHostOf(const Sender& sender) {
     const auto host = sender.host();
     if (!host) {
         return;

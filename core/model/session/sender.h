@@ -13,6 +13,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,6 +21,7 @@
 namespace posewire::model {
 
 struct Character;
+class NullPoseHistory;
 
 /// One sender.
 struct Sender {
@@ -77,13 +79,14 @@ struct Character {
     std::vector<const Stream*> streams{}; ///< in order of first appearance
     std::size_t ordinal = 0;              ///< for default colours alone; that of `before`, where there is one
     Metadata metadata;
+    std::shared_ptr<NullPoseHistory> nullPoses; ///< null until a scale message has come
     log::Stamp judgedNullPose{}; ///< when the null pose first came that was last looked at for contradictions
     BodyMeasure measuredBody;    ///< for as long as no scale message has come
     log::Stamp lastStamp{};
     bool isConfirmed = true; ///< else its datagrams are counted, and it is on no list of performers
     std::uint64_t firstPacket = 0;
     std::uint64_t lastPacket = 0;
-    std::optional<CharacterKey> before; ///< see SessionView::predecessor
+    std::optional<CharacterKey> before; ///< see Roster::predecessor
     std::optional<CharacterKey> after;  ///< who has this one as `before`
     /// Of those before it that are not listed any more: their restarts, and when the first of them appeared.
     std::uint64_t formerRestarts = 0;

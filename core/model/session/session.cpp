@@ -9,7 +9,7 @@ bool Session::forget(log::SenderId sender) {
     const auto passedOn = [&](const std::set<CharacterKey>& keys) {
         std::set<CharacterKey> heirs;
         for (const CharacterKey& key : keys) {
-            heirs.insert(key.sender == sender ? atNow().current(key) : key);
+            heirs.insert(key.sender == sender ? atNow().roster().current(key) : key);
         }
         std::erase_if(heirs, [sender](const CharacterKey& key) { return key.sender == sender; });
         return heirs;
@@ -18,7 +18,7 @@ bool Session::forget(log::SenderId sender) {
     std::set<CharacterKey> lifted = passedOn(m_choices.lifted);
     Selection selection = m_choices.selection;
     if (selection.character && selection.character->sender == sender) {
-        selection.character = atNow().current(*selection.character);
+        selection.character = atNow().roster().current(*selection.character);
         selection.sender = selection.character->sender;
     }
     if (!m_ingest.forget(sender)) {

@@ -1,15 +1,26 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/model/session/ingest.h"
 #include "core/model/session/session_view.h"
+#include "core/model/session/verdict.h"
 
 namespace posewire::model {
 
+/// A session without its view.
+class SessionState {
+protected:
+    explicit SessionState(const log::PacketLog& log) : m_ingest(log) {}
+
+    Ingest m_ingest;
+    Choices m_choices;
+};
+
 /// A session is three things: what ingests a log (Ingest), what the operator chose (Choices), and the view of
 /// the one as the other asks for (SessionView). Who may change it has this class; all others have the view.
-class Session final : public SessionView {
+class Session final : private SessionState, public SessionView {
 public:
-    explicit Session(const log::PacketLog& log) : SessionView(m_ingest, m_choices), m_ingest(log) {}
+    explicit Session(const log::PacketLog& log) : SessionState(log), SessionView(m_ingest, m_choices) {}
 
     /// Reads at most `most` new packets; true if there were any. `now` (wall clock) is what ages are
     /// measured against.
@@ -26,12 +37,12 @@ public:
 
     /// What verdicts() says is judged now and stays until this is called again, so that all that show it say
     /// the same. Without this it is judged whenever something has changed.
-    void judge() { keepVerdicts(); }
+    void judge() { verdicts().keep(); }
 
     /// Holds for what comes from now on.
-    void setThresholds(const Thresholds& thresholds) { m_ingest.setThresholds(thresholds); }
+    void setThresholds(const Thresholds& thresholds) { m_ingest.incidents().setThresholds(thresholds); }
     /// Something that no packet tells: it happened in this computer.
-    void report(const Occurrence& one) { m_ingest.report(one); }
+    void report(const Occurrence& one) { m_ingest.incidents().report(one); }
     /// What the operator declares about a sender counts instead of what was detected, also for the senders
     /// that follow it on the same host. Nothing happens where there is no such sender.
     void setOverride(log::SenderId sender, const SenderOverride& overrides) {
@@ -61,14 +72,14 @@ public:
     }
     /// Through restarts of its sender.
     void setHidden(const CharacterKey& key, bool isHidden) {
-        for (const Character* one : lineage(atNow().current(key))) {
+        for (const Character* one : roster().lineage(atNow().roster().current(key))) {
             setIn(m_choices.hidden, one->key, false);
         }
         setIn(m_choices.hidden, key, isHidden);
     }
     /// Puts a character on the floor that is sent below it, through restarts of its sender.
     void setLifted(const CharacterKey& key, bool isLifted) {
-        for (const Character* one : lineage(atNow().current(key))) {
+        for (const Character* one : roster().lineage(atNow().roster().current(key))) {
             setIn(m_choices.lifted, one->key, false);
         }
         setIn(m_choices.lifted, key, isLifted);
@@ -95,9 +106,6 @@ private:
             set.erase(value);
         }
     }
-
-    Ingest m_ingest;
-    Choices m_choices;
 };
 
 } // namespace posewire::model

@@ -3,7 +3,11 @@
 
 #include "core/model/body/character_pose.h"
 #include "core/model/body/pose_remark.h"
+#include "core/model/session/accounts.h"
+#include "core/model/session/ingest.h"
+#include "core/model/session/messages.h"
 #include "core/model/session/recent_losses.h"
+#include "core/model/session/roster.h"
 #include "core/wire/messages.h"
 
 #include <algorithm>
@@ -98,8 +102,8 @@ words::Fact doubtOf(const SessionView& session, const Character& character) {
     const bool isPosed =
         std::ranges::any_of(onAir, [](const Stream* one) { return hasPoses(one->key.type); });
     const std::optional<PoseRemark> remark =
-        isPosed && session.pose(character.key) != nullptr // else it is that of long ago
-            ? std::optional(session.poseRemark(character.key))
+        isPosed && session.messages().pose(character.key) != nullptr // else it is that of long ago
+            ? std::optional(session.messages().poseRemark(character.key))
             : std::nullopt;
     if (remark) {
         return remark->isAssumed ? words::Fact{words::Kind::PoseDoubt,
@@ -152,8 +156,8 @@ TakeVerdict withoutIncident(const SessionView& session, const std::optional<Char
                             log::Stamp since) {
     std::vector<const Character*> characters;
     if (!only) {
-        characters = session.currentCharacters();
-    } else if (const Character* one = session.findListed(*only)) {
+        characters = session.roster().listed();
+    } else if (const Character* one = session.roster().findListed(*only)) {
         characters.push_back(one);
     }
     if (characters.empty()) {
@@ -182,7 +186,7 @@ TakeVerdict withoutIncident(const SessionView& session, const std::optional<Char
     if (starting == characters.size()) {
         return lasting(TakeVerdict::State::None, {words::Kind::NoPoseYet}, since);
     }
-    words::Value who = only ? words::Value(session.displayName(*only).shown())
+    words::Value who = only ? words::Value(session.roster().displayName(*only).shown())
                             : words::counted(words::Kind::Characters, characters.size() - starting);
     return lasting(TakeVerdict::State::Good, {words::Kind::Good, {{"who", std::move(who)}}}, since);
 }
@@ -242,7 +246,7 @@ public:
           m_losses(session, rangeOf(session, span)),
           m_listed(listedIncidents(session, span.from, span.to)) {
         std::erase_if(m_listed, [&](const ListedIncident& one) { return isPast(one, span); });
-        for (const Incident& incident : session.incidents().all()) {
+        for (const Incident& incident : session.verdicts().incidents().all()) {
             if (incident.firstStamp <= span.to && !isNote(incident)) {
                 m_past.push_back(&incident);
             }
@@ -254,7 +258,7 @@ public:
     [[nodiscard]] TakeVerdict of(const std::optional<CharacterKey>& character) const {
         Line line;
         if (character) {
-            for (const Character* one : m_session.lineage(*character)) {
+            for (const Character* one : m_session.roster().lineage(*character)) {
                 line.push_back(one->key);
             }
             line = line.empty() ? Line{*character} : line;
@@ -360,7 +364,7 @@ std::string_view nameOf(TakeVerdict::State state) {
 }
 
 VerdictSpan recentSpan(const SessionView& session) {
-    return {std::max(session.reset(), session.now() - VerdictSpan::kRecent), log::Stamp::max()};
+    return {std::max(session.choices().reset, session.now() - VerdictSpan::kRecent), log::Stamp::max()};
 }
 
 TakeVerdict verdictOf(const SessionView& session, const VerdictSpan& span,
@@ -378,8 +382,8 @@ TakeVerdicts verdictsOf(const SessionView& session, const VerdictSpan& span,
     return verdicts;
 }
 
-/// One for the views of a session at all moments.
-struct SessionView::Judged {
+/// One for the verdicts of a session at all moments.
+struct Verdicts::Judged {
     /// What verdicts rest on.
     struct Basis {
         std::uint64_t end = 0;
@@ -395,38 +399,55 @@ struct SessionView::Judged {
     bool isKept = false; ///< whatever changes
 };
 
-std::shared_ptr<SessionView::Judged> SessionView::newJudged() {
-    return std::make_shared<Judged>();
+Verdicts::Verdicts(const SessionView& session, const Moment& moment)
+    : m_session(session), m_moment(moment), m_judged(std::make_shared<Judged>()) {}
+
+Verdicts::Verdicts(const SessionView& session, const Moment& moment, const Verdicts& same)
+    : m_session(session), m_moment(moment), m_judged(same.m_judged) {}
+
+const Incidents& Verdicts::incidents() const {
+    return m_moment.ingest().incidents().incidents();
 }
 
-VerdictSpan SessionView::verdictSpan() const {
-    return isRecording() ? VerdictSpan{} : recentSpan(*this);
+const Thresholds& Verdicts::thresholds() const {
+    return m_moment.ingest().incidents().thresholds();
 }
 
-void SessionView::keepVerdicts() {
+std::vector<const Incident*> Verdicts::troublesOf(const CharacterKey& key) const {
+    return m_moment.ingest().incidents().troublesOf(key, m_moment.pausedStamp());
+}
+
+std::uint64_t Verdicts::provisionalNumber(log::SenderId sender) const {
+    return m_moment.ingest().incidents().reserve(sender);
+}
+
+VerdictSpan Verdicts::span() const {
+    return m_session.isRecording() ? VerdictSpan{} : recentSpan(m_session);
+}
+
+void Verdicts::keep() const {
     m_judged->isKept = false;
-    static_cast<void>(verdicts());
+    static_cast<void>(all());
     m_judged->isKept = true;
 }
 
-const TakeVerdicts& SessionView::verdicts() const {
-    const Judged::Basis basis{end(),
-                              knownUntil(), // of a recording it is at rest
-                              incidents().version(),
-                              reset(),
-                              retired().senders,
-                              isRecording()};
+const TakeVerdicts& Verdicts::all() const {
+    const Judged::Basis basis{
+        m_session.end(),
+        m_session.knownUntil(), // of a recording it is at rest
+        incidents().version(),  m_moment.choices().reset, m_session.accounts().retired().senders,
+        m_session.isRecording()};
     if (!m_judged->isKept && m_judged->basis != basis) {
-        m_judged->verdicts = verdictsOf(*this, verdictSpan(), atNow().currentCharacters());
+        m_judged->verdicts = verdictsOf(m_session, span(), m_session.atNow().roster().listed());
         m_judged->basis = basis;
     }
     return m_judged->verdicts;
 }
 
-const TakeVerdict& SessionView::verdict(const CharacterKey& key) const {
+const TakeVerdict& Verdicts::of(const CharacterKey& key) const {
     static const TakeVerdict none;
-    const auto& characters = verdicts().characters;
-    const auto found = characters.find(atNow().current(key));
+    const auto& characters = all().characters;
+    const auto found = characters.find(Roster(m_moment.now()).current(key));
     return found == characters.end() ? none : found->second;
 }
 

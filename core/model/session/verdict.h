@@ -3,8 +3,10 @@
 
 #include "core/model/incidents/thresholds.h"
 #include "core/model/session/listed_incidents.h"
+#include "core/model/session/roster.h"
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -50,5 +52,37 @@ struct TakeVerdicts {
 /// Of all, or of one character and its sender, through restarts of the sender.
 [[nodiscard]] TakeVerdict verdictOf(const SessionView& session, const VerdictSpan& span,
                                     std::optional<CharacterKey> character = {});
+
+/// What happened, and how good all that is.
+class Verdicts {
+public:
+    /// Of the first moment of a session. The view outlives this.
+    Verdicts(const SessionView& session, const Moment& moment);
+    /// Of another moment of the same session, with the same verdicts.
+    Verdicts(const SessionView& session, const Moment& moment, const Verdicts& same);
+
+    /// What happened, in the time of the log; with conditions that last.
+    [[nodiscard]] const Incidents& incidents() const;
+    [[nodiscard]] const Thresholds& thresholds() const;
+    /// What is wrong with a character or its sender at the moment, worst first.
+    [[nodiscard]] std::vector<const Incident*> troublesOf(const CharacterKey& key) const;
+    /// What the incident will be called that a sender's pending gaps may become.
+    [[nodiscard]] std::uint64_t provisionalNumber(log::SenderId sender) const;
+
+    /// How all do now on the wire, whatever the moment: the one judgement that everything in the window
+    /// shows; of a recording in all of it. Valid until the session follows the log again.
+    [[nodiscard]] const TakeVerdicts& all() const;
+    /// Of one character or the one that took over from it; of one that is not listed that there is nothing.
+    [[nodiscard]] const TakeVerdict& of(const CharacterKey& key) const;
+    /// The time that these verdicts are of.
+    [[nodiscard]] VerdictSpan span() const;
+    void keep() const; ///< see Session::judge
+
+private:
+    struct Judged;
+    const SessionView& m_session;
+    Moment m_moment;
+    std::shared_ptr<Judged> m_judged;
+};
 
 } // namespace posewire::model

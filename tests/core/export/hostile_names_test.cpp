@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/export/formats.h"
 #include "core/model/body/null_pose.h"
+#include "core/model/session/roster.h"
+#include "core/model/session/verdict.h"
 #include "core/wire/text.h"
 #include "tests/core/model/session/session_fixture.h"
 #include "tests/support/hostile_text.h"
@@ -40,7 +42,8 @@ protected:
         follow();
     }
     [[nodiscard]] NullPoseSheet sheet() const {
-        return {m_session.displayName({m_session.senders()[0].id, 0}), m_history.at(1), nullptr, &m_props};
+        return {m_session.roster().displayName({m_session.roster().senders()[0].id, 0}), m_history.at(1),
+                nullptr, &m_props};
     }
 
     static constexpr log::Stamp kStart{1'700'000'000s};
@@ -59,7 +62,7 @@ TEST_P(HostileNamesSavedTest, AreTextInReports) {
 
 TEST_P(HostileNamesSavedTest, AreNoFormulasInTables) {
     std::vector<const model::Incident*> events;
-    for (const model::Incident& event : m_session.incidents().all()) {
+    for (const model::Incident& event : m_session.verdicts().incidents().all()) {
         events.push_back(&event);
     }
     ASSERT_FALSE(events.empty());

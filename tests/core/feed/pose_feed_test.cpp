@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/feed/pose_feed.h"
+#include "core/model/session/messages.h"
 #include "tests/core/export/motion/motion_fixture.h"
 #include "tests/core/performer/faulty_performance.h"
 
@@ -50,7 +51,7 @@ protected:
     void expectWhatIsDrawn(const std::vector<PoseSample>& samples) {
         for (const PoseSample& sample : samples) {
             m_session.setCursor({model::Cursor::Mode::Paused, sample.pose.packet});
-            const model::CharacterPose* drawn = m_session.pose(source().characters[0].key);
+            const model::CharacterPose* drawn = m_session.messages().pose(source().characters[0].key);
             ASSERT_NE(drawn, nullptr);
             ASSERT_EQ(drawn->sample, sample.pose.sample);
             EXPECT_EQ(drawn->stamp, sample.pose.stamp);

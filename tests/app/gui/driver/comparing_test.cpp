@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/driver/session_driver.h"
+#include "core/model/session/messages.h"
+#include "core/model/session/roster.h"
 #include "tests/app/gui/models/recording_files.h"
 #include "tests/support/manual_clock.h"
 
@@ -45,9 +47,9 @@ protected:
         FAIL() << "it goes on and on";
     }
     const ComparisonState& state() { return m_driver.files().comparing().state(); }
-    model::CharacterKey key() { return m_driver.commands().session().characters()[0].key; }
+    model::CharacterKey key() { return m_driver.commands().session().roster().characters()[0].key; }
     std::uint32_t sampleOf(model::SessionView& session) {
-        return session.pose(session.characters()[0].key)->sample;
+        return session.messages().pose(session.roster().characters()[0].key)->sample;
     }
 
     QTemporaryDir m_folder;

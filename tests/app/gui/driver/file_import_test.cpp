@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/driver/file_import.h"
 
+#include "core/model/session/accounts.h"
+#include "core/model/session/messages.h"
+#include "core/model/session/roster.h"
 #include "core/model/session/session.h"
 #include "tests/app/gui/models/stage.h"
 
@@ -38,15 +41,15 @@ protected:
     static void expectAllOf(model::Session& session) {
         ASSERT_EQ(session.end(), kDatagrams);
         EXPECT_EQ(session.begin(), 0U);
-        const model::CharacterKey key = session.characters().front().key;
+        const model::CharacterKey key = session.roster().characters().front().key;
         for (const std::uint64_t number : {0U, 39'999U, 1U, 20'000U, 7U, 35'000U}) {
             session.setCursor({model::Cursor::Mode::Paused, number});
-            const model::Message* message = session.message(key, 2);
+            const model::Message* message = session.messages().message(key, 2);
             ASSERT_NE(message, nullptr) << number;
             EXPECT_EQ(message->packet, number);
             EXPECT_EQ(message->datagram.header.sampleCounter, number + 1);
-            ASSERT_NE(session.digests().find(number), nullptr);
-            EXPECT_EQ(session.digests().find(number)->type, 2);
+            ASSERT_NE(session.accounts().digests().find(number), nullptr);
+            EXPECT_EQ(session.accounts().digests().find(number)->type, 2);
         }
     }
     /// Follows until it is in the log.
@@ -76,10 +79,10 @@ TEST_F(FileImportTest, WaitsForItsReaderSoThatNothingIsOvertaken) {
     ASSERT_TRUE(import.result());
     EXPECT_EQ(import.result()->value(), "");
     EXPECT_EQ(import.share(), 1);
-    EXPECT_EQ(m_session.overtaken(), 0U);
+    EXPECT_EQ(m_session.accounts().overtaken(), 0U);
     EXPECT_GT(m_session.begin(), 0U) << "the log is smaller than the file";
-    EXPECT_EQ(m_session.senders().front().datagrams, kDatagrams);
-    EXPECT_EQ(m_session.streams().front().accounting.counts().samples, kDatagrams);
+    EXPECT_EQ(m_session.roster().senders().front().datagrams, kDatagrams);
+    EXPECT_EQ(m_session.roster().streams().front().accounting.counts().samples, kDatagrams);
 }
 
 TEST_F(FileImportTest, ReadsFromTheFileWhatMemoryHasDropped) {
@@ -107,8 +110,8 @@ TEST_F(FileImportTest, KeepsWhatFitsIntoMemoryWhereTheDiskIsFull) {
     model::Session session(log);
     FileImport import(log, m_path, Stage::kStart);
     follow(import, log, session);
-    EXPECT_EQ(session.senders().front().datagrams, kDatagrams);
-    EXPECT_EQ(session.overtaken(), 0U);
+    EXPECT_EQ(session.roster().senders().front().datagrams, kDatagrams);
+    EXPECT_EQ(session.accounts().overtaken(), 0U);
     EXPECT_GT(session.begin(), 20'000U);
     EXPECT_TRUE(session.packet(session.begin()));
     EXPECT_LT(scratch->figures().heapBytes, std::size_t{2} << 20);

@@ -5,6 +5,10 @@
 #include "app/net/listening.h"
 #include "core/log/output_file.h"
 #include "core/log/pcapng_writer.h"
+#include "core/model/session/messages.h"
+#include "core/model/session/accounts.h"
+#include "core/model/session/roster.h"
+#include "core/model/session/verdict.h"
 #include "core/words/say.h"
 #include "tests/app/gui/models/stage.h"
 #include "tests/support/manual_clock.h"
@@ -75,8 +79,10 @@ private:
 TEST_F(SessionDriverTest, WhatArrivesAtThePortIsInTheSessionAtTheNextTick) {
     listenAndSend(10);
     ASSERT_TRUE(tickUntil(driver, [&] { return driver.commands().session().end() >= 10; }));
-    ASSERT_EQ(driver.commands().session().characters().size(), 1U);
-    EXPECT_NE(driver.commands().session().pose(driver.commands().session().characters()[0].key), nullptr);
+    ASSERT_EQ(driver.commands().session().roster().characters().size(), 1U);
+    EXPECT_NE(
+        driver.commands().session().messages().pose(driver.commands().session().roster().characters()[0].key),
+        nullptr);
 }
 
 TEST_F(SessionDriverTest, TheDemoSendsToTheAddressThatIsListenedAt) {
@@ -94,24 +100,24 @@ TEST_F(SessionDriverTest, WhatIsHiddenIsOfTheSessionAndTheViewMoves) {
     driver.commands().setCharacterVisible(key, false);
     driver.commands().setGhostVisible(true);
     driver.tick();
-    EXPECT_TRUE(driver.commands().session().isHidden(key));
-    EXPECT_TRUE(driver.commands().session().isGhostShown());
+    EXPECT_TRUE(driver.commands().session().roster().isHidden(key));
+    EXPECT_TRUE(driver.commands().session().choices().isGhostShown);
     EXPECT_EQ(moved.count(), 1);
     driver.commands().setCharacterVisible(key, true);
-    EXPECT_FALSE(driver.commands().session().isHidden(key));
+    EXPECT_FALSE(driver.commands().session().roster().isHidden(key));
 }
 
 TEST_F(SessionDriverTest, PausingFreezesTheDisplayWhileTheLogGoesOn) {
     listenAndSend(10);
     ASSERT_TRUE(tickUntil(driver, [&] { return driver.commands().session().end() >= 10; }));
-    const model::CharacterKey key = driver.commands().session().characters()[0].key;
+    const model::CharacterKey key = driver.commands().session().roster().characters()[0].key;
     driver.playback().setPaused(true);
-    const std::uint32_t sample = driver.commands().session().pose(key)->sample;
+    const std::uint32_t sample = driver.commands().session().messages().pose(key)->sample;
     listenAndSend(20);
     ASSERT_TRUE(tickUntil(driver, [&] { return driver.commands().session().end() >= 30; }));
-    EXPECT_EQ(driver.commands().session().pose(key)->sample, sample);
+    EXPECT_EQ(driver.commands().session().messages().pose(key)->sample, sample);
     driver.playback().setPaused(false);
-    EXPECT_GT(driver.commands().session().pose(key)->sample, sample);
+    EXPECT_GT(driver.commands().session().messages().pose(key)->sample, sample);
 }
 
 TEST_F(SessionDriverTest, ATakeHasThePreRollAndWhatComesWhateverIsShown) {
@@ -140,7 +146,7 @@ TEST_F(SessionDriverTest, ATakeHasThePreRollAndWhatComesWhateverIsShown) {
     }));
     ASSERT_EQ(openFile(driver, folder.filePath("take.pcapng")), "");
     EXPECT_EQ(driver.commands().session().end(), 100U);
-    const model::Annotations& read = driver.commands().session().annotations();
+    const model::Annotations& read = driver.commands().session().choices().annotations;
     EXPECT_EQ(read.marks, (std::set<std::uint64_t>{20, 30}));
     ASSERT_EQ(read.comments.size(), 1U);
     EXPECT_EQ(read.comments.at(30), "left hand jumps: look");
@@ -158,15 +164,15 @@ TEST_F(SessionDriverTest, ATakeTellsOfTheSilenceAtItsEnd) {
     const auto isBad = [](const model::TakeVerdict& one) {
         return one.state == model::TakeVerdict::State::Bad;
     };
-    ASSERT_TRUE(tickUntil(driver, [&] { return isBad(driver.commands().live().verdicts().all); }));
+    ASSERT_TRUE(tickUntil(driver, [&] { return isBad(driver.commands().live().verdicts().all().all); }));
     EXPECT_EQ(driver.takes().toggle(choice), "");
     ASSERT_TRUE(tickUntil(driver, [&] {
         QFile file(folder.filePath("take.pcapng"));
         return file.open(QIODevice::ReadOnly) && file.readAll().contains("Posewire: received for ");
     }));
     ASSERT_EQ(openFile(driver, folder.filePath("take.pcapng")), "");
-    EXPECT_TRUE(tickUntil(driver, [&] { return isBad(driver.commands().session().verdicts().all); }))
-        << say(driver.commands().session().verdicts().all.said, words::Form::Headline);
+    EXPECT_TRUE(tickUntil(driver, [&] { return isBad(driver.commands().session().verdicts().all().all); }))
+        << say(driver.commands().session().verdicts().all().all.said, words::Form::Headline);
 }
 
 TEST_F(SessionDriverTest, CommentsOfACaptureAreThoseOfItsPackets) {
@@ -189,7 +195,7 @@ TEST_F(SessionDriverTest, CommentsOfACaptureAreThoseOfItsPackets) {
         ASSERT_TRUE(writer.addStatistics());
     }
     ASSERT_EQ(openFile(driver, path), "");
-    const auto& comments = driver.commands().session().annotations().comments;
+    const auto& comments = driver.commands().session().choices().annotations.comments;
     ASSERT_EQ(comments.size(), 1U);
     EXPECT_EQ(comments.begin()->first, 7U);
     EXPECT_EQ(comments.begin()->second, "a stumble\nask Mira");
@@ -263,9 +269,9 @@ TEST_F(SessionDriverTest, AFileTouchesNothingOfWhatIsReceived) {
     EXPECT_EQ(driver.commands().session().end(), 2000U);
     listenAndSend(50);
     EXPECT_TRUE(tickUntil(driver, [&] { return driver.commands().live().end() == 100; }));
-    EXPECT_EQ(driver.commands().live().senders().size(), 1U);
-    EXPECT_EQ(driver.commands().live().cursor().mode, model::Cursor::Mode::Following);
-    for (const model::Incident& incident : driver.commands().live().incidents().all()) {
+    EXPECT_EQ(driver.commands().live().roster().senders().size(), 1U);
+    EXPECT_EQ(driver.commands().live().choices().cursor.mode, model::Cursor::Mode::Following);
+    for (const model::Incident& incident : driver.commands().live().verdicts().incidents().all()) {
         EXPECT_NE(incident.kind, model::IncidentKind::Conflict)
             << say(incident.fact(), words::Form::Sentence);
     }
@@ -282,9 +288,9 @@ TEST_F(SessionDriverTest, GoingLiveLetsGoOfThePacketThatIsHeldAndPlayingOnDoesNo
     driver.playback().setPaused(true);
     driver.commands().selectPacket(42);
     driver.playback().setPaused(false);
-    EXPECT_EQ(driver.commands().session().selection().packet, 42U);
+    EXPECT_EQ(driver.commands().session().choices().selection.packet, 42U);
     driver.playback().goLive();
-    EXPECT_FALSE(driver.commands().session().selection().packet);
+    EXPECT_FALSE(driver.commands().session().choices().selection.packet);
     EXPECT_FALSE(driver.playback().isPaused());
 }
 
@@ -296,8 +302,8 @@ TEST_F(SessionDriverTest, WhatIsAskedForIsDoneInTheSessionThatIsShown) {
     driver.commands().setMarked(15, true);
     driver.playback().setPaused(false); // a file stands still
     EXPECT_TRUE(driver.playback().isPaused());
-    EXPECT_TRUE(driver.commands().session().annotations().marks.contains(15));
-    EXPECT_TRUE(driver.commands().live().annotations().marks.empty());
+    EXPECT_TRUE(driver.commands().session().choices().annotations.marks.contains(15));
+    EXPECT_TRUE(driver.commands().live().choices().annotations.marks.empty());
 }
 
 TEST_F(SessionDriverTest, ClosingAFileSaysSoBeforeItsSessionGoes) {
@@ -335,14 +341,16 @@ TEST_F(SessionDriverTest, AfterAResetOnlyWhatCameSinceCounts) {
     listenAndSend(10);
     ASSERT_TRUE(tickUntil(driver, [&] { return driver.commands().live().end() == 10; }));
     driver.commands().resetForTake();
-    EXPECT_EQ(driver.commands().live().reset(), driver.commands().live().now());
+    EXPECT_EQ(driver.commands().live().choices().reset, driver.commands().live().now());
     ASSERT_TRUE(driver.commands().live().range());
     EXPECT_EQ(driver.commands()
                   .live()
-                  .countsOf(driver.commands().live().characters()[0].key, *driver.commands().live().range())
+                  .accounts()
+                  .countsOf(driver.commands().live().roster().characters()[0].key,
+                            *driver.commands().live().range())
                   .samples,
               0U);
-    EXPECT_EQ(driver.commands().live().streams()[0].accounting.counts().samples, 10U)
+    EXPECT_EQ(driver.commands().live().roster().streams()[0].accounting.counts().samples, 10U)
         << "what was received stays";
 }
 
@@ -360,10 +368,10 @@ TEST_F(SessionDriverTest, AFinishedRecordingIsNoSenderThatStopped) {
     log::ManualClock manual(log::WallTime(1'700'000'000s));
     SessionDriver opened{manual};
     ASSERT_EQ(openFile(opened, path), "");
-    ASSERT_EQ(opened.commands().session().characters().size(), 1U);
+    ASSERT_EQ(opened.commands().session().roster().characters().size(), 1U);
     manual.advance(5s);
     opened.tick();
-    for (const model::Incident& event : opened.commands().session().incidents().all()) {
+    for (const model::Incident& event : opened.commands().session().verdicts().incidents().all()) {
         EXPECT_NE(event.severity(), model::IncidentSeverity::Error)
             << say(event.fact(), words::Form::Sentence);
     }
@@ -382,8 +390,9 @@ TEST_F(SessionDriverTest, InputsOfTcpAreToldAsTheyStand) {
     for (const wire::Datagram& datagram : performer.frame(0)) {
         ASSERT_TRUE(sender->send(*wire::encode(datagram)));
     }
-    ASSERT_TRUE(tickUntil(driver, [&] { return driver.commands().session().characters().size() == 1; }));
-    EXPECT_EQ(driver.commands().session().senders()[0].info.transport, log::Transport::Tcp);
+    ASSERT_TRUE(
+        tickUntil(driver, [&] { return driver.commands().session().roster().characters().size() == 1; }));
+    EXPECT_EQ(driver.commands().session().roster().senders()[0].info.transport, log::Transport::Tcp);
     EXPECT_TRUE(driver.receiving().removePort(listening));
     EXPECT_FALSE(driver.receiving().removePort(listening));
     EXPECT_TRUE(driver.receiving().state().ports.empty());
@@ -392,8 +401,9 @@ TEST_F(SessionDriverTest, InputsOfTcpAreToldAsTheyStand) {
 TEST_F(SessionDriverTest, TheDemoGoesThroughARealSocket) {
     driver.receiving().addPort({"127.0.0.1", 0});
     driver.demo().setCharacters(2);
-    EXPECT_TRUE(tickUntil(driver, [&] { return driver.commands().session().characters().size() == 2; }));
-    EXPECT_EQ(driver.commands().session().senders()[0].info.transport, log::Transport::Udp);
+    EXPECT_TRUE(
+        tickUntil(driver, [&] { return driver.commands().session().roster().characters().size() == 2; }));
+    EXPECT_EQ(driver.commands().session().roster().senders()[0].info.transport, log::Transport::Udp);
     driver.demo().setCharacters(0);
     EXPECT_FALSE(driver.demo().isRunning());
 }

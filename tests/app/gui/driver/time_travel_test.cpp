@@ -2,6 +2,7 @@
 #include "app/gui/driver/session_driver.h"
 #include "core/log/output_file.h"
 #include "core/log/pcapng_writer.h"
+#include "core/model/session/roster.h"
 #include "tests/app/gui/models/stage.h"
 #include "tests/support/manual_clock.h"
 
@@ -46,8 +47,10 @@ protected:
     static log::Stamp momentOf(std::uint64_t packet) {
         return Stage::kStart + packet * log::Duration(1s) / 60;
     }
-    [[nodiscard]] std::uint64_t packet() { return m_driver.commands().session().cursor().packet; }
-    [[nodiscard]] model::CharacterKey key() { return m_driver.commands().session().characters()[0].key; }
+    [[nodiscard]] std::uint64_t packet() { return m_driver.commands().session().choices().cursor.packet; }
+    [[nodiscard]] model::CharacterKey key() {
+        return m_driver.commands().session().roster().characters()[0].key;
+    }
     void pass(log::Duration time) {
         m_clock.advance(time);
         m_driver.tick();
@@ -69,7 +72,8 @@ TEST_F(TimeTravelTest, StepsSamplesPacketsAndTime) {
     EXPECT_EQ(packet(), 351U);
     m_driver.playback().stepPackets(-1);
     EXPECT_EQ(packet(), 350U);
-    EXPECT_EQ(m_driver.commands().session().selection().packet, 350U) << "that packet is what is looked at";
+    EXPECT_EQ(m_driver.commands().session().choices().selection.packet, 350U)
+        << "that packet is what is looked at";
     m_driver.playback().stepTime(-1h);
     EXPECT_EQ(packet(), 0U);
     m_driver.playback().stepSamples(key(), -1);
@@ -143,7 +147,7 @@ TEST_F(TimeTravelTest, AStepLetsGoOfThePacketThatWasHeld) {
     m_driver.commands().selectPacket(42);
     m_driver.playback().stepSamples(key(), 1);
     EXPECT_EQ(packet(), 43U);
-    EXPECT_FALSE(m_driver.commands().session().selection().packet);
+    EXPECT_FALSE(m_driver.commands().session().choices().selection.packet);
 }
 
 } // namespace

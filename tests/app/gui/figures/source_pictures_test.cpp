@@ -3,6 +3,7 @@
 #include "app/gui/theme/theme.h"
 #include "app/gui/viewport/overlays.h"
 #include "core/model/body/segments.h"
+#include "core/model/session/roster.h"
 #include "tests/app/gui/figures/figure_studio.h"
 
 #include <string>
@@ -53,7 +54,7 @@ TEST_P(OverlayPictures, AreAsLookedAt) {
     const auto& [place, theme] = GetParam();
     const OverlayEntry& entry = kOverlayTable[place];
     performUntilMoment({2, 3, 12, 13, 20, 21, 23, 24}, 120);
-    const model::CharacterKey key = m_session.currentCharacters().front()->key;
+    const model::CharacterKey key = m_session.roster().listed().front()->key;
     const int segment = entry.overlay == Overlay::JointAngles ? model::segment::kRightLowerLeg : -1;
     m_session.setSelection({key.sender, key, segment});
     Overlays on;

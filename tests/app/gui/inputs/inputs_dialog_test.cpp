@@ -6,6 +6,7 @@
 #include "app/gui/inputs/relay_page.h"
 #include "app/gui/panels/table_view.h"
 #include "app/net/datagram_sender.h"
+#include "core/model/session/verdict.h"
 #include "core/words/say.h"
 
 #include <QLabel>
@@ -302,7 +303,7 @@ TEST_F(InputsDialogTest, ALoopSwitchesItsTargetOffAndIsAnEvent) {
     EXPECT_THAT(relay.problem.toStdString(), HasSubstr("sent back what was relayed there"));
     EXPECT_FALSE(driver.receiving().choices().relays[0].isOn);
     driver.tick();
-    const auto& events = driver.commands().session().incidents().all();
+    const auto& events = driver.commands().session().verdicts().incidents().all();
     const auto loop = std::ranges::find(events, model::IncidentKind::RelayLoop, &model::Incident::kind);
     ASSERT_NE(loop, events.end());
     EXPECT_EQ(words::say(loop->fact(), words::Form::Sentence), relay.problem.toStdString());

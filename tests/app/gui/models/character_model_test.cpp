@@ -6,6 +6,8 @@
 #include "app/gui/models/column.h"
 #include "app/gui/models/display_filter.h"
 #include "app/gui/models/shown_character.h"
+#include "core/model/session/accounts.h"
+#include "core/model/session/roster.h"
 #include "tests/app/gui/models/stage.h"
 
 #include <QAbstractItemModelTester>
@@ -145,7 +147,7 @@ TEST_F(CharacterModelTest, KeepsOneRowInItsPlaceThroughARestartOnAnotherPort) {
     EXPECT_EQ(m_model.index(0, Column::kVerdict).data(kSuffixRole).toString(),
               QStringLiteral("↻ restarted 1 ×"));
     EXPECT_TRUE(portHistory(m_stage.session, after).contains("192.168.10.21:52011 until "));
-    EXPECT_TRUE(m_stage.session.endedSenders().empty()) << "its other character has no successor";
+    EXPECT_TRUE(m_stage.session.accounts().endedSenders().empty()) << "its other character has no successor";
 }
 
 TEST_F(CharacterModelTest, LearnsTheNominalRateAnewAfterARestartOnTheSamePort) {
@@ -249,8 +251,8 @@ TEST_F(CharacterModelTest, LeavesOutWhatACorruptHeaderMayHaveInvented) {
     m_stage.send(odd, m_stage.now + 1ms);
     refresh();
     EXPECT_EQ(m_model.rowCount(), 1);
-    EXPECT_EQ(m_stage.session.unproven().characters, 1U);
-    EXPECT_EQ(m_stage.session.unproven().datagrams, 1U);
+    EXPECT_EQ(m_stage.session.accounts().unproven().characters, 1U);
+    EXPECT_EQ(m_stage.session.accounts().unproven().datagrams, 1U);
 }
 
 TEST_F(CharacterModelTest, ListsTheStreamsOfOneInDetail) {
@@ -298,7 +300,7 @@ TEST_F(CharacterModelTest, AsksToHideACharacterByItsCheckMark) {
     const QModelIndex name = m_model.index(0, 0);
     EXPECT_EQ(name.data(Qt::CheckStateRole).toInt(), Qt::Checked);
     EXPECT_TRUE(m_model.setData(name, Qt::Unchecked, Qt::CheckStateRole));
-    EXPECT_TRUE(m_stage.session.isHidden(m_stage.key()));
+    EXPECT_TRUE(m_stage.session.roster().isHidden(m_stage.key()));
     EXPECT_EQ(name.data(Qt::CheckStateRole).toInt(), Qt::Unchecked);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/models/computer_facts.h"
 
+#include "core/model/session/memory_figures.h"
 #include "tests/app/gui/models/stage.h"
 
 #include <QAbstractItemModelTester>

@@ -3,6 +3,7 @@
 
 #include "app/gui/models/shown_character.h"
 #include "core/filter/filter.h"
+#include "core/model/session/accounts.h"
 #include "core/performer/datagram_damage.h"
 #include "tests/app/gui/models/stage.h"
 
@@ -109,7 +110,7 @@ TEST_F(FaultModelTest, ACellLeadsToThePacketsThatShowTheLoss) {
     perform(0, 400);
     const PacketsBehind behind = m_model.packetsBehind(m_model.index(2, FaultModel::kNetwork));
     ASSERT_TRUE(behind.packet.has_value());
-    const model::PacketDigest* digest = m_stage.session.digests().find(*behind.packet);
+    const model::PacketDigest* digest = m_stage.session.accounts().digests().find(*behind.packet);
     EXPECT_EQ(digest->gap, 1U);
     EXPECT_EQ(digest->type, 20);
     EXPECT_EQ(digest->character, 1);

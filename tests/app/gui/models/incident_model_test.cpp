@@ -4,6 +4,7 @@
 #include "app/gui/models/display_filter.h"
 #include "app/gui/models/shown_character.h"
 #include "core/model/incidents/thresholds.h"
+#include "core/model/session/accounts.h"
 #include "tests/app/gui/models/stage.h"
 
 #include <QAbstractItemModelTester>
@@ -131,7 +132,7 @@ TEST_F(IncidentModelTest, AGapLeadsToItsPackets) {
         << filter.toStdString();
     const auto packet = incidentPacket(m_stage.session, *gap);
     ASSERT_TRUE(packet.has_value());
-    EXPECT_EQ(m_stage.session.digests().find(*packet)->gap, 3U);
+    EXPECT_EQ(m_stage.session.accounts().digests().find(*packet)->gap, 3U);
 }
 
 TEST_F(IncidentModelTest, NamesACharacterThatTheSessionDoesNotKnowByItsId) {

@@ -3,6 +3,7 @@
 
 #include "app/gui/models/column.h"
 #include "app/gui/models/packet_search.h"
+#include "core/model/session/accounts.h"
 #include "tests/app/gui/models/stage.h"
 #include "tests/support/golden.h"
 
@@ -234,8 +235,9 @@ TEST(PacketModel, FilterAndListAgreeOnPacketsWhosePredecessorsWereDropped) {
     PacketFilterRun run(session, *filter::Filter::compile("gap > 0"));
     run.wait();
     std::vector<std::uint64_t> gaps;
-    for (std::uint64_t number = session.digests().begin(); number < session.digests().end(); ++number) {
-        if (session.digests().find(number)->gap > 0) {
+    for (std::uint64_t number = session.accounts().digests().begin();
+         number < session.accounts().digests().end(); ++number) {
+        if (session.accounts().digests().find(number)->gap > 0) {
             gaps.push_back(number);
         }
     }
@@ -331,7 +333,7 @@ TEST_F(PacketModelTest, PaintsEveryCellOfDamagedDatagrams) {
                 written += index.data(role).toString().size();
             }
         }
-        if (m_stage.session.digests().find(static_cast<std::uint64_t>(row))->isProblem()) {
+        if (m_stage.session.accounts().digests().find(static_cast<std::uint64_t>(row))->isProblem()) {
             EXPECT_FALSE(text(row, PacketModel::kNote).isEmpty()) << row;
         }
     }

@@ -7,6 +7,7 @@
 #include "app/gui/models/packet_model.h"
 #include "app/gui/models/packet_search.h"
 #include "core/filter/filter.h"
+#include "core/model/session/accounts.h"
 #include "tests/app/gui/models/stage.h"
 
 namespace posewire::gui {
@@ -63,8 +64,8 @@ TEST_F(PacketTextTest, EveryCellMakesAFilterThatItsOwnPacketPasses) {
         const auto packet = m_stage.session.packet(42);
         const auto datagram = wire::decode(packet->bytes);
         const auto sender = m_stage.log.senders().find(packet->sender);
-        EXPECT_TRUE(compiled->matches({*packet, *m_stage.session.digests().find(42), &*datagram, sender.get(),
-                                       m_stage.session.firstStamp()}))
+        EXPECT_TRUE(compiled->matches({*packet, *m_stage.session.accounts().digests().find(42), &*datagram,
+                                       sender.get(), m_stage.session.firstStamp()}))
             << text.toStdString();
     }
     EXPECT_EQ(packetCellFilter(m_stage.session, 42, PacketModel::kNote), "");

@@ -4,6 +4,7 @@
 #include "app/gui/models/column.h"
 #include "app/gui/models/display_filter.h"
 #include "core/filter/filter.h"
+#include "core/model/session/roster.h"
 #include "tests/app/gui/models/stage.h"
 
 #include <QAbstractItemModelTester>
@@ -134,7 +135,8 @@ TEST_F(StatisticsModelTest, SumsOfCharacterAndSenderAddUpAndLeaveOutWhatMakesNoS
     EXPECT_EQ(text(sender(), Figure::Rate), "");
     EXPECT_EQ(text(sender(), Figure::Skew), "");
     QString datagrams = text(sender(), Figure::Datagrams);
-    EXPECT_EQ(datagrams.remove(QChar(0x202f)).toULongLong(), m_stage.session.senders().front().datagrams);
+    EXPECT_EQ(datagrams.remove(QChar(0x202f)).toULongLong(),
+              m_stage.session.roster().senders().front().datagrams);
 }
 
 TEST_F(StatisticsModelTest, MessagesWithoutSamplesHaveNoFiguresOfSamples) {

@@ -115,8 +115,8 @@ TEST_F(ComparePanelTest, ARowSelectsItsSegmentAndFollowsTheSelection) {
     compare();
     const int before = m_stage.asked.count;
     table().setCurrentIndex(table().model()->index(1, 0));
-    EXPECT_EQ(m_stage.session.selection().character, m_stage.key());
-    EXPECT_EQ(m_stage.session.selection().segment, model::segment::kLeftHand);
+    EXPECT_EQ(m_stage.session.choices().selection.character, m_stage.key());
+    EXPECT_EQ(m_stage.session.choices().selection.segment, model::segment::kLeftHand);
     m_stage.session.setSelection({m_stage.sender(), m_stage.key(), model::segment::kHead});
     m_panel.refresh();
     EXPECT_EQ(table().currentIndex().row(), 0);

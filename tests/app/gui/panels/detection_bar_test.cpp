@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/panels/metadata_panel.h"
 
+#include "core/model/session/roster.h"
 #include "tests/app/gui/models/stage.h"
 
 #include <QLabel>
@@ -31,7 +32,7 @@ protected:
         ADD_FAILURE() << button.toStdString() << " has no " << text.toStdString();
     }
     QString contradictions() const { return m_bar.findChild<QLabel*>()->text(); }
-    const model::Sender& sender() const { return m_stage.session.senders().front(); }
+    const model::Sender& sender() const { return m_stage.session.roster().senders().front(); }
 
     Stage m_stage;
     DetectionBar m_bar{m_stage.session, m_stage.commands, nullptr};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/panels/faults_panel.h"
 
+#include "core/model/session/accounts.h"
 #include "tests/app/gui/models/stage.h"
 
 #include <QHeaderView>
@@ -61,7 +62,7 @@ TEST_F(FaultsPanelTest, NamesTheSpanAtItsHeadAndSharesItWithTheStatistics) {
     EXPECT_FALSE(button("Selection")->isVisible());
     button("10 s")->click();
     refresh();
-    EXPECT_EQ(m_stage.session.rangeChoice().last, 10s);
+    EXPECT_EQ(m_stage.session.choices().range.last, 10s);
     EXPECT_EQ(span->text(), QStringLiteral("Samples lost · last 10 s"));
     m_stage.commands.selectRange({{}, model::TimeRange{Stage::kStart, Stage::kStart + 1s}});
     refresh();
@@ -78,18 +79,19 @@ TEST_F(FaultsPanelTest, EnterOnACellShowsItsPacketsAndKeepsTheFilter) {
     m_stage.commands.setDisplayFilter("type == 20");
     m_table->setCurrentIndex(character(FaultModel::kNetwork));
     QTest::keyClick(m_table, Qt::Key_Return);
-    ASSERT_TRUE(m_stage.session.selection().packet.has_value());
-    EXPECT_EQ(m_stage.session.digests().find(*m_stage.session.selection().packet)->gap, 1U);
-    EXPECT_EQ(m_stage.session.displayFilter(), "type == 20");
+    ASSERT_TRUE(m_stage.session.choices().selection.packet.has_value());
+    EXPECT_EQ(m_stage.session.accounts().digests().find(*m_stage.session.choices().selection.packet)->gap,
+              1U);
+    EXPECT_EQ(m_stage.session.choices().displayFilter, "type == 20");
     m_panel.showPackets(character(FaultModel::kNetwork), PacketLook::Alone);
-    EXPECT_EQ(m_stage.session.displayFilter(), "character == 0 && gap > 0");
-    EXPECT_EQ(m_stage.session.ownFilter(), "type == 20");
+    EXPECT_EQ(m_stage.session.choices().displayFilter, "character == 0 && gap > 0");
+    EXPECT_EQ(m_stage.session.choices().ownFilter(), "type == 20");
 }
 
 TEST_F(FaultsPanelTest, ACellWithoutLossesLeadsNowhere) {
     perform(0, 20);
     m_panel.showPackets(character(FaultModel::kSender), PacketLook::InContext);
-    EXPECT_FALSE(m_stage.session.selection().packet.has_value());
+    EXPECT_FALSE(m_stage.session.choices().selection.packet.has_value());
     perform(20, 400);
     ASSERT_EQ(character(FaultModel::kSender).data().toString(), "0");
     m_panel.showPackets(character(FaultModel::kSender), PacketLook::InContext);

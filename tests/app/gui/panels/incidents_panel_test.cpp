@@ -3,6 +3,8 @@
 
 #include "app/gui/models/shown_character.h"
 #include "app/gui/panels/table_view.h"
+#include "core/model/session/accounts.h"
+#include "core/model/session/verdict.h"
 #include "tests/app/gui/models/stage.h"
 
 #include <QFile>
@@ -67,40 +69,41 @@ TEST_F(IncidentsPanelTest, EnterOnAGapShowsItsPackets) {
     m_table->setCurrentIndex(gap);
     QTest::keyClick(m_table, Qt::Key_Return);
     EXPECT_EQ(m_stage.asked.dock, QStringLiteral("packets"));
-    EXPECT_EQ(m_stage.session.displayFilter(), "") << "its packets in their context";
-    ASSERT_TRUE(m_stage.session.selection().packet.has_value());
-    EXPECT_EQ(m_stage.session.digests().find(*m_stage.session.selection().packet)->gap, 3U);
+    EXPECT_EQ(m_stage.session.choices().displayFilter, "") << "its packets in their context";
+    ASSERT_TRUE(m_stage.session.choices().selection.packet.has_value());
+    EXPECT_EQ(m_stage.session.accounts().digests().find(*m_stage.session.choices().selection.packet)->gap,
+              3U);
 }
 
 TEST_F(IncidentsPanelTest, AJumpKeepsTheFilterOfTheOperator) {
     m_stage.session.setDisplayFilter("type == 02");
     m_panel.jump(rowWith(QStringLiteral("samples lost")));
-    EXPECT_EQ(m_stage.session.displayFilter(), "type == 02");
-    EXPECT_EQ(m_stage.session.filterJump(), nullptr);
+    EXPECT_EQ(m_stage.session.choices().displayFilter, "type == 02");
+    EXPECT_EQ(m_stage.session.choices().filterJump(), nullptr);
     m_stage.session.goBack();
-    EXPECT_FALSE(m_stage.session.selection().packet.has_value());
-    EXPECT_EQ(m_stage.session.displayFilter(), "type == 02");
+    EXPECT_FALSE(m_stage.session.choices().selection.packet.has_value());
+    EXPECT_EQ(m_stage.session.choices().displayFilter, "type == 02");
 }
 
 TEST_F(IncidentsPanelTest, AFilterThatHidesThePacketIsWidenedAndComesBack) {
     m_stage.session.setDisplayFilter("type == 20");
     m_panel.jump(rowWith(QStringLiteral("samples lost")));
-    const std::string filter = m_stage.session.displayFilter();
+    const std::string filter = m_stage.session.choices().displayFilter;
     EXPECT_TRUE(filter.starts_with("type == 20 || gap > 0 && type == 02")) << filter;
-    ASSERT_TRUE(m_stage.session.selection().packet.has_value());
-    EXPECT_TRUE(
-        isListed(m_stage.session, QString::fromStdString(filter), *m_stage.session.selection().packet));
-    EXPECT_EQ(m_stage.session.ownFilter(), "type == 20");
+    ASSERT_TRUE(m_stage.session.choices().selection.packet.has_value());
+    EXPECT_TRUE(isListed(m_stage.session, QString::fromStdString(filter),
+                         *m_stage.session.choices().selection.packet));
+    EXPECT_EQ(m_stage.session.choices().ownFilter(), "type == 20");
     m_stage.session.goBack();
-    EXPECT_EQ(m_stage.session.displayFilter(), "type == 20");
+    EXPECT_EQ(m_stage.session.choices().displayFilter, "type == 20");
 }
 
 TEST_F(IncidentsPanelTest, ShowsOnlyItsPacketsWhereThatIsAskedFor) {
     m_stage.session.setDisplayFilter("type == 02");
     m_table->setCurrentIndex(rowWith(QStringLiteral("samples lost")));
     m_panel.showOnlyCurrent();
-    EXPECT_TRUE(m_stage.session.displayFilter().starts_with("gap > 0 && type == 02"));
-    EXPECT_EQ(m_stage.session.ownFilter(), "type == 02");
+    EXPECT_TRUE(m_stage.session.choices().displayFilter.starts_with("gap > 0 && type == 02"));
+    EXPECT_EQ(m_stage.session.choices().ownFilter(), "type == 02");
     EXPECT_EQ(m_stage.asked.dock, QStringLiteral("packets"));
 }
 
@@ -115,9 +118,9 @@ TEST_F(IncidentsPanelTest, AStreamOfAnIncidentLeadsToItsOwnPackets) {
         const QModelIndex whole = model->index(row, 0);
         for (int part = 0; part < model->rowCount(whole); ++part) {
             m_panel.jump(model->index(part, 0, whole));
-            const auto packet = m_stage.session.selection().packet;
+            const auto packet = m_stage.session.choices().selection.packet;
             ASSERT_TRUE(packet.has_value());
-            const auto* digest = m_stage.session.digests().find(*packet);
+            const auto* digest = m_stage.session.accounts().digests().find(*packet);
             const QString what = model->index(part, IncidentModel::kText, whole).data().toString();
             const QString type = QStringLiteral("%1 ").arg(int{digest->type}, 2, 10, QLatin1Char('0'));
             EXPECT_TRUE(what.startsWith(type)) << what.toStdString();
@@ -132,7 +135,7 @@ TEST_F(IncidentsPanelTest, ListsTheIncidentsOfACharacterEachTimeTheyAreAskedFor)
     sendForeign(1);
     ASSERT_GT(m_table->model()->rowCount(), 1);
     const model::Incident* loss = nullptr;
-    for (const model::Incident& one : m_stage.session.incidents().all()) {
+    for (const model::Incident& one : m_stage.session.verdicts().incidents().all()) {
         loss = one.kind == model::IncidentKind::Loss ? &one : loss;
     }
     ASSERT_NE(loss, nullptr);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/panels/inspector_panel.h"
 
+#include "core/model/session/accounts.h"
 #include "tests/app/gui/models/stage.h"
 
 #include <QScrollBar>
@@ -29,7 +30,7 @@ protected:
         m_panel.refresh();
     }
     void selectSegment(int segment) {
-        model::Selection selection = m_stage.session.selection();
+        model::Selection selection = m_stage.session.choices().selection;
         selection.segment = segment;
         m_stage.commands.select(selection);
         refresh();
@@ -55,7 +56,7 @@ TEST_F(InspectorPanelTest, MarksTheBytesOfASegmentThatWasPickedElsewhere) {
 TEST_F(InspectorPanelTest, ShowsTheBytesThatWereLookedFor) {
     const auto find = [&](const model::FoundBytes& found) {
         m_stage.commands.selectPacket(found.packet);
-        model::Selection selection = m_stage.session.selection();
+        model::Selection selection = m_stage.session.choices().selection;
         selection.found = found;
         m_stage.commands.select(selection);
         refresh();
@@ -78,7 +79,7 @@ TEST_F(InspectorPanelTest, ScrollsToFoundBytesOnce) {
     bytes().resize(300, 60);
     int scrolls = 0;
     QObject::connect(bytes().verticalScrollBar(), &QScrollBar::valueChanged, &bytes(), [&] { ++scrolls; });
-    model::Selection selection = m_stage.session.selection();
+    model::Selection selection = m_stage.session.choices().selection;
     const std::uint32_t begin = bytesOf(14).begin + 20; // rows away from where its segment begins
     selection.packet = 0;
     selection.found = {0, begin, begin + 7};
@@ -92,7 +93,7 @@ TEST_F(InspectorPanelTest, PickingAByteSelectsItsFieldAndSegment) {
     bytes().scrollTo(offset);
     QTest::mouseClick(bytes().viewport(), Qt::LeftButton, {}, bytes().centreOf(offset));
     EXPECT_EQ(bytes().selected(), (ByteRange{offset - 1, offset + 3}));
-    EXPECT_EQ(m_stage.session.selection().segment, 4);
+    EXPECT_EQ(m_stage.session.choices().selection.segment, 4);
     EXPECT_TRUE(fields().currentIndex().isValid());
 }
 
@@ -107,8 +108,8 @@ TEST_F(InspectorPanelTest, TellsWhatIsMissingBeforeThePacketAndWhy) {
     stage.follow();
     InspectorPanel panel(stage.session, stage.commands, nullptr);
     std::uint64_t number = next;
-    while (stage.session.digests().find(number) != nullptr &&
-           stage.session.digests().find(number)->gap == 0) {
+    while (stage.session.accounts().digests().find(number) != nullptr &&
+           stage.session.accounts().digests().find(number)->gap == 0) {
         ++number;
     }
     stage.commands.selectPacket(number);

@@ -51,7 +51,7 @@ protected:
         return nullptr;
     }
     NullPoseFigure* figure() { return m_panel->findChild<NullPoseFigure*>(); }
-    int selectedSegment() const { return m_stage.session.selection().segment; }
+    int selectedSegment() const { return m_stage.session.choices().selection.segment; }
 
     Stage m_stage;
     std::unique_ptr<NullPosePanel> m_panel;
@@ -154,7 +154,7 @@ TEST_F(NullPosePanelTest, GhostButtonAsksForTheGhostAndShowsItsState) {
     ASSERT_NE(ghost, nullptr);
     EXPECT_NE(ghost->focusPolicy() & Qt::TabFocus, 0);
     ghost->click();
-    EXPECT_TRUE(m_stage.session.isGhostShown());
+    EXPECT_TRUE(m_stage.session.choices().isGhostShown);
     m_stage.session.setGhostShown(false);
     refresh();
     EXPECT_FALSE(ghost->isChecked());

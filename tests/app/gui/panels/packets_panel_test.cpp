@@ -6,6 +6,8 @@
 #include "app/gui/panels/find_bar.h"
 #include "app/gui/panels/fitting_header.h"
 #include "app/gui/panels/packet_view.h"
+#include "core/model/session/accounts.h"
+#include "core/model/session/roster.h"
 #include "tests/app/gui/panels/panel_stage.h"
 #include "tests/app/gui/panels/trigger.h"
 
@@ -58,7 +60,9 @@ protected:
     void trigger(std::string_view id) { gui::trigger(m_panel, id); }
     [[nodiscard]] PacketView& list() { return *m_panel.findChild<PacketView*>(); }
     [[nodiscard]] FilterBar& bar() { return *m_panel.findChild<FilterBar*>(); }
-    [[nodiscard]] std::optional<std::uint64_t> selected() const { return m_stage.session.selection().packet; }
+    [[nodiscard]] std::optional<std::uint64_t> selected() const {
+        return m_stage.session.choices().selection.packet;
+    }
 
     Stage m_stage;
     PacketsPanel m_panel{m_stage.session, m_stage.commands, nullptr};
@@ -117,7 +121,7 @@ TEST_F(PacketsPanelTest, ListsWhatTheDisplayFilterOfTheSessionLetsThrough) {
     EXPECT_EQ(m_panel.packets().rowCount(), 0);
     EXPECT_TRUE(list().accessibleDescription().contains("No packet matches"));
     m_panel.findChild<QPushButton*>("clearFilter")->click();
-    EXPECT_EQ(m_stage.session.displayFilter(), "");
+    EXPECT_EQ(m_stage.session.choices().displayFilter, "");
     EXPECT_EQ(m_panel.packets().rowCount(), 201);
 }
 
@@ -125,7 +129,7 @@ TEST_F(PacketsPanelTest, FiltersAgainWhereASendersPositionsTurnOutToBeCentimetre
     poses(0, 1);
     filterBy("position.z > 90 cm");
     EXPECT_EQ(m_panel.packets().rowCount(), 1);
-    const auto sender = m_stage.session.senders().begin()->id;
+    const auto sender = m_stage.session.roster().senders().begin()->id;
     m_stage.session.setOverride(sender, {.positionUnit = model::LengthUnit::Centimetre});
     filterBy("position.z > 90 cm");
     EXPECT_EQ(m_panel.packets().rowCount(), 0);
@@ -225,10 +229,10 @@ TEST_F(PacketsPanelTest, FilterLineSaysWhatIsWrongAndWhere) {
     ASSERT_TRUE(bar().error().has_value());
     EXPECT_EQ(bar().error()->offset, 14U);
     EXPECT_TRUE(bar().errorText().contains("gop")) << bar().errorText().toStdString();
-    EXPECT_EQ(m_stage.session.displayFilter(), "");
+    EXPECT_EQ(m_stage.session.choices().displayFilter, "");
     line->setText("type == 02 && gap > 0");
     QTest::keyClick(line, Qt::Key_Return);
-    EXPECT_EQ(m_stage.session.displayFilter(), "type == 02 && gap > 0");
+    EXPECT_EQ(m_stage.session.choices().displayFilter, "type == 02 && gap > 0");
     EXPECT_EQ(bar().errorText(), "");
     EXPECT_EQ(bar().history(), QStringList("type == 02 && gap > 0"));
 }
@@ -255,12 +259,12 @@ TEST_F(PacketsPanelTest, EnterAppliesWhatWasWrittenAndNoOffer) {
     QWidget* offers = QApplication::activePopupWidget();
     ASSERT_NE(offers, nullptr);
     QTest::keyClick(offers, Qt::Key_Return);
-    EXPECT_EQ(m_stage.session.displayFilter(), "malformed");
+    EXPECT_EQ(m_stage.session.choices().displayFilter, "malformed");
     EXPECT_EQ(line->text(), "malformed");
     line->selectAll();
     QTest::keyClick(line, Qt::Key_Delete);
     EXPECT_EQ(QApplication::activePopupWidget(), nullptr) << "nothing is written: nothing to complete";
-    EXPECT_EQ(m_stage.session.displayFilter(), "");
+    EXPECT_EQ(m_stage.session.choices().displayFilter, "");
 }
 
 TEST_F(PacketsPanelTest, ShippedFiltersAreRight) {
@@ -297,7 +301,7 @@ TEST_F(PacketsPanelTest, GoesToProblemsMarksAndTheStreamsOtherPackets) {
     EXPECT_EQ(selected(), 197U); // 196 is the metadata
     EXPECT_FALSE(isOn(m_panel, "mark"));
     trigger("mark");
-    EXPECT_TRUE(m_stage.session.annotations().marks.contains(197));
+    EXPECT_TRUE(m_stage.session.choices().annotations.marks.contains(197));
     EXPECT_TRUE(isOn(m_panel, "mark"));
     trigger("previousProblem");
     EXPECT_EQ(selected(), 100U);
@@ -369,11 +373,11 @@ TEST_F(PacketsPanelTest, FiltersByTheCellUnderTheCursor) {
     poses(0, 100);
     list().setCurrentIndex(m_panel.packets().index(50, PacketModel::kSample));
     trigger("filterByCell");
-    EXPECT_EQ(m_stage.session.displayFilter(), "sample == 50");
+    EXPECT_EQ(m_stage.session.choices().displayFilter, "sample == 50");
     filterBy("sample == 50");
     list().setCurrentIndex(m_panel.packets().index(0, PacketModel::kSize));
     trigger("filterAndCell");
-    const QString narrowed = QString::fromStdString(m_stage.session.displayFilter());
+    const QString narrowed = QString::fromStdString(m_stage.session.choices().displayFilter);
     EXPECT_TRUE(narrowed.contains("sample == 50") && narrowed.contains("&& size == "))
         << narrowed.toStdString();
 }
@@ -388,7 +392,7 @@ TEST_F(PacketsPanelTest, FindsTextInThePackets) {
     find->setText("lindqvist");
     trigger("findNext");
     EXPECT_TRUE(QTest::qWaitFor([&] { return selected() == 100U; }));
-    const auto found = m_stage.session.selection().found;
+    const auto found = m_stage.session.choices().selection.found;
     ASSERT_TRUE(found.has_value());
     const auto bytes = m_stage.session.packet(100)->bytes.subspan(found->begin, found->end - found->begin);
     EXPECT_EQ(readable(bytes), "Lindqvist");
@@ -422,7 +426,7 @@ TEST_F(PacketsPanelTest, MarksTheMomentWhereNoPacketIsSelected) {
     trigger("mark");
     poses(50, 60);
     trigger("mark");
-    EXPECT_EQ(m_stage.session.annotations().marks, (std::set<std::uint64_t>{49, 59}));
+    EXPECT_EQ(m_stage.session.choices().annotations.marks, (std::set<std::uint64_t>{49, 59}));
     EXPECT_EQ(m_panel.message(), QStringLiteral("Packet 59 is marked."));
     EXPECT_EQ(selected(), std::nullopt) << "the list still follows";
 }
@@ -557,15 +561,15 @@ TEST_F(PacketsPanelTest, GoesToProblemsOfTheSelectedCharacterAlone) {
     m_stage.session.setSelection({m_stage.sender(), m_stage.key(1), -1});
     trigger("nextProblem");
     ASSERT_TRUE(selected());
-    EXPECT_EQ(m_stage.session.digests().at(*selected()).character, 1);
+    EXPECT_EQ(m_stage.session.accounts().digests().at(*selected()).character, 1);
     const std::uint64_t only = *selected();
     trigger("nextProblem");
     EXPECT_EQ(selected(), only);
-    const QString name = QString::fromStdString(m_stage.session.displayName(m_stage.key(1)).shown());
+    const QString name = QString::fromStdString(m_stage.session.roster().displayName(m_stage.key(1)).shown());
     EXPECT_EQ(m_panel.message(), "No problem of " + name + " after this packet.");
     m_stage.session.setSelection({});
     trigger("nextProblem");
-    EXPECT_EQ(m_stage.session.digests().at(*selected()).character, 0) << "of all";
+    EXPECT_EQ(m_stage.session.accounts().digests().at(*selected()).character, 0) << "of all";
 }
 
 TEST_F(PacketsPanelTest, EnterInTheFilterLineGoesToTheListWithoutTakingARow) {
@@ -574,7 +578,7 @@ TEST_F(PacketsPanelTest, EnterInTheFilterLineGoesToTheListWithoutTakingARow) {
     ASSERT_TRUE(QTest::qWaitForWindowActive(&m_panel));
     QLineEdit* line = enterFilter("type == 02");
     EXPECT_TRUE(list().hasFocus());
-    EXPECT_EQ(m_stage.session.displayFilter(), "type == 02");
+    EXPECT_EQ(m_stage.session.choices().displayFilter, "type == 02");
     EXPECT_EQ(selected(), std::nullopt);
     EXPECT_TRUE(list().isFollowing());
     enterFilter("type ==");

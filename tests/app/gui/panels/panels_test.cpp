@@ -5,6 +5,8 @@
 #include "app/gui/panels/statistics_panel.h"
 #include "app/gui/panels/timecode_panel.h"
 #include "app/gui/panels/trackers_panel.h"
+#include "core/model/session/accounts.h"
+#include "core/model/session/roster.h"
 #include "tests/app/gui/panels/panel_stage.h"
 
 #include <gmock/gmock.h>
@@ -91,7 +93,7 @@ TEST_F(PanelsTest, SummariesTellTheStateInAFewWords) {
     EXPECT_EQ(open<StatisticsPanel>()->summary(), "all, 0.2 s · 6 streams");
     EXPECT_EQ(open<TrackersPanel>()->summary(), QStringLiteral("Pelvis · 1"));
     EXPECT_EQ(open<MetadataPanel>()->summary(),
-              QString::fromStdString(m_stage.session.displayName(m_stage.key()).shown()));
+              QString::fromStdString(m_stage.session.roster().displayName(m_stage.key()).shown()));
     m_stage.now += 5s;
     EXPECT_EQ(open<CharactersPanel>()->summary(), "0 of 2 good");
 }
@@ -144,8 +146,8 @@ TEST_F(PanelsTest, ClickingACharacterSelectsItForAllPanels) {
     TableView* view = table(*panel);
     const QModelIndex second = view->model()->index(1, 0);
     QTest::mouseClick(view->viewport(), Qt::LeftButton, {}, view->visualRect(second).center());
-    EXPECT_EQ(m_stage.session.selection().character, m_stage.key(1));
-    EXPECT_EQ(m_stage.session.selection().sender, m_stage.sender());
+    EXPECT_EQ(m_stage.session.choices().selection.character, m_stage.key(1));
+    EXPECT_EQ(m_stage.session.choices().selection.sender, m_stage.sender());
     QTest::mouseDClick(view->viewport(), Qt::LeftButton, {}, view->visualRect(second).center());
     ASSERT_EQ(m_stage.asked.framed.size(), 1U);
     EXPECT_EQ(m_stage.asked.framed.front(), m_stage.key(1));
@@ -161,10 +163,11 @@ TEST_F(PanelsTest, WhatIsOfTheSelectedCharacterSaysWhereNoneIs) {
     m_stage.session.setSelection({m_stage.sender(), m_stage.key(1), -1});
     panel->soloSelected();
     EXPECT_EQ(message->said(), "");
-    EXPECT_TRUE(m_stage.session.isHidden(m_stage.key(0)) && !m_stage.session.isHidden(m_stage.key(1)));
+    EXPECT_TRUE(m_stage.session.roster().isHidden(m_stage.key(0)) &&
+                !m_stage.session.roster().isHidden(m_stage.key(1)));
     m_stage.session.setSelection({});
     panel->soloSelected();
-    EXPECT_FALSE(m_stage.session.isHidden(m_stage.key(0))) << "show all needs none";
+    EXPECT_FALSE(m_stage.session.roster().isHidden(m_stage.key(0))) << "show all needs none";
 }
 
 TEST_F(PanelsTest, CharactersFollowASelectionMadeElsewhereWithoutAskingForIt) {
@@ -175,7 +178,7 @@ TEST_F(PanelsTest, CharactersFollowASelectionMadeElsewhereWithoutAskingForIt) {
     refresh(*panel);
     EXPECT_EQ(table(*panel)->currentIndex().row(), 1);
     EXPECT_EQ(m_stage.asked.count, 0);
-    EXPECT_EQ(m_stage.session.selection().segment, 3);
+    EXPECT_EQ(m_stage.session.choices().selection.segment, 3);
 }
 
 TEST_F(PanelsTest, TwentyCharactersAreInViewAtOnce) {
@@ -231,14 +234,16 @@ TEST_F(PanelsTest, SoloHidesAllOthersAndShowsThemAgain) {
     const auto panel = open<CharactersPanel>();
     m_stage.session.setSelection({m_stage.sender(), m_stage.key(1), -1});
     panel->soloSelected();
-    EXPECT_TRUE(m_stage.session.isHidden(m_stage.key(0)) && m_stage.session.isHidden(m_stage.key(2)));
-    EXPECT_FALSE(m_stage.session.isHidden(m_stage.key(1)));
+    EXPECT_TRUE(m_stage.session.roster().isHidden(m_stage.key(0)) &&
+                m_stage.session.roster().isHidden(m_stage.key(2)));
+    EXPECT_FALSE(m_stage.session.roster().isHidden(m_stage.key(1)));
     panel->soloSelected();
-    EXPECT_FALSE(m_stage.session.isHidden(m_stage.key(0)) || m_stage.session.isHidden(m_stage.key(2)));
+    EXPECT_FALSE(m_stage.session.roster().isHidden(m_stage.key(0)) ||
+                 m_stage.session.roster().isHidden(m_stage.key(2)));
     panel->toggleSelected();
-    EXPECT_TRUE(m_stage.session.isHidden(m_stage.key(1)));
+    EXPECT_TRUE(m_stage.session.roster().isHidden(m_stage.key(1)));
     panel->showPacketsOfSelected();
-    EXPECT_EQ(m_stage.session.displayFilter(), "character == 1");
+    EXPECT_EQ(m_stage.session.choices().displayFilter, "character == 1");
 }
 
 TEST_F(PanelsTest, EndedSendersFoldAwayAndCanBeForgotten) {
@@ -258,11 +263,11 @@ TEST_F(PanelsTest, EndedSendersFoldAwayAndCanBeForgotten) {
     EXPECT_EQ(table(*panel)->model()->rowCount(), 1);
     EXPECT_TRUE(ended->isVisible());
     EXPECT_EQ(ended->accessibleName(), "2 ended senders");
-    const std::uint64_t datagrams = m_stage.session.allSenders().datagrams;
+    const std::uint64_t datagrams = m_stage.session.accounts().allSenders().datagrams;
     panel->forgetEnded();
     EXPECT_FALSE(ended->isVisible());
-    EXPECT_EQ(m_stage.session.senders().size(), 1U);
-    EXPECT_EQ(m_stage.session.allSenders().datagrams, datagrams);
+    EXPECT_EQ(m_stage.session.roster().senders().size(), 1U);
+    EXPECT_EQ(m_stage.session.accounts().allSenders().datagrams, datagrams);
 }
 
 TEST_F(PanelsTest, PickingATrackerSelectsItsSegmentAndBack) {
@@ -272,8 +277,8 @@ TEST_F(PanelsTest, PickingATrackerSelectsItsSegmentAndBack) {
     TableView* view = table(*panel);
     view->setFocus();
     QTest::keyClick(view, Qt::Key_Down);
-    EXPECT_EQ(m_stage.session.selection().segment, 4);
-    EXPECT_EQ(m_stage.session.selection().character, m_stage.key());
+    EXPECT_EQ(m_stage.session.choices().selection.segment, 4);
+    EXPECT_EQ(m_stage.session.choices().selection.character, m_stage.key());
     m_stage.session.setSelection({m_stage.sender(), m_stage.key(), 10});
     refresh(*panel);
     EXPECT_EQ(panel->summary(), QStringLiteral("Right Hand · 11"));

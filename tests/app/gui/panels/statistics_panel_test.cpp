@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/panels/statistics_panel.h"
 
+#include "core/model/session/accounts.h"
 #include "tests/app/gui/panels/panel_stage.h"
 
 #include <QContextMenuEvent>
@@ -104,18 +105,20 @@ TEST_F(StatisticsPanelTest, ACellJumpsToItsPacketsByDoubleClickAndByKey) {
     QTest::mouseDClick(table().viewport(), Qt::LeftButton, {},
                        table().visualRect(stream(Column::Lost)).center());
     table().activated(stream(Column::Lost)); // what a double click is depends on the platform's style
-    EXPECT_EQ(m_stage.session.displayFilter(), "") << "in their context";
-    ASSERT_TRUE(m_stage.session.selection().packet.has_value());
-    EXPECT_EQ(m_stage.session.digests().find(*m_stage.session.selection().packet)->gap, 1U);
+    EXPECT_EQ(m_stage.session.choices().displayFilter, "") << "in their context";
+    ASSERT_TRUE(m_stage.session.choices().selection.packet.has_value());
+    EXPECT_EQ(m_stage.session.accounts().digests().find(*m_stage.session.choices().selection.packet)->gap,
+              1U);
     EXPECT_EQ(m_stage.asked.dock, "packets");
     table().setCurrentIndex(stream(kNameColumn));
     table().setFocus();
     QTest::keyClick(&table(), Qt::Key_Return);
-    EXPECT_EQ(m_stage.session.digests().find(*m_stage.session.selection().packet)->type, 2);
+    EXPECT_EQ(m_stage.session.accounts().digests().find(*m_stage.session.choices().selection.packet)->type,
+              2);
     m_panel->showPackets(stream(Column::Lost), PacketLook::Alone);
-    EXPECT_EQ(m_stage.session.displayFilter(), "type == 02 && character == 0 && gap > 0");
+    EXPECT_EQ(m_stage.session.choices().displayFilter, "type == 02 && character == 0 && gap > 0");
     m_stage.session.goBack();
-    EXPECT_EQ(m_stage.session.displayFilter(), "");
+    EXPECT_EQ(m_stage.session.choices().displayFilter, "");
 }
 
 TEST_F(StatisticsPanelTest, ClickingARowSelectsItsCharacter) {
@@ -123,7 +126,7 @@ TEST_F(StatisticsPanelTest, ClickingARowSelectsItsCharacter) {
     open();
     const QModelIndex second = table().model()->index(1, 0, table().model()->index(0, 0));
     QTest::mouseClick(table().viewport(), Qt::LeftButton, {}, table().visualRect(second).center());
-    EXPECT_EQ(m_stage.session.selection().character, m_stage.key(1));
+    EXPECT_EQ(m_stage.session.choices().selection.character, m_stage.key(1));
 }
 
 TEST_F(StatisticsPanelTest, DraggingInTheStripChoosesARangeAndAClickTakesItAway) {
@@ -170,7 +173,7 @@ TEST_F(StatisticsPanelTest, ButtonsChooseTheNewestSecondsAndTheTitleSaysSo) {
             button->click();
         }
     }
-    EXPECT_EQ(m_stage.session.rangeChoice().last, 10s);
+    EXPECT_EQ(m_stage.session.choices().range.last, 10s);
     EXPECT_EQ(m_panel->summary(), "last 10 s · 6 streams");
     refresh();
     const double samples = stream(Column::Samples).data().toString().remove(QChar(0x202f)).toDouble();
@@ -184,7 +187,7 @@ TEST_F(StatisticsPanelTest, FiltersThePacketsToTheRange) {
     EXPECT_EQ(m_stage.asked.dock, "");
     m_stage.commands.selectRange({0s, model::TimeRange{Stage::kStart + 2s, Stage::kStart + 4s}});
     m_panel->filterToRange();
-    EXPECT_EQ(m_stage.session.displayFilter(), "time >= 2.000 && time < 4.000");
+    EXPECT_EQ(m_stage.session.choices().displayFilter, "time >= 2.000 && time < 4.000");
     EXPECT_EQ(m_stage.asked.dock, "packets");
 }
 
@@ -205,7 +208,7 @@ TEST_F(StatisticsPanelTest, MenuOffersThePacketsAndCsv) {
     ASSERT_NE(packets, nullptr);
     ASSERT_EQ(packets->actions().size(), 6);
     packets->actions()[1]->trigger();
-    EXPECT_EQ(m_stage.session.displayFilter(), "type == 02 && character == 0 && gap > 0");
+    EXPECT_EQ(m_stage.session.choices().displayFilter, "type == 02 && character == 0 && gap > 0");
     menu.actions().back()->trigger();
     EXPECT_TRUE(copiedText().startsWith("Sender,Character"));
 }

@@ -2,6 +2,8 @@
 #include "app/gui/panels/timeline_panel.h"
 #include "app/gui/panels/timeline_view.h"
 #include "app/gui/theme/theme.h"
+#include "core/model/session/roster.h"
+#include "core/model/session/verdict.h"
 #include "tests/app/gui/models/stage.h"
 
 #include <QTest>
@@ -74,7 +76,7 @@ TEST_F(TimelineTest, FindsTheGapsAndNoneBetweenSamples) {
 }
 
 TEST_F(TimelineTest, EnterOpensTheStreamsOfTheSelectedCharacter) {
-    const model::CharacterKey second = m_stage.session.characters()[1].key;
+    const model::CharacterKey second = m_stage.session.roster().characters()[1].key;
     m_stage.session.setSelection({second.sender, second, -1});
     QTest::keyClick(&m_timeline, Qt::Key_Return);
     ASSERT_EQ(m_timeline.model().rows().size(), 4U);
@@ -201,13 +203,13 @@ TEST_F(TimelineTest, BothWaysOfCountingFindTheSame) {
 TEST_F(TimelineTest, AClickShowsThatMomentAndADragInTheRulerMovesThroughTime) {
     QTest::mouseClick(m_timeline.viewport(), Qt::LeftButton, {}, place(2s));
     EXPECT_NEAR(cursorSeconds(), 2, 0.05);
-    EXPECT_EQ(m_stage.session.cursor().mode, model::Cursor::Mode::Paused);
+    EXPECT_EQ(m_stage.session.choices().cursor.mode, model::Cursor::Mode::Paused);
     QTest::mousePress(m_timeline.viewport(), Qt::LeftButton, {}, inRuler(6s));
     EXPECT_NEAR(cursorSeconds(), 6, 0.05);
     QTest::mouseMove(m_timeline.viewport(), inRuler(7s));
     EXPECT_NEAR(cursorSeconds(), 7, 0.05);
     QTest::mouseRelease(m_timeline.viewport(), Qt::LeftButton, {}, inRuler(7s));
-    EXPECT_FALSE(m_stage.session.rangeChoice().fixed);
+    EXPECT_FALSE(m_stage.session.choices().range.fixed);
 }
 
 TEST_F(TimelineTest, ADragInTheRowsSelectsARange) {
@@ -257,24 +259,24 @@ TEST_F(TimelineTest, KeysZoomAndMove) {
 }
 
 TEST_F(TimelineTest, AClickOnANameOpensItsStreamsAndSelectsIt) {
-    const model::CharacterKey second = m_stage.session.characters()[1].key;
+    const model::CharacterKey second = m_stage.session.roster().characters()[1].key;
     const QPoint name(10, place(0s, 1).y());
     for (int turn = 0; turn < 2; ++turn) { // opened, its rows move to another place
         QTest::mouseClick(m_timeline.viewport(), Qt::LeftButton, {}, name);
-        EXPECT_EQ(m_stage.session.selection().character, second);
+        EXPECT_EQ(m_stage.session.choices().selection.character, second);
     }
 }
 
 TEST_F(TimelineTest, AnIncidentIsShownWhereItsMarkIsClicked) {
     const model::Incident* outage = nullptr;
-    for (const model::Incident& incident : m_stage.session.incidents().all()) {
+    for (const model::Incident& incident : m_stage.session.verdicts().incidents().all()) {
         outage = incident.kind == model::IncidentKind::Outage ? &incident : outage;
     }
     ASSERT_NE(outage, nullptr);
     const QPoint mark(static_cast<int>(m_timeline.placeOf(outage->firstStamp)),
                       m_timeline.rulerHeight() - m_timeline.fontMetrics().height() / 2);
     QTest::mouseClick(m_timeline.viewport(), Qt::LeftButton, {}, mark);
-    EXPECT_EQ(m_stage.session.incidentRequest().number, outage->number);
+    EXPECT_EQ(m_stage.session.choices().incidentRequest.number, outage->number);
 }
 
 TEST_F(TimelineTest, TheThumbnailShowsWhereTheWindowIsAndMovesIt) {

@@ -2,6 +2,7 @@
 #include "app/gui/viewport/overlays.h"
 
 #include "core/model/body/character_pose.h"
+#include "core/model/session/messages.h"
 #include "tests/app/gui/models/stage.h"
 
 #include <gtest/gtest.h>
@@ -83,8 +84,8 @@ TEST_F(OverlayTest, MarkersAreWhereTheirSegmentsHaveThem) {
     const SceneFrame frame = with(Overlay::Markers);
     const auto sacrum = std::ranges::find(frame.texts, QStringLiteral("pSacrum"), &SceneText::text);
     ASSERT_NE(sacrum, frame.texts.end());
-    const model::CharacterPose& pose = *stage.session.pose(stage.key());
-    const auto local = stage.session.bodyOrigins(stage.key()).pointOf(model::segment::kPelvis, 13);
+    const model::CharacterPose& pose = *stage.session.messages().pose(stage.key());
+    const auto local = stage.session.messages().bodyOrigins(stage.key()).pointOf(model::segment::kPelvis, 13);
     const Eigen::Vector3d place = pose.segments[0].position + pose.segments[0].orientation * *local;
     EXPECT_NEAR(sacrum->position.x, place.x(), 1e-4);
     EXPECT_NEAR(sacrum->position.y, place.y(), 1e-4);
@@ -96,7 +97,7 @@ TEST_F(OverlayTest, TheAngleOfASelectedJointIsThatOfType20) {
     select(0, model::segment::kRightLowerLeg);
     const SceneFrame frame = with(Overlay::JointAngles);
     ASSERT_EQ(frame.texts.size(), 1U);
-    const model::Message* message = stage.session.message(stage.key(), 20);
+    const model::Message* message = stage.session.messages().message(stage.key(), 20);
     ASSERT_NE(message, nullptr);
     const float knee = std::get<wire::JointAngles>(message->datagram.body).joints[15].rotation[2];
     EXPECT_EQ(frame.texts[0].text, QStringLiteral("%1 °").arg(knee, 0, 'f', 1));
@@ -143,7 +144,7 @@ TEST_F(OverlayTest, ATrailEndsAtItsSegment) {
     const SceneFrame frame = with(Overlay::Trails);
     ASSERT_GT(frame.lines.size(), 10U);
     const Eigen::Vector3d hand =
-        stage.session.pose(stage.key())->segments[model::segment::kRightHand].position;
+        stage.session.messages().pose(stage.key())->segments[model::segment::kRightHand].position;
     const glm::vec3 end = frame.lines.back().to;
     EXPECT_LT((Eigen::Vector3d(end.x, end.y, end.z) - hand).norm(), 0.02);
     EXPECT_LT(frame.lines.front().colour.a, frame.lines.back().colour.a) << "it fades";
@@ -152,7 +153,7 @@ TEST_F(OverlayTest, ATrailEndsAtItsSegment) {
 TEST_F(OverlayTest, FollowABodyThatWasPutOnTheFloor) {
     perform({22, 24});
     select(1);
-    const model::CharacterPose& pose = *stage.session.pose(stage.key(1));
+    const model::CharacterPose& pose = *stage.session.messages().pose(stage.key(1));
     EXPECT_TRUE(pose.isPlaceAssumed);
     EXPECT_EQ(pose.moved.y(), 1.0) << "those whose place is not known stand side by side";
 }

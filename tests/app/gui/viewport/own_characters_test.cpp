@@ -4,6 +4,7 @@
 #include "app/gui/models/text.h"
 #include "app/gui/viewport/picking.h"
 #include "app/gui/viewport/view_look.h"
+#include "core/model/session/roster.h"
 #include "tests/app/gui/models/stage.h"
 #include "tests/support/paths.h"
 
@@ -158,7 +159,7 @@ TEST_F(DressedScene, ShowsTheOwnBodyOfWhoHasOneInThePoseThatIsSent) {
     const SceneFrame plain = build();
     ASSERT_EQ(plain.figures.size(), 2U);
     EXPECT_EQ(plain.figures[0].own, nullptr);
-    dress(shown(m_stage.session.displayName(plain.figures[0].key)), found());
+    dress(shown(m_stage.session.roster().displayName(plain.figures[0].key)), found());
     const SceneFrame frame = build();
     ASSERT_NE(frame.figures[0].own, nullptr);
     EXPECT_EQ(frame.figures[1].own, nullptr);

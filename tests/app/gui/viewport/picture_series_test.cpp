@@ -53,7 +53,7 @@ TEST_F(PictureSeriesTest, WritesEachMomentToAFileOfItsOwn) {
     const QImage last(folder.filePath(files[2]));
     EXPECT_EQ(first.size(), QSize(320, 240));
     EXPECT_NE(first, last) << "half a second later the walker stands elsewhere";
-    EXPECT_EQ(stage.session.cursor().mode, model::Cursor::Mode::Following) << "as before";
+    EXPECT_EQ(stage.session.choices().cursor.mode, model::Cursor::Mode::Following) << "as before";
 }
 
 TEST_F(PictureSeriesTest, MomentsWithoutAnythingNewArePicturesToo) {
@@ -66,10 +66,10 @@ TEST_F(PictureSeriesTest, MomentsWithoutAnythingNewArePicturesToo) {
 TEST_F(PictureSeriesTest, OneAloneHasTheNameThatWasChosen) {
     request.count = 1;
     stage.playback.showMoment(Stage::kStart + 500ms);
-    const model::Cursor before = stage.session.cursor();
+    const model::Cursor before = stage.session.choices().cursor;
     EXPECT_EQ(write(), "");
     EXPECT_TRUE(QFile::exists(request.path));
-    EXPECT_EQ(stage.session.cursor(), before);
+    EXPECT_EQ(stage.session.choices().cursor, before);
 }
 
 TEST_F(PictureSeriesTest, LabelsAreInThePictureAndGrowWithIt) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/viewport/pose_banner.h"
 
+#include "core/model/session/roster.h"
 #include "tests/app/gui/models/stage.h"
 
 #include <QToolButton>
@@ -80,7 +81,7 @@ TEST_F(PoseBannerTest, PutsBodiesOnTheFloorThatAreBelow) {
     EXPECT_EQ(banner.notes()[0].text, "Character 0: It was sent below the floor");
     ASSERT_FALSE(banner.floorButton()->isHidden());
     banner.floorButton()->click();
-    EXPECT_TRUE(stage.session.isLifted(stage.key()));
+    EXPECT_TRUE(stage.session.roster().isLifted(stage.key()));
     banner.refresh(stage.session);
     EXPECT_TRUE(banner.floorButton()->isHidden());
     EXPECT_EQ(banner.notes()[0].text, "Character 0: Placed on the floor, since it was sent below it");

@@ -6,6 +6,8 @@
 #include "app/gui/viewport/camera_motion.h"
 #include "app/gui/viewport/labels.h"
 #include "app/gui/viewport/picking.h"
+#include "core/model/session/messages.h"
+#include "core/model/session/roster.h"
 #include "tests/app/gui/models/stage.h"
 
 #include <gtest/gtest.h>
@@ -46,7 +48,7 @@ TEST_F(SceneBuilderTest, EachCharacterHasAFigureInItsMetadataColour) {
     const SceneFrame frame = build();
     ASSERT_EQ(frame.figures.size(), 3U);
     for (const Figure& figure : frame.figures) {
-        const model::Colour colour = stage.session.colour(figure.key);
+        const model::Colour colour = stage.session.roster().colour(figure.key);
         EXPECT_EQ(figure.look.colour, glm::vec3(colour.red, colour.green, colour.blue));
         EXPECT_EQ(figure.look.dim, 0.0F);
         EXPECT_FALSE(figure.look.isHatched);
@@ -57,7 +59,7 @@ TEST_F(SceneBuilderTest, EachCharacterHasAFigureInItsMetadataColour) {
 TEST_F(SceneBuilderTest, ThePaletteTakesEachSegmentWhereThePoseHasIt) {
     perform(1);
     const SceneFrame frame = build();
-    const model::CharacterPose* pose = stage.session.pose(stage.key());
+    const model::CharacterPose* pose = stage.session.messages().pose(stage.key());
     ASSERT_NE(pose, nullptr);
     for (std::size_t i = 0; i < render::kSegmentCount; ++i) {
         const glm::vec3 place =
@@ -77,7 +79,7 @@ TEST_F(SceneBuilderTest, ACorruptSegmentDoesNotLeadTheCameraAway) {
     stage.send(datagram, stage.now + 4ms);
     stage.follow();
     const Figure figure = build().figures.at(0);
-    EXPECT_NEAR(stage.session.pose(stage.key())->segments[10].position.x(), 700, 0.1)
+    EXPECT_NEAR(stage.session.messages().pose(stage.key())->segments[10].position.x(), 700, 0.1)
         << "it is drawn as sent";
     EXPECT_LT(glm::distance(figure.bounds.centre(), well.centre()), 0.2F);
     EXPECT_LT(figure.bounds.radius(), 1.5F * well.radius());
@@ -97,7 +99,7 @@ TEST_F(SceneBuilderTest, TheLabelOfWhoIsUpsideDownIsAboveAllOfTheBody) {
     stage.send(datagram, stage.now + 4ms);
     stage.follow();
     const Figure figure = build().figures.at(0);
-    EXPECT_LT(stage.session.pose(stage.key())->segments[render::Head].position.z(), 0.6);
+    EXPECT_LT(stage.session.messages().pose(stage.key())->segments[render::Head].position.z(), 0.6);
     EXPECT_GT(figure.labelPosition.z, figure.bounds.max.z + 0.1F);
     EXPECT_NEAR(figure.labelPosition.x, figure.bounds.centre().x, 0.01F);
 }
@@ -149,7 +151,7 @@ TEST_F(SceneBuilderTest, WhoGoesOnUnderAnotherIdLeavesNoFigureBehind) {
     const SceneFrame frame = build();
     ASSERT_EQ(frame.figures.size(), 1U);
     EXPECT_EQ(frame.figures[0].key, stage.key(30));
-    EXPECT_EQ(stage.session.currentCharacters().size(), 2U) << "that it is silent is not kept back";
+    EXPECT_EQ(stage.session.roster().listed().size(), 2U) << "that it is silent is not kept back";
     stage.session.follow(stage.now + 5s);
     EXPECT_EQ(build().figures.size(), 1U) << "also where that one falls silent too";
     performAs(stage, {0, 30}, 4, 5);
@@ -168,7 +170,7 @@ TEST_F(SceneBuilderTest, PropsLookLikeWhatTheyAreCalled) {
     performer::PerformerSettings settings = sending(1, {2, 12, 13});
     settings.props = 4;
     perform(settings);
-    const model::CharacterPose* pose = stage.session.pose(stage.key());
+    const model::CharacterPose* pose = stage.session.messages().pose(stage.key());
     ASSERT_NE(pose, nullptr);
     const std::vector<FigureProp> props = build().figures.at(0).props;
     ASSERT_EQ(props.size(), 4U);
@@ -231,7 +233,7 @@ TEST_F(SceneBuilderTest, FollowsASenderThatAddsAndDropsPropsAndFingers) {
         frame += 30;
         stage.follow();
         const bool isEquipped = performer == &equipped;
-        const model::CharacterPose* pose = stage.session.pose(stage.key());
+        const model::CharacterPose* pose = stage.session.messages().pose(stage.key());
         ASSERT_NE(pose, nullptr);
         EXPECT_EQ(pose->layout.count(), isEquipped ? 65 : 23) << frame;
         const SceneFrame scene = build();
@@ -258,7 +260,7 @@ TEST_F(SceneBuilderTest, FingersOfThePoseMoveTheMesh) {
     settings.fingers = true;
     perform(settings);
     const SceneFrame frame = build();
-    const model::CharacterPose* pose = stage.session.pose(stage.key());
+    const model::CharacterPose* pose = stage.session.messages().pose(stage.key());
     ASSERT_NE(pose, nullptr);
     ASSERT_EQ(pose->layout.fingers, 40);
     ASSERT_EQ(frame.figures.size(), 1U);
@@ -299,7 +301,7 @@ TEST_F(SceneBuilderTest, TheGhostStandsOnTheFloorUnderTheLivePelvisAndLooksItsWa
     const auto at = [&](render::Segment segment) {
         return render::transformPoint(ghost.palette[segment], ghost.body->fit.origins[segment]);
     };
-    const model::SegmentPose& pelvis = stage.session.pose(stage.key(1))->segments[0];
+    const model::SegmentPose& pelvis = stage.session.messages().pose(stage.key(1))->segments[0];
     EXPECT_NEAR(at(render::Pelvis).x, pelvis.position.x(), 1e-4);
     EXPECT_NEAR(at(render::Pelvis).y, pelvis.position.y(), 1e-4);
     EXPECT_NEAR(at(render::RightToe).z, 0.015, 0.004); // the ball of the foot, over the sole
@@ -400,8 +402,9 @@ TEST_F(SceneBuilderTest, ASecondRecordingIsDrawnThroughWithLinesToWhereItDiffers
     const auto compare = [&](model::DifferenceFrame frame) {
         state.choice.frame = frame;
         state.atCursor.emplace();
-        ASSERT_TRUE(model::differenceOf(*stage.session.pose(stage.key()), *second.session.pose(second.key()),
-                                        frame, *state.atCursor));
+        ASSERT_TRUE(model::differenceOf(*stage.session.messages().pose(stage.key()),
+                                        *second.session.messages().pose(second.key()), frame,
+                                        *state.atCursor));
     };
     EXPECT_TRUE(build().ghosts.empty());
     builder.setComparison(&state);
@@ -419,7 +422,7 @@ TEST_F(SceneBuilderTest, ASecondRecordingIsDrawnThroughWithLinesToWhereItDiffers
     EXPECT_EQ(frame.points.size(), 23U);
     ASSERT_EQ(frame.texts.size(), 1U);
     EXPECT_TRUE(frame.texts[0].text.startsWith("take-2.pcapng · "));
-    const auto sent = second.session.pose(second.key())->segments[model::segment::kHead].position;
+    const auto sent = second.session.messages().pose(second.key())->segments[model::segment::kHead].position;
     EXPECT_NEAR(placeOf(frame.ghosts[0], model::segment::kHead).x, sent.x(), 1e-4);
 
     compare(model::DifferenceFrame::Pelvis);

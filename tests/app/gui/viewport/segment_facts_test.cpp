@@ -5,6 +5,7 @@
 #include "app/gui/viewport/camera_motion.h"
 #include "app/gui/viewport/picking.h"
 #include "app/gui/viewport/segment_card.h"
+#include "core/model/session/messages.h"
 #include "tests/app/gui/models/stage.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +22,7 @@ protected:
         stage.perform(performer, 0, 60);
         stage.follow();
     }
-    const model::CharacterPose& pose() { return *stage.session.pose(stage.key()); }
+    const model::CharacterPose& pose() { return *stage.session.messages().pose(stage.key()); }
     SegmentFacts facts(int segment) { return segmentFacts({stage.session, stage.key(), pose()}, segment); }
     static const SegmentFact* find(const SegmentFacts& facts, const QString& name) {
         const auto found = std::ranges::find(facts.facts, name, &SegmentFact::name);
@@ -44,7 +45,8 @@ TEST_F(SegmentFactsTest, ArePoseMotionAndJointAsSent) {
     EXPECT_NE(find(known, "Velocity"), nullptr);
     EXPECT_NE(find(known, "Acceleration"), nullptr);
     EXPECT_NE(find(known, "Angular velocity"), nullptr);
-    const auto& angles = std::get<wire::JointAngles>(stage.session.message(stage.key(), 20)->datagram.body);
+    const auto& angles =
+        std::get<wire::JointAngles>(stage.session.messages().message(stage.key(), 20)->datagram.body);
     ASSERT_NE(find(known, "Flexion"), nullptr);
     EXPECT_EQ(find(known, "Flexion")->values[1],
               fixed(static_cast<double>(angles.joints[15].rotation[2]), 1));
@@ -68,7 +70,7 @@ TEST_F(SegmentFactsTest, SayWhatWasSolvedAndWarnOfWhatIsAssumed) {
     other.perform(performer, 0, 60);
     other.follow();
     const SegmentFacts known =
-        segmentFacts({other.session, other.key(), *other.session.pose(other.key())}, 0);
+        segmentFacts({other.session, other.key(), *other.session.messages().pose(other.key())}, 0);
     EXPECT_TRUE(known.source.contains("place in the world assumed")) << known.source.toStdString();
     EXPECT_EQ(known.sourceHealth, Health::Warning);
 }

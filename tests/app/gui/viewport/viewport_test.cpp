@@ -3,6 +3,8 @@
 
 #include "app/gui/viewport/segment_card.h"
 #include "app/gui/viewport/viewport_overlay.h"
+#include "core/model/session/messages.h"
+#include "core/model/session/roster.h"
 #include "render/offscreen.h"
 #include "tests/app/gui/models/stage.h"
 
@@ -73,7 +75,7 @@ protected:
 };
 
 TEST_F(Viewport, PaintsACharacterInItsColourWithoutADisplay) {
-    const model::Colour colour = stage.session.colour(stage.key());
+    const model::Colour colour = stage.session.roster().colour(stage.key());
     const QImage image = viewport.grab().toImage();
     EXPECT_GT(countHue(image, QColor::fromRgbF(colour.red, colour.green, colour.blue)), 1500);
 }
@@ -81,7 +83,7 @@ TEST_F(Viewport, PaintsACharacterInItsColourWithoutADisplay) {
 TEST_F(Viewport, NamesEveryCharacterInThePicture) {
     ASSERT_EQ(viewport.overlay().labels().size(), 1U);
     EXPECT_EQ(viewport.overlay().labels()[0].name.toStdString(),
-              stage.session.displayName(stage.key()).shown());
+              stage.session.roster().displayName(stage.key()).shown());
     EXPECT_EQ(viewport.overlay().labels()[0].state.health, Health::Good);
     EXPECT_TRUE(viewport.overlay().card().title.isEmpty());
 }
@@ -102,11 +104,11 @@ TEST_F(Viewport, HidesACharacterOnRequest) {
 
 TEST_F(Viewport, AClickOnTheBodySelectsASegmentAndBesideItNothing) {
     QTest::mouseClick(&viewport, Qt::LeftButton, {}, middleOfFigure());
-    ASSERT_TRUE(stage.session.selection().character.has_value());
-    EXPECT_EQ(*stage.session.selection().character, stage.key());
-    EXPECT_GE(stage.session.selection().segment, 0);
+    ASSERT_TRUE(stage.session.choices().selection.character.has_value());
+    EXPECT_EQ(*stage.session.choices().selection.character, stage.key());
+    EXPECT_GE(stage.session.choices().selection.segment, 0);
     QTest::mouseClick(&viewport, Qt::LeftButton, {}, QPoint(5, viewport.height() - 5));
-    EXPECT_FALSE(stage.session.selection().character.has_value());
+    EXPECT_FALSE(stage.session.choices().selection.character.has_value());
 }
 
 TEST_F(Viewport, ADragTurnsTheCameraAndSelectsNothing) {
@@ -169,7 +171,7 @@ TEST_F(Viewport, KeepsViewsFromOneRunToTheNext) {
 
 TEST_F(Viewport, FacesThePelvisOrTheWorld) {
     const Eigen::Vector3d ahead =
-        stage.session.pose(stage.key())->segments[0].orientation * Eigen::Vector3d::UnitX();
+        stage.session.messages().pose(stage.key())->segments[0].orientation * Eigen::Vector3d::UnitX();
     const double heading = std::atan2(ahead.y(), ahead.x());
     const auto yaw = [this] { return cameraOf(viewport)["yaw"].toDouble(); };
     viewport.face(render::StandardView::Front);
@@ -209,7 +211,7 @@ TEST_F(Viewport, FramesACharacterAsItWasBeforeARestart) {
         }
     }
     stage.follow();
-    const model::CharacterKey now = stage.session.current(stage.key());
+    const model::CharacterKey now = stage.session.roster().current(stage.key());
     ASSERT_NE(now, stage.key());
     const std::uint64_t before = stage.session.packetAt(Stage::kStart + 100ms);
     stage.session.setCursor({model::Cursor::Mode::Paused, before});

@@ -5,6 +5,7 @@
 #include "app/gui/window/health_bar.h"
 #include "app/gui/window/health_popup.h"
 #include "app/gui/window/report_saving.h"
+#include "core/model/session/accounts.h"
 #include "tests/app/gui/models/stage.h"
 
 #include <QAbstractButton>
@@ -179,15 +180,16 @@ TEST_F(HealthBarTest, SaysWhyAndEachLineLeadsToItsPackets) {
     perform(0, 240, 60, 63);
     const QWidget* popup = open();
     ASSERT_NE(popup, nullptr);
-    EXPECT_EQ(m_stage.session.selection().character, m_stage.key());
+    EXPECT_EQ(m_stage.session.choices().selection.character, m_stage.key());
     const auto lines = popup->findChildren<QAbstractButton*>("trouble");
     ASSERT_FALSE(lines.empty());
     EXPECT_TRUE(lines.first()->text().contains(QStringLiteral("lost"), Qt::CaseInsensitive))
         << lines.first()->text().toStdString();
     QTest::keyClick(lines.first(), Qt::Key_Return);
-    ASSERT_TRUE(m_stage.session.selection().packet.has_value());
-    EXPECT_EQ(m_stage.session.digests().find(*m_stage.session.selection().packet)->gap, 3U);
-    EXPECT_EQ(m_stage.session.displayFilter(), "") << "in their context";
+    ASSERT_TRUE(m_stage.session.choices().selection.packet.has_value());
+    EXPECT_EQ(m_stage.session.accounts().digests().find(*m_stage.session.choices().selection.packet)->gap,
+              3U);
+    EXPECT_EQ(m_stage.session.choices().displayFilter, "") << "in their context";
     EXPECT_FALSE(popup->isVisible());
 }
 
@@ -217,7 +219,7 @@ TEST_F(HealthBarTest, ShowsTheWorstFirstAndAllInAList) {
     m_bar.refresh({});
     const int width = m_bar.firstEntry()->width();
     QTest::keyClick(m_bar.firstEntry(), Qt::Key_Return);
-    EXPECT_EQ(m_stage.session.selection().character, m_stage.key(17));
+    EXPECT_EQ(m_stage.session.choices().selection.character, m_stage.key(17));
     m_bar.findChild<QWidget*>("healthPopup")->close();
     auto* more = m_bar.findChild<QAbstractButton*>("more");
     ASSERT_TRUE(more->isVisible());
@@ -227,7 +229,7 @@ TEST_F(HealthBarTest, ShowsTheWorstFirstAndAllInAList) {
     auto* table = list->findChild<QAbstractItemView*>();
     ASSERT_EQ(table->model()->rowCount(), 20);
     emit table->clicked(table->model()->index(19, 0));
-    EXPECT_EQ(m_stage.session.selection().character, m_stage.key(19));
+    EXPECT_EQ(m_stage.session.choices().selection.character, m_stage.key(19));
     m_stage.now += 3s; // other, longer words
     m_stage.follow();
     m_bar.refresh({});

@@ -73,7 +73,7 @@ TEST_F(MainWindowTest, RestoresFilterCameraAndAxes) {
     }
     driver.commands().setDisplayFilter({});
     const auto window = makeWindow(kept);
-    EXPECT_EQ(driver.commands().live().displayFilter(), "type == 02");
+    EXPECT_EQ(driver.commands().live().choices().displayFilter, "type == 02");
     EXPECT_EQ(window->viewport().choice().axes(), AxesMode::Selected);
     EXPECT_EQ(window->viewport().choice().projection(), render::Projection::Orthographic);
     EXPECT_EQ(window->settings().viewport, kept.viewport);
@@ -372,12 +372,12 @@ TEST_F(MainWindowTest, EveryButtonOfADockIsInAMenu) {
 TEST_F(MainWindowTest, TheMenuOfFiguresChoosesTheirRange) {
     const auto window = makeWindow();
     action(*window, "figures10s")->trigger();
-    EXPECT_EQ(driver.commands().session().rangeChoice(),
+    EXPECT_EQ(driver.commands().session().choices().range,
               (model::RangeChoice{.last = std::chrono::seconds(10)}));
     EXPECT_TRUE(action(*window, "figures10s")->isChecked());
     EXPECT_FALSE(action(*window, "figuresOfAll")->isChecked());
     action(*window, "figuresOfAll")->trigger();
-    EXPECT_EQ(driver.commands().session().rangeChoice(), model::RangeChoice());
+    EXPECT_EQ(driver.commands().session().choices().range, model::RangeChoice());
     EXPECT_TRUE(action(*window, "figuresOfAll")->isChecked());
 }
 

@@ -4,6 +4,7 @@
 #include "app/gui/panels/table_view.h"
 #include "app/gui/window/main_window.h"
 #include "app/net/datagram_sender.h"
+#include "core/model/session/roster.h"
 #include "core/performer/performer.h"
 #include "core/wire/codec.h"
 
@@ -60,10 +61,10 @@ protected:
         }
         ASSERT_TRUE(QTest::qWaitFor([this] {
             m_driver.tick();
-            return m_driver.commands().live().atNow().currentCharacters().size() == kCharacters;
+            return m_driver.commands().live().atNow().roster().listed().size() == kCharacters;
         }));
-        m_driver.commands().select({m_driver.commands().live().atNow().currentCharacters()[0]->key.sender,
-                                    m_driver.commands().live().atNow().currentCharacters()[0]->key, -1});
+        m_driver.commands().select({m_driver.commands().live().atNow().roster().listed()[0]->key.sender,
+                                    m_driver.commands().live().atNow().roster().listed()[0]->key, -1});
     }
 
     /// What the docks that show need, for a message.

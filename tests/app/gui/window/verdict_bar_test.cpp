@@ -2,6 +2,7 @@
 #include "app/gui/window/verdict_bar.h"
 
 #include "app/gui/theme/widgets.h"
+#include "core/model/session/verdict.h"
 #include "tests/app/gui/models/stage.h"
 
 #include <QAction>
@@ -121,7 +122,7 @@ TEST_F(VerdictBarTest, LeadsToItsEvidenceByMouseAndKeyboard) {
     QTest::keyClick(headline, Qt::Key_Space);
     ASSERT_EQ(asked.size(), 3U);
     ASSERT_TRUE(asked[0]);
-    EXPECT_NE(m_stage.session.incidents().find(*asked[0]), nullptr);
+    EXPECT_NE(m_stage.session.verdicts().incidents().find(*asked[0]), nullptr);
 }
 
 TEST_F(VerdictBarTest, SaysWhichTimeItIsOfAndWhenThereWasAReset) {

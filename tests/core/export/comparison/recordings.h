@@ -3,6 +3,7 @@
 
 #include "core/export/comparison/pose_comparison.h"
 #include "core/model/accounting/stream_figures.h"
+#include "core/model/session/roster.h"
 #include "core/model/session/session.h"
 #include "core/performer/performer.h"
 
@@ -46,8 +47,8 @@ struct Recording {
 
     [[nodiscard]] feed::PoseSource source(const model::TimeRange& range = model::kAllTime) const {
         std::vector<model::CharacterKey> keys;
-        if (!session.atNow().currentCharacters().empty()) {
-            keys.push_back(session.atNow().currentCharacters().front()->key);
+        if (!session.atNow().roster().listed().empty()) {
+            keys.push_back(session.atNow().roster().listed().front()->key);
         }
         return feed::poseSourceOf(session, range, keys);
     }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "core/model/session/roster.h"
 #include "tests/core/export/motion/motion_fixture.h"
 
 namespace posewire::exporting {
@@ -147,8 +148,8 @@ TEST_F(MotionExportTest, WritesNothingWhereTheLogDropsWhatItReads) {
     receive(3'000);
     while (session.follow(kStart + 48s)) {
     }
-    const feed::PoseSource all = feed::poseSourceOf(session, model::kAllTime,
-                                                    std::vector{session.atNow().currentCharacters()[0]->key});
+    const feed::PoseSource all =
+        feed::poseSourceOf(session, model::kAllTime, std::vector{session.atNow().roster().listed()[0]->key});
     bool hasDropped = false;
     const auto exported = write("bvh", all, [&](double share) {
         if (share >= 0.5 && !std::exchange(hasDropped, true)) {

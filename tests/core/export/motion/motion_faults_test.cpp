@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "core/model/session/roster.h"
 #include "tests/core/export/motion/motion_fixture.h"
 #include "tests/core/performer/faulty_performance.h"
 
@@ -27,7 +28,8 @@ protected:
         ASSERT_TRUE(survey);
         for (std::size_t i = 0; i < all.characters.size(); ++i) {
             const model::CharacterKey key = all.characters[i].key;
-            const model::Stream* stream = m_session.find(log::StreamKey{key.sender, key.character, 2});
+            const model::Stream* stream =
+                m_session.roster().find(log::StreamKey{key.sender, key.character, 2});
             ASSERT_NE(stream, nullptr);
             const model::StreamCounts counts = stream->accounting.counts();
             const CharacterSurvey& one = survey->characters[i];

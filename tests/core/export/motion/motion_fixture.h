@@ -3,6 +3,7 @@
 
 #include "core/export/motion/motion_export.h"
 #include "core/model/accounting/stream_figures.h"
+#include "core/model/session/roster.h"
 #include "core/model/session/session.h"
 #include "core/performer/performer.h"
 #include "tests/support/temporary_folder.h"
@@ -65,7 +66,7 @@ protected:
 
     [[nodiscard]] feed::PoseSource source(const model::TimeRange& range = model::kAllTime) const {
         std::vector<model::CharacterKey> keys;
-        for (const model::Character* one : m_session.atNow().currentCharacters()) {
+        for (const model::Character* one : m_session.atNow().roster().listed()) {
             keys.push_back(one->key);
         }
         return feed::poseSourceOf(m_session, range, keys);

@@ -4,6 +4,7 @@
 #include "tests/core/model/session/session_fixture.h"
 
 #include "core/model/accounting/attribution.h"
+#include "core/model/session/accounts.h"
 
 namespace posewire::model {
 
@@ -63,8 +64,8 @@ protected:
     }
     const Gap& onlyGap() {
         follow();
-        EXPECT_EQ(m_session.gaps().size(), 1U);
-        return m_session.gaps().front();
+        EXPECT_EQ(m_session.accounts().gaps().size(), 1U);
+        return m_session.accounts().gaps().front();
     }
 
     log::Stamp m_at{10s};

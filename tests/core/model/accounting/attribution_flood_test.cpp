@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/log/packet_log.h"
 #include "core/model/accounting/attribution.h"
+#include "core/model/session/accounts.h"
+#include "core/model/session/roster.h"
 #include "core/model/session/session.h"
 
 #include <gtest/gtest.h>
@@ -29,7 +31,7 @@ protected:
     const Stream& follow() {
         m_log.writer().publish();
         m_session.follow(log::Stamp(1'000s));
-        return m_session.streams().front();
+        return m_session.roster().streams().front();
     }
     std::uint64_t lostHere(const Stream& stream) const {
         return stream.lostByCause()[static_cast<std::size_t>(LossCause::ThisComputer)];
@@ -71,7 +73,7 @@ TEST_F(FloodTest, WhatIsKnownOfAGapStaysWhenItsSamplesAreForgotten) {
         put(sample, 0);
     }
     EXPECT_EQ(lostHere(follow()), 2U);
-    EXPECT_EQ(m_session.gaps().front().lost, 2U);
+    EXPECT_EQ(m_session.accounts().gaps().front().lost, 2U);
 }
 
 } // namespace

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "core/model/session/accounts.h"
+#include "core/model/session/roster.h"
 #include "tests/core/model/accounting/attribution_fixture.h"
 
 namespace posewire::model {
@@ -20,7 +22,7 @@ TEST_F(AttributionTest, BlamesThisComputerWhereItsCounterRose) {
     EXPECT_EQ(partOf(gap.evidenceFact(), "datagrams"), words::counted(words::Kind::Datagrams, 2));
     EXPECT_EQ(numberIn(gap.evidenceFact(), "from"), 49);
     EXPECT_EQ(numberIn(gap.evidenceFact(), "to"), 50);
-    EXPECT_EQ(m_session.streams().front().lostByCause()[0], 2U);
+    EXPECT_EQ(m_session.roster().streams().front().lostByCause()[0], 2U);
 }
 
 TEST_F(AttributionTest, BlamesTheNetworkWhereAnotherStreamBroughtTheSample) {
@@ -43,7 +45,7 @@ TEST_F(AttributionTest, BlamesTheNetworkWhereTheSampleCameTruncated) {
     m_at += 4ms;
     frames(52, 120);
     EXPECT_EQ(onlyGap().cause, LossCause::Network);
-    EXPECT_EQ(m_session.senders().front().malformed, 1U);
+    EXPECT_EQ(m_session.roster().senders().front().malformed, 1U);
 }
 
 TEST_F(AttributionTest, BlamesTheNetworkWhereOnlyAPartOfANeighbourCame) {
@@ -68,7 +70,7 @@ TEST_F(AttributionTest, CountsIncompleteSamplesByCauseToo) {
     m_at += 4ms;
     frames(202, 260);
     follow();
-    const Stream& stream = m_session.streams().front();
+    const Stream& stream = m_session.roster().streams().front();
     EXPECT_EQ(stream.accounting.counts().incomplete, 3U);
     EXPECT_EQ(stream.lostByCause(), (std::array<std::uint64_t, 4>{1, 2, 0, 0}));
     put(201, {.datagramCounter = 0x81});
@@ -87,7 +89,8 @@ TEST_F(AttributionTest, BlamesThisComputerForTheRestThatItDroppedWhileItWasStopp
     m_at += 4ms;
     frames(181, 300);
     follow();
-    EXPECT_EQ(m_session.streams().front().lostByCause(), (std::array<std::uint64_t, 4>{129, 0, 0, 0}));
+    EXPECT_EQ(m_session.roster().streams().front().lostByCause(),
+              (std::array<std::uint64_t, 4>{129, 0, 0, 0}));
 }
 
 TEST_F(AttributionTest, BlamesTheSenderForWhatIsIncompleteOnTcp) {
@@ -96,7 +99,7 @@ TEST_F(AttributionTest, BlamesTheSenderForWhatIsIncompleteOnTcp) {
     m_at += 4ms;
     frames(52, 120, {.transport = log::Transport::Tcp});
     follow();
-    EXPECT_EQ(m_session.streams().front().lostByCause(), (std::array<std::uint64_t, 4>{0, 0, 1, 0}));
+    EXPECT_EQ(m_session.roster().streams().front().lostByCause(), (std::array<std::uint64_t, 4>{0, 0, 1, 0}));
 }
 
 TEST_F(AttributionTest, CountsIncompleteMessagesByCauseToo) {
@@ -109,7 +112,7 @@ TEST_F(AttributionTest, CountsIncompleteMessagesByCauseToo) {
     m_at += 1s;
     sendMetadata(0x80);
     follow();
-    const Stream& stream = m_session.streams().front();
+    const Stream& stream = m_session.roster().streams().front();
     EXPECT_EQ(stream.accounting.counts().incomplete, 1U);
     EXPECT_EQ(stream.lostByCause(), (std::array<std::uint64_t, 4>{0, 1, 0, 0}));
 }
@@ -122,8 +125,8 @@ TEST_F(AttributionTest, TakesAStreamThatEndsForNoLoss) {
         }
     }
     follow();
-    EXPECT_TRUE(m_session.gaps().empty());
-    for (const Stream& stream : m_session.streams()) {
+    EXPECT_TRUE(m_session.accounts().gaps().empty());
+    for (const Stream& stream : m_session.roster().streams()) {
         EXPECT_EQ(stream.accounting.counts().lost, 0U);
     }
 }
@@ -136,8 +139,8 @@ TEST_F(AttributionTest, BlamesTheSenderOnTcp) {
 
 TEST_F(AttributionTest, BlamesTheSenderThatPausesAllItsStreams) {
     silentInBothStreams({});
-    ASSERT_EQ(m_session.gaps().size(), 2U);
-    for (const Gap& gap : m_session.gaps()) {
+    ASSERT_EQ(m_session.accounts().gaps().size(), 2U);
+    for (const Gap& gap : m_session.accounts().gaps()) {
         EXPECT_EQ(gap.cause, LossCause::Sender);
         EXPECT_EQ(gap.lost, 200U);
         EXPECT_EQ(gap.evidenceFact().kind, words::Kind::Paused);
@@ -158,12 +161,12 @@ TEST_F(AttributionTest, BlamesOneForASilenceThatCutsThroughASample) {
         }
     }
     follow();
-    ASSERT_EQ(m_session.gaps().size(), 3U);
-    for (const Gap& gap : m_session.gaps()) {
+    ASSERT_EQ(m_session.accounts().gaps().size(), 3U);
+    for (const Gap& gap : m_session.accounts().gaps()) {
         EXPECT_EQ(gap.cause, LossCause::Network) << gap.evidenceFact();
     }
-    EXPECT_EQ(m_session.gaps().front().evidenceFact().kind, words::Kind::CutOff);
-    EXPECT_EQ(numberIn(m_session.gaps().front().evidenceFact(), "sample"), 100);
+    EXPECT_EQ(m_session.accounts().gaps().front().evidenceFact().kind, words::Kind::CutOff);
+    EXPECT_EQ(numberIn(m_session.accounts().gaps().front().evidenceFact(), "sample"), 100);
 }
 
 TEST_F(AttributionTest, BlamesTheSenderThatPausesAlsoWhereASampleBesideThePauseIsLost) {
@@ -176,7 +179,7 @@ TEST_F(AttributionTest, BlamesTheSenderThatPausesAlsoWhereASampleBesideThePauseI
         }
     }
     follow();
-    for (const Gap& gap : m_session.gaps()) {
+    for (const Gap& gap : m_session.accounts().gaps()) {
         EXPECT_EQ(gap.cause, gap.stream.type == 24 ? LossCause::Network : LossCause::Sender)
             << gap.evidenceFact();
     }
@@ -193,7 +196,7 @@ TEST_F(AttributionTest, TakesNoSampleForEvidenceThatTheStreamWouldNotHaveSent) {
     }
     follow();
     std::uint64_t lost = 0;
-    for (const Gap& gap : m_session.gaps()) {
+    for (const Gap& gap : m_session.accounts().gaps()) {
         lost += gap.lost;
         EXPECT_EQ(gap.cause, LossCause::Unknown) << gap.evidenceFact();
     }
@@ -202,8 +205,8 @@ TEST_F(AttributionTest, TakesNoSampleForEvidenceThatTheStreamWouldNotHaveSent) {
 
 TEST_F(AttributionTest, BlamesThisComputerForWhatWasSentWhileItsInputWasRemoved) {
     silentInBothStreams({.afterClosed = true});
-    ASSERT_EQ(m_session.gaps().size(), 2U);
-    for (const Gap& gap : m_session.gaps()) {
+    ASSERT_EQ(m_session.accounts().gaps().size(), 2U);
+    for (const Gap& gap : m_session.accounts().gaps()) {
         EXPECT_EQ(gap.cause, LossCause::ThisComputer);
         EXPECT_EQ(gap.lost, 200U);
         EXPECT_EQ(gap.evidenceFact().kind, words::Kind::NotListening);
@@ -217,7 +220,7 @@ TEST_F(AttributionTest, SaysUnknownWithoutEvidence) {
     const Gap& gap = onlyGap();
     EXPECT_EQ(gap.cause, LossCause::Unknown);
     EXPECT_TRUE(gap.isJudged);
-    EXPECT_EQ(m_session.streams().front().lostByCause()[3], 1U);
+    EXPECT_EQ(m_session.roster().streams().front().lostByCause()[3], 1U);
 }
 
 TEST_F(AttributionTest, DoesNotBlameAnotherPortsDrops) {
@@ -240,7 +243,7 @@ TEST_F(AttributionTest, TakesBackWhatCameLate) {
     frames(121, 200);
     const Gap& gap = onlyGap();
     EXPECT_EQ(gap.lost, 0U);
-    EXPECT_EQ(m_session.streams().front().lostByCause()[3], 0U);
+    EXPECT_EQ(m_session.roster().streams().front().lostByCause()[3], 0U);
 }
 
 TEST_F(AttributionTest, TakesBackWhatAChangeOfStepExplains) {
@@ -249,10 +252,10 @@ TEST_F(AttributionTest, TakesBackWhatAChangeOfStepExplains) {
         put(sample, {});
     }
     follow();
-    for (const Gap& gap : m_session.gaps()) {
+    for (const Gap& gap : m_session.accounts().gaps()) {
         EXPECT_EQ(gap.lost, 0U) << gap.fromSample;
     }
-    EXPECT_EQ(m_session.streams().front().accounting.counts().lost, 0U);
+    EXPECT_EQ(m_session.roster().streams().front().accounting.counts().lost, 0U);
 }
 
 TEST_F(AttributionTest, ClaimsNoLossWhileAStepChangesAndSamplesOfItAreLost) {
@@ -266,12 +269,12 @@ TEST_F(AttributionTest, ClaimsNoLossWhileAStepChangesAndSamplesOfItAreLost) {
             put(300 + 3 * place, {});
             follow();
         }
-        const auto causes = m_session.streams().front().lostByCause();
-        most = std::max(most, m_session.streams().front().attributed[3]);
-        ASSERT_LE(m_session.streams().front().attributed[3], lost) << place;
+        const auto causes = m_session.roster().streams().front().lostByCause();
+        most = std::max(most, m_session.roster().streams().front().attributed[3]);
+        ASSERT_LE(m_session.roster().streams().front().attributed[3], lost) << place;
         EXPECT_EQ(causes[0] + causes[1] + causes[2], 0U);
     }
-    EXPECT_EQ(m_session.streams().front().accounting.counts().lost, lost);
+    EXPECT_EQ(m_session.roster().streams().front().accounting.counts().lost, lost);
     EXPECT_GT(most, lost / 2);
 }
 
@@ -300,7 +303,7 @@ TEST_F(AttributionTest, IsTheSameInWhateverPortionsTheLogIsRead) {
         Session session(m_log);
         while (session.follow(m_now, portion)) {
         }
-        for (const Gap& gap : session.gaps()) {
+        for (const Gap& gap : session.accounts().gaps()) {
             told[portion == 1 ? 0 : 1].push_back(std::to_string(gap.fromSample) + " " +
                                                  std::to_string(gap.lost) + " " +
                                                  say(gap.evidenceFact(), words::Form::Sentence));
@@ -317,9 +320,9 @@ TEST_F(AttributionTest, LeavesNoGapInTheListOfPacketsWhereAllCameLate) {
     put(51, {});
     frames(53, 120);
     follow();
-    EXPECT_EQ(m_session.digests().at(50).gap, 0U);
-    EXPECT_EQ(m_session.digests().nextProblem(0), 51U) << "the one that was reordered";
-    EXPECT_EQ(m_session.digests().nextProblem(51), std::nullopt);
+    EXPECT_EQ(m_session.accounts().digests().at(50).gap, 0U);
+    EXPECT_EQ(m_session.accounts().digests().nextProblem(0), 51U) << "the one that was reordered";
+    EXPECT_EQ(m_session.accounts().digests().nextProblem(51), std::nullopt);
 }
 
 TEST_F(AttributionTest, TellsTheListOfPacketsWhatIsMissingStill) {
@@ -329,8 +332,8 @@ TEST_F(AttributionTest, TellsTheListOfPacketsWhatIsMissingStill) {
     put(52, {});
     frames(55, 120);
     follow();
-    EXPECT_EQ(m_session.gaps().front().lost, 2U);
-    EXPECT_EQ(m_session.digests().at(50).gap, 2U);
+    EXPECT_EQ(m_session.accounts().gaps().front().lost, 2U);
+    EXPECT_EQ(m_session.accounts().digests().at(50).gap, 2U);
 }
 
 TEST_F(AttributionTest, LeavesNoGapInTheListOfPacketsWhereTheStepChanged) {
@@ -339,8 +342,8 @@ TEST_F(AttributionTest, LeavesNoGapInTheListOfPacketsWhereTheStepChanged) {
         put(sample, {});
     }
     follow();
-    EXPECT_EQ(m_session.streams().front().accounting.counts().lost, 0U);
-    EXPECT_EQ(m_session.digests().nextProblem(0), std::nullopt);
+    EXPECT_EQ(m_session.roster().streams().front().accounting.counts().lost, 0U);
+    EXPECT_EQ(m_session.accounts().digests().nextProblem(0), std::nullopt);
 }
 
 } // namespace

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "core/model/session/accounts.h"
+#include "core/model/session/roster.h"
 #include "tests/core/model/accounting/attribution_fixture.h"
 
 #include <numeric>
@@ -12,12 +14,13 @@ class GapTest : public AttributionTest {
 protected:
     std::uint64_t sumOfGaps() {
         follow();
-        return std::accumulate(m_session.gaps().begin(), m_session.gaps().end(), std::uint64_t{0},
+        return std::accumulate(m_session.accounts().gaps().begin(), m_session.accounts().gaps().end(),
+                               std::uint64_t{0},
                                [](std::uint64_t sum, const Gap& gap) { return sum + gap.lost; });
     }
     std::array<std::uint64_t, kLossCauses> causes() {
         follow();
-        return m_session.streams().front().lostByCause();
+        return m_session.roster().streams().front().lostByCause();
     }
     /// A stream is silent for so long, and its time code moves by as much and some more.
     LossCause causeOfSilence(log::Duration silence, log::Duration more) {
@@ -39,8 +42,9 @@ protected:
         }
         log.writer().publish();
         session.follow(stamp);
-        EXPECT_EQ(session.gaps().size(), 1U);
-        return session.gaps().empty() ? LossCause::ThisComputer : session.gaps().front().cause;
+        EXPECT_EQ(session.accounts().gaps().size(), 1U);
+        return session.accounts().gaps().empty() ? LossCause::ThisComputer
+                                                 : session.accounts().gaps().front().cause;
     }
 };
 
@@ -71,7 +75,7 @@ TEST_F(GapTest, HasACauseForEverySampleThatIsLost) {
         }
     }
     frames(2'001, 2'100);
-    const StreamCounts counts = (follow(), m_session.streams().front().accounting.counts());
+    const StreamCounts counts = (follow(), m_session.roster().streams().front().accounting.counts());
     const auto byCause = causes();
     EXPECT_GT(counts.lost, 100U);
     EXPECT_EQ(std::accumulate(byCause.begin(), byCause.end(), std::uint64_t{0}),
@@ -86,8 +90,8 @@ TEST_F(GapTest, IsTheSameAcrossTheWrapAroundOfTheCounter) {
     put(0, {.type = 24});
     frames(2, 100);
     follow();
-    ASSERT_FALSE(m_session.gaps().empty());
-    const Gap& gap = m_session.gaps().front();
+    ASSERT_FALSE(m_session.accounts().gaps().empty());
+    const Gap& gap = m_session.accounts().gaps().front();
     EXPECT_EQ(gap.fromSample, 0xfffffffeU);
     EXPECT_EQ(gap.toSample, 2U);
     EXPECT_EQ(gap.lost, 3U);
@@ -135,7 +139,7 @@ TEST_F(GapTest, IsCountedOnceHoweverManyOfItsSamplesComeLate) {
     }
     frames(211, 220);
     EXPECT_EQ(sumOfGaps(), 0U);
-    EXPECT_EQ(m_session.streams().front().accounting.counts().lost, 0U);
+    EXPECT_EQ(m_session.roster().streams().front().accounting.counts().lost, 0U);
     const auto byCause = causes();
     EXPECT_EQ(std::accumulate(byCause.begin(), byCause.end(), std::uint64_t{0}), 0U);
 }

@@ -2,6 +2,8 @@
 #include "core/log/packet_log.h"
 #include "core/model/body/character_pose.h"
 #include "core/model/body/pose_remark.h"
+#include "core/model/session/messages.h"
+#include "core/model/session/roster.h"
 #include "core/model/session/session.h"
 #include "core/performer/performer.h"
 
@@ -74,8 +76,8 @@ public:
         m_session.follow(m_now);
     }
 
-    const CharacterPose* pose() { return m_session.pose(key()); }
-    CharacterKey key() { return m_session.atNow().currentCharacters().front()->key; }
+    const CharacterPose* pose() { return m_session.messages().pose(key()); }
+    CharacterKey key() { return m_session.atNow().roster().listed().front()->key; }
     Session& session() { return m_session; }
     const ReferenceBody& characterBody() const { return m_performer->characters().front().body(); }
 
@@ -335,7 +337,7 @@ TEST(BodiesBelowTheFloor, ArePutOnItWhereTheOperatorSaysSo) {
         }
     });
     EXPECT_TRUE(isBelowFloor(*performance.pose()));
-    EXPECT_FALSE(performance.session().poseRemark(performance.key()).isEmpty());
+    EXPECT_FALSE(performance.session().messages().poseRemark(performance.key()).isEmpty());
     performance.session().setLifted(performance.key(), true);
     const CharacterPose& pose = *performance.pose();
     EXPECT_TRUE(pose.isLifted);
@@ -370,7 +372,7 @@ TEST(BodiesWithoutScaleMessage, AreMeasuredOnPoses) {
         for (std::uint64_t frame = 0; frame < 40; ++frame) {
             performance.send(frame);
         }
-        const BodyOrigins& body = performance.session().bodyOrigins(performance.key());
+        const BodyOrigins& body = performance.session().messages().bodyOrigins(performance.key());
         EXPECT_EQ(body.source, BodySource::Poses);
         EXPECT_EQ(body.floor, 0);
         const double tolerance = types.front() == 3 ? 0.05 : 0.002;
@@ -381,10 +383,10 @@ TEST(BodiesWithoutScaleMessage, AreMeasuredOnPoses) {
     }
     Performance turnsAlone({22}, "squat");
     turnsAlone.send(0);
-    EXPECT_EQ(turnsAlone.session().bodyOrigins(turnsAlone.key()).source, BodySource::Reference);
+    EXPECT_EQ(turnsAlone.session().messages().bodyOrigins(turnsAlone.key()).source, BodySource::Reference);
     Performance withScale({2, 13}, "squat");
     withScale.send(0);
-    EXPECT_EQ(withScale.session().bodyOrigins(withScale.key()).source, BodySource::NullPose);
+    EXPECT_EQ(withScale.session().messages().bodyOrigins(withScale.key()).source, BodySource::NullPose);
 }
 
 } // namespace

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "core/model/session/roster.h"
 #include "core/model/session/verdict.h"
 #include "tests/core/model/incidents/incidents_fixture.h"
 
@@ -114,8 +115,8 @@ TEST_F(IncidentBounds, ACharacterIsSilentWhileItsSenderSendsAnother) {
     EXPECT_EQ(outages[0].characters(), (std::vector<std::uint8_t>{1}));
     EXPECT_EQ(outages[0].firstStamp, last);
     EXPECT_TRUE(outages[0].isCurrent);
-    EXPECT_EQ(m_session.verdict({sender(), 1}).state, TakeVerdict::State::Bad);
-    EXPECT_EQ(m_session.verdict(key()).state, TakeVerdict::State::Good);
+    EXPECT_EQ(m_session.verdicts().of({sender(), 1}).state, TakeVerdict::State::Bad);
+    EXPECT_EQ(m_session.verdicts().of(key()).state, TakeVerdict::State::Good);
     for (std::uint32_t sample = 401; sample <= 500; ++sample, m_at += 10ms) {
         pose(sample);
         poseOfOther(sample);
@@ -170,7 +171,7 @@ TEST_F(IncidentBounds, ATimeCodeJumpsByMoreThanHalfASecond) {
         log.writer().publish();
         session.follow(at(102s));
         const auto count =
-            std::ranges::count(session.incidents().all(), IncidentKind::TimeCode, &Incident::kind);
+            std::ranges::count(session.verdicts().incidents().all(), IncidentKind::TimeCode, &Incident::kind);
         EXPECT_EQ(count, jumps ? 1 : 0);
     }
 }
@@ -242,7 +243,7 @@ TEST_F(IncidentBounds, DropsAreAddedUpInOneIncident) {
     const auto dropped = of(IncidentKind::Local);
     ASSERT_EQ(dropped.size(), 1U);
     EXPECT_EQ(dropped[0].value, 7);
-    EXPECT_EQ(m_session.find(sender())->kernelDrops, 7U);
+    EXPECT_EQ(m_session.roster().find(sender())->kernelDrops, 7U);
 }
 
 TEST_F(IncidentBounds, AnotherBodyIsAScaleChangeAndTheSameOneIsNot) {
@@ -273,7 +274,7 @@ TEST_F(IncidentBounds, TroublesAreSortedWorstFirstAndLimitsLastOfTheirLike) {
     m_at += 10ms;
     poses(1'101, 1'150);
     follow();
-    const auto troubles = m_session.troublesOf(key());
+    const auto troubles = m_session.verdicts().troublesOf(key());
     ASSERT_GE(troubles.size(), 2U);
     EXPECT_TRUE(troubles.front()->kind == IncidentKind::Foreign ||
                 troubles.front()->kind == IncidentKind::Loss)
@@ -289,7 +290,7 @@ TEST_F(IncidentBounds, TroublesAreSortedWorstFirstAndLimitsLastOfTheirLike) {
     EXPECT_TRUE(std::ranges::any_of(troubles, [](const Incident* event) {
         return event->kind == IncidentKind::Foreign;
     })) << "what is of the sender concerns its characters";
-    EXPECT_TRUE(m_session.troublesOf({sender("10.0.0.9:1"), 0}).empty());
+    EXPECT_TRUE(m_session.verdicts().troublesOf({sender("10.0.0.9:1"), 0}).empty());
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/model/session/verdict.h"
 #include "tests/core/model/session/session_fixture.h"
 
 #include <algorithm>
@@ -36,7 +37,7 @@ protected:
     std::vector<Incident> of(IncidentKind kind) {
         follow();
         std::vector<Incident> found;
-        std::ranges::copy_if(m_session.incidents().all(), std::back_inserter(found),
+        std::ranges::copy_if(m_session.verdicts().incidents().all(), std::back_inserter(found),
                              [&](const Incident& event) { return event.kind == kind; });
         return found;
     }

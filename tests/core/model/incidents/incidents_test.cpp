@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "core/model/session/roster.h"
 #include "core/model/session/verdict.h"
 #include "tests/core/model/incidents/incidents_fixture.h"
 
@@ -17,7 +18,7 @@ TEST_F(IncidentsTest, TellThatASenderComesAndGoes) {
     ASSERT_EQ(down.size(), 1U);
     EXPECT_TRUE(down[0].isCurrent);
     EXPECT_EQ(down[0].severity(), IncidentSeverity::Error);
-    EXPECT_EQ(m_session.verdict(key()).state, TakeVerdict::State::Bad);
+    EXPECT_EQ(m_session.verdicts().of(key()).state, TakeVerdict::State::Bad);
     m_at += 4s;
     poses(101, 200);
     down = of(IncidentKind::Outage);
@@ -51,12 +52,12 @@ TEST_F(IncidentsTest, TroubleACharacterWhereTheCursorStands) {
     m_session.follow(m_at + 3s); // nothing more comes
     const auto isTroubledAt = [this](std::uint64_t packet) {
         m_session.setCursor({Cursor::Mode::Paused, packet});
-        return !m_session.troublesOf(key()).empty();
+        return !m_session.verdicts().troublesOf(key()).empty();
     };
     EXPECT_FALSE(isTroubledAt(200));
     EXPECT_TRUE(isTroubledAt(350));
     EXPECT_FALSE(isTroubledAt(980)) << "before the silence";
-    EXPECT_EQ(m_session.verdict(key()).state, TakeVerdict::State::Bad) << "now, whatever the cursor";
+    EXPECT_EQ(m_session.verdicts().of(key()).state, TakeVerdict::State::Bad) << "now, whatever the cursor";
 }
 
 TEST_F(IncidentsTest, CountTheGapsOfAnIncidentInOne) {
@@ -74,10 +75,10 @@ TEST_F(IncidentsTest, CountTheGapsOfAnIncidentInOne) {
     EXPECT_EQ(partOf(losses[0].fact(), "gaps"), words::counted(words::Kind::Gaps, 9));
     EXPECT_EQ(toldIn(losses[0].fact()).cause, words::Kind::CauseUnknown);
     EXPECT_TRUE(losses[0].isCurrent);
-    const std::uint64_t version = m_session.incidents().version();
+    const std::uint64_t version = m_session.verdicts().incidents().version();
     poses(501, 1'200);
     EXPECT_FALSE(of(IncidentKind::Loss)[0].isCurrent);
-    EXPECT_GT(m_session.incidents().version(), version);
+    EXPECT_GT(m_session.verdicts().incidents().version(), version);
 }
 
 TEST_F(IncidentsTest, TellReorderedSamplesAndNoLoss) {
@@ -99,7 +100,8 @@ TEST_F(IncidentsTest, TakeALossBackWhereTheSampleComesVeryLate) {
     pose(101);
     EXPECT_TRUE(of(IncidentKind::Loss).empty()) << "it is gone, not over";
     EXPECT_EQ(of(IncidentKind::Reordered).size(), 1U);
-    EXPECT_EQ(m_session.find(log::StreamKey{sender(), 0, 2})->attributed, (std::array<std::uint64_t, 4>{}));
+    EXPECT_EQ(m_session.roster().find(log::StreamKey{sender(), 0, 2})->attributed,
+              (std::array<std::uint64_t, 4>{}));
 }
 
 TEST_F(IncidentsTest, WaitLongerAfterASampleThatCameVeryLate) {
@@ -130,7 +132,7 @@ TEST_F(IncidentsTest, TellAnOutageOfAllStreamsAsOne) {
     EXPECT_EQ(outages[0].cause, LossCause::Sender) << "the time code moved with it";
     EXPECT_FALSE(outages[0].isCurrent);
     EXPECT_TRUE(of(IncidentKind::Loss).empty());
-    for (const Incident& incident : m_session.incidents().all()) {
+    for (const Incident& incident : m_session.verdicts().incidents().all()) {
         EXPECT_NE(incident.group(), IncidentGroup::Limit) << incident.fact();
     }
     EXPECT_NEAR(numberIn(outages[0].fact(), "lasted").value_or(0), 1.51, 0.005) << outages[0].fact();
@@ -440,7 +442,7 @@ TEST_F(IncidentsTest, CallNoLossAnErrorBecauseOfAFewSamplesOfItsFirstSecond) {
 TEST_F(IncidentsTest, CallALossAboveItsLimitAnError) {
     poses(1, 1'000);
     follow();
-    EXPECT_EQ(m_session.verdict(key()).state, TakeVerdict::State::Good);
+    EXPECT_EQ(m_session.verdicts().of(key()).state, TakeVerdict::State::Good);
     for (std::uint32_t sample = 1'001; sample <= 1'400; ++sample, m_at += 10ms) {
         if (sample % 50 != 0) {
             pose(sample);
@@ -453,7 +455,8 @@ TEST_F(IncidentsTest, CallALossAboveItsLimitAnError) {
     EXPECT_TRUE(of(IncidentKind::LossLimit).empty()) << "the loss says it all";
     poses(1'401, 3'000);
     follow();
-    EXPECT_EQ(m_session.verdict(key()).state, TakeVerdict::State::Good) << m_session.verdict(key()).said;
+    EXPECT_EQ(m_session.verdicts().of(key()).state, TakeVerdict::State::Good)
+        << m_session.verdicts().of(key()).said;
 }
 
 } // namespace

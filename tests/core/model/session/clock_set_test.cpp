@@ -4,6 +4,7 @@
 #include "tests/core/model/session/session_fixture.h"
 
 #include "core/model/incidents/incident_follower.h"
+#include "core/model/session/roster.h"
 #include "core/wire/types.h"
 
 #include <algorithm>
@@ -30,7 +31,7 @@ protected:
     }
     [[nodiscard]] std::vector<Incident> sets() const {
         std::vector<Incident> found;
-        std::ranges::copy_if(m_session.incidents().all(), std::back_inserter(found),
+        std::ranges::copy_if(m_session.verdicts().incidents().all(), std::back_inserter(found),
                              [](const Incident& event) { return event.kind == IncidentKind::ClockSet; });
         return found;
     }
@@ -63,17 +64,17 @@ TEST_F(ClockSetTest, IsNobodysLossRestartOrJitter) {
     sendUntil(1000);
     set(10h);
     sendUntil(1500);
-    for (const Incident& event : m_session.incidents().all()) {
+    for (const Incident& event : m_session.verdicts().incidents().all()) {
         EXPECT_TRUE(event.kind == IncidentKind::ClockSet || event.kind == IncidentKind::SourceUp)
             << event.fact();
     }
-    const Stream* stream = m_session.find(log::StreamKey{sender(), 0, 2});
+    const Stream* stream = m_session.roster().find(log::StreamKey{sender(), 0, 2});
     ASSERT_NE(stream, nullptr);
     const StreamCounts counts = stream->accounting.counts();
     EXPECT_EQ(counts.lost, 0U);
     EXPECT_EQ(counts.restarts, 0U);
     EXPECT_EQ(counts.samples, 1500U);
-    EXPECT_EQ(m_session.verdict(key()).state, TakeVerdict::State::Good);
+    EXPECT_EQ(m_session.verdicts().of(key()).state, TakeVerdict::State::Good);
 }
 
 TEST_F(ClockSetTest, ShowsInTimesOfDayOnly) {

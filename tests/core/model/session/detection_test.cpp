@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/session/detection.h"
+#include "core/model/session/messages.h"
+#include "core/model/session/roster.h"
 
 #include "tests/core/model/session/session_fixture.h"
 
@@ -176,8 +178,8 @@ wire::PoseQuaternion inCentimetres(wire::PoseQuaternion pose) {
 
 class UnitTest : public SessionTest {
 protected:
-    LengthUnit unit(std::uint8_t type) { return m_session.find(sender())->positionUnit(type); }
-    double poseX() { return m_session.pose(key())->segments[0].position.x(); }
+    LengthUnit unit(std::uint8_t type) { return m_session.roster().find(sender())->positionUnit(type); }
+    double poseX() { return m_session.messages().pose(key())->segments[0].position.x(); }
 };
 
 TEST_F(UnitTest, IsTheSendersForPosesAsForEverybodyElse) {
@@ -218,7 +220,7 @@ TEST_F(UnitTest, OfTypesWithYUpIsTheirOwn) {
     follow();
     EXPECT_EQ(unit(wire::PoseEuler::kType), LengthUnit::Metre);
     EXPECT_EQ(unit(wire::PointPositions::kType), LengthUnit::Metre);
-    EXPECT_NEAR(m_session.pose(key())->segments[0].position.z(), referenceOrigins()[0].z(), 1e-4);
+    EXPECT_NEAR(m_session.messages().pose(key())->segments[0].position.z(), referenceOrigins()[0].z(), 1e-4);
 }
 
 class OverrideTest : public SessionTest {};
@@ -226,15 +228,15 @@ class OverrideTest : public SessionTest {};
 TEST_F(OverrideTest, ReadsPosesInTheDeclaredUnit) {
     send(standingAt(2), 1, at(1s));
     follow();
-    ASSERT_NE(m_session.pose(key()), nullptr);
-    EXPECT_NEAR(m_session.pose(key())->segments[0].position.x(), 2.0, 1e-6);
+    ASSERT_NE(m_session.messages().pose(key()), nullptr);
+    EXPECT_NEAR(m_session.messages().pose(key())->segments[0].position.x(), 2.0, 1e-6);
     m_session.setOverride(sender(), {.positionUnit = LengthUnit::Centimetre});
-    EXPECT_NEAR(m_session.pose(key())->segments[0].position.x(), 0.02, 1e-6);
-    EXPECT_EQ(m_session.senders().front().positionUnit(), LengthUnit::Centimetre);
-    ASSERT_EQ(m_session.senders().front().contradictions().size(), 1U);
+    EXPECT_NEAR(m_session.messages().pose(key())->segments[0].position.x(), 0.02, 1e-6);
+    EXPECT_EQ(m_session.roster().senders().front().positionUnit(), LengthUnit::Centimetre);
+    ASSERT_EQ(m_session.roster().senders().front().contradictions().size(), 1U);
     m_session.setOverride(sender(), {});
-    EXPECT_NEAR(m_session.pose(key())->segments[0].position.x(), 2.0, 1e-6);
-    EXPECT_TRUE(m_session.senders().front().contradictions().empty());
+    EXPECT_NEAR(m_session.messages().pose(key())->segments[0].position.x(), 2.0, 1e-6);
+    EXPECT_TRUE(m_session.roster().senders().front().contradictions().empty());
 }
 
 TEST_F(OverrideTest, HoldsForTheSenderThatComesBackFromAnotherPort) {
@@ -247,13 +249,13 @@ TEST_F(OverrideTest, HoldsForTheSenderThatComesBackFromAnotherPort) {
     sendBytes(*wire::encode(datagram), at(2s), "127.0.0.1:40002");
     sendBytes(*wire::encode(datagram), at(2s), "127.0.0.2:40002");
     follow();
-    EXPECT_EQ(m_session.find(sender("127.0.0.1:40002"))->revision(), Revision::JOrK);
-    EXPECT_EQ(m_session.find(sender("127.0.0.2:40002"))->revision(), Revision::N);
+    EXPECT_EQ(m_session.roster().find(sender("127.0.0.1:40002"))->revision(), Revision::JOrK);
+    EXPECT_EQ(m_session.roster().find(sender("127.0.0.2:40002"))->revision(), Revision::N);
 }
 
 TEST_F(OverrideTest, OfAnUnknownSenderIsNothing) {
     m_session.setOverride(log::SenderId{77}, {.revision = Revision::E});
-    EXPECT_TRUE(m_session.senders().empty());
+    EXPECT_TRUE(m_session.roster().senders().empty());
 }
 
 } // namespace

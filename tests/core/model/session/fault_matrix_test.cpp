@@ -2,6 +2,7 @@
 #include "core/model/session/fault_matrix.h"
 
 #include "core/model/session/listed_incidents.h"
+#include "core/model/session/roster.h"
 #include "tests/core/model/incidents/incidents_fixture.h"
 
 #include <functional>
@@ -138,7 +139,7 @@ TEST_F(FaultMatrixTest, WhatIsNotHereYetIsNobodysLoss) {
     FaultMatrix all = matrix();
     EXPECT_EQ(all.sum.total(), 0U);
     EXPECT_EQ(all.sum.pending, 10U);
-    const Stream& stream = m_session.streams().front();
+    const Stream& stream = m_session.roster().streams().front();
     const StreamFigures figures = Losses(m_session, {}).figuresOf(stream);
     EXPECT_EQ(figures.count(Figure::LostUnknown), 0U) << "statistics and report say no more than the matrix";
     for (const Figure figure : {Figure::Lost, Figure::Missing, Figure::LossShare, Figure::LongestGap}) {
@@ -159,7 +160,7 @@ TEST_F(FaultMatrixTest, WhatIsNotHereYetIsNoLossOverTimeEither) {
     m_at += 50ms;
     samples(0, 306, 306);
     follow();
-    const Stream& stream = m_session.streams().front();
+    const Stream& stream = m_session.roster().streams().front();
     const RangeParts parts = partsOf({log::Stamp(100s), m_at}, 100, 100ms, stream.accounting.resolution());
     std::vector<RangePart> counted(parts.count);
     const Losses losses(m_session, {});
@@ -182,7 +183,7 @@ TEST_F(FaultMatrixTest, SumsUpToWhatTheStreamsLostWhateverTheCause) {
     samples(0, 311, 600);
     LossesByCause lost{};
     follow();
-    for (const Stream& stream : m_session.streams()) {
+    for (const Stream& stream : m_session.roster().streams()) {
         std::ranges::transform(lost, stream.lostByCause(), lost.begin(), std::plus());
     }
     const FaultMatrix all = matrix();

@@ -7,6 +7,9 @@
 #include "core/model/body/character_pose.h"
 #include "core/model/body/null_pose_findings.h"
 #include "core/model/body/pose_remark.h"
+#include "core/model/session/accounts.h"
+#include "core/model/session/messages.h"
+#include "core/model/session/roster.h"
 
 #include <algorithm>
 #include <string>
@@ -36,9 +39,10 @@ protected:
         sendBytes(bytes, m_at, address);
     }
     [[nodiscard]] const Sender* find(const std::string& address) const {
-        const auto found = std::ranges::find_if(
-            m_session.senders(), [&](const Sender& sender) { return sender.info.address == address; });
-        return found == m_session.senders().end() ? nullptr : &*found;
+        const auto found = std::ranges::find_if(m_session.roster().senders(), [&](const Sender& sender) {
+            return sender.info.address == address;
+        });
+        return found == m_session.roster().senders().end() ? nullptr : &*found;
     }
 
     log::Stamp m_at{100s};
@@ -52,10 +56,10 @@ TEST_F(LifecycleTest, StrangersTakeNoPlaceThatASenderCouldNeed) {
     sendPose("honest:1", 1);
     follow();
     ASSERT_NE(find("honest:1"), nullptr);
-    EXPECT_EQ(m_session.streams().size(), 1U);
-    EXPECT_LE(m_session.senders().size(), Ingest::kMostStrangers + 1);
-    EXPECT_EQ(m_session.allSenders().foreign, kStrangers) << "none is forgotten";
-    EXPECT_EQ(m_session.allSenders().senders, kStrangers + 1);
+    EXPECT_EQ(m_session.roster().streams().size(), 1U);
+    EXPECT_LE(m_session.roster().senders().size(), Roll::kMostStrangers + 1);
+    EXPECT_EQ(m_session.accounts().allSenders().foreign, kStrangers) << "none is forgotten";
+    EXPECT_EQ(m_session.accounts().allSenders().senders, kStrangers + 1);
 }
 
 TEST_F(LifecycleTest, TheLongestSilentMakesRoomAndIsRememberedInSums) {
@@ -70,38 +74,38 @@ TEST_F(LifecycleTest, TheLongestSilentMakesRoomAndIsRememberedInSums) {
         }
     }
     follow();
-    EXPECT_LE(m_session.senders().size(), Ingest::kMostSenders + Ingest::kMostStrangers);
-    EXPECT_LE(m_session.characters().size(), m_session.senders().size());
-    EXPECT_LE(m_session.streams().size(), m_session.senders().size());
+    EXPECT_LE(m_session.roster().senders().size(), Roll::kMostSenders + Roll::kMostStrangers);
+    EXPECT_LE(m_session.roster().characters().size(), m_session.roster().senders().size());
+    EXPECT_LE(m_session.roster().streams().size(), m_session.roster().senders().size());
     EXPECT_NE(find("10.0.0.1:" + std::to_string(kRestarts - 1)), nullptr);
     EXPECT_EQ(find("10.0.0.1:0"), nullptr);
-    const RetiredTotals& retired = m_session.retired();
+    const RetiredTotals& retired = m_session.accounts().retired();
     std::uint64_t samples = retired.samples;
     std::uint64_t lost = retired.lost;
-    for (const Stream& stream : m_session.streams()) {
+    for (const Stream& stream : m_session.roster().streams()) {
         samples += stream.accounting.counts().samples;
         lost += stream.accounting.counts().lost;
     }
     EXPECT_EQ(samples, 10 * kRestarts);
     EXPECT_EQ(lost, 100 * kRestarts);
-    EXPECT_EQ(m_session.allSenders().wellFormed(), 10 * kRestarts);
-    EXPECT_EQ(m_session.allSenders().senders, kRestarts);
+    EXPECT_EQ(m_session.accounts().allSenders().wellFormed(), 10 * kRestarts);
+    EXPECT_EQ(m_session.accounts().allSenders().senders, kRestarts);
 }
 
 TEST_F(LifecycleTest, WhatARetiredSenderHadLastsNoLonger) {
     sendPose("old:1", 1);
-    for (std::size_t i = 0; i <= 2 * Ingest::kMostSenders; ++i, m_at += 1s) {
+    for (std::size_t i = 0; i <= 2 * Roll::kMostSenders; ++i, m_at += 1s) {
         sendPose("10.0.0.1:" + std::to_string(i), 1);
         sendPose("10.0.0.1:" + std::to_string(i), 2);
     }
     follow();
     ASSERT_EQ(find("old:1"), nullptr);
-    for (const Incident* event : m_session.incidents().current()) {
-        EXPECT_NE(m_session.find(event->sender), nullptr) << event->fact();
+    for (const Incident* event : m_session.verdicts().incidents().current()) {
+        EXPECT_NE(m_session.roster().find(event->sender), nullptr) << event->fact();
     }
-    const Incident& first = m_session.incidents().all().front();
+    const Incident& first = m_session.verdicts().incidents().all().front();
     EXPECT_EQ(first.kind, IncidentKind::SourceUp);
-    EXPECT_EQ(m_session.addressOf(first.sender), "a retired sender");
+    EXPECT_EQ(m_session.roster().addressOf(first.sender), "a retired sender");
 }
 
 TEST_F(LifecycleTest, WhatIsAskedOfOneThatWasRetiredIsNothing) {
@@ -109,25 +113,25 @@ TEST_F(LifecycleTest, WhatIsAskedOfOneThatWasRetiredIsNothing) {
     sendPose("old:1", 1);
     follow();
     const CharacterKey key{sender("old:1"), 0};
-    ASSERT_NE(m_session.find(key), nullptr);
+    ASSERT_NE(m_session.roster().find(key), nullptr);
     m_at += 10s;
-    for (std::size_t i = 0; i <= 2 * Ingest::kMostSenders; ++i, m_at += 1s) {
+    for (std::size_t i = 0; i <= 2 * Roll::kMostSenders; ++i, m_at += 1s) {
         sendPose("10.0.0.1:" + std::to_string(i), 1);
     }
     follow();
-    ASSERT_EQ(m_session.find(key), nullptr);
-    EXPECT_TRUE(m_session.metadata(key).tags().empty());
-    EXPECT_EQ(m_session.pose(key), nullptr);
-    EXPECT_EQ(m_session.nullPose(key), nullptr);
-    EXPECT_EQ(m_session.verdict(key).state, TakeVerdict::State::None);
-    EXPECT_EQ(m_session.ageSeconds(key), 0);
-    EXPECT_TRUE(m_session.lineage(key).empty());
-    EXPECT_EQ(m_session.restartsOf(key), 0U);
-    EXPECT_FALSE(m_session.isHidden(key));
-    EXPECT_FALSE(m_session.isSuperseded(key));
-    EXPECT_EQ(m_session.nullPoseEvidence(key).record.messages, 0U);
-    EXPECT_EQ(m_session.colour(key), defaultColour(0));
-    EXPECT_EQ(m_session.atNow().pose(key), nullptr);
+    ASSERT_EQ(m_session.roster().find(key), nullptr);
+    EXPECT_TRUE(m_session.messages().metadata(key).tags().empty());
+    EXPECT_EQ(m_session.messages().pose(key), nullptr);
+    EXPECT_EQ(m_session.messages().nullPose(key), nullptr);
+    EXPECT_EQ(m_session.verdicts().of(key).state, TakeVerdict::State::None);
+    EXPECT_EQ(m_session.messages().ageSeconds(key), 0);
+    EXPECT_TRUE(m_session.roster().lineage(key).empty());
+    EXPECT_EQ(m_session.accounts().restartsOf(key), 0U);
+    EXPECT_FALSE(m_session.roster().isHidden(key));
+    EXPECT_FALSE(m_session.roster().isSuperseded(key));
+    EXPECT_EQ(m_session.messages().nullPoseEvidence(key).record.messages, 0U);
+    EXPECT_EQ(m_session.roster().colour(key), defaultColour(0));
+    EXPECT_EQ(m_session.atNow().messages().pose(key), nullptr);
 }
 
 TEST_F(LifecycleTest, WhatWasForgottenKeepsItsNameInWhatIsToldOfIt) {
@@ -141,12 +145,12 @@ TEST_F(LifecycleTest, WhatWasForgottenKeepsItsNameInWhatIsToldOfIt) {
     const CharacterKey jonas = key();
     m_session.follow(m_at + 3s);
     ASSERT_TRUE(m_session.forget(jonas.sender));
-    EXPECT_EQ(m_session.displayName(jonas), "Jonas");
-    EXPECT_EQ(m_session.addressOf(jonas.sender), "127.0.0.1:40001");
-    EXPECT_EQ(m_session.displayName({jonas.sender, 7}), "Character 7");
+    EXPECT_EQ(m_session.roster().displayName(jonas), "Jonas");
+    EXPECT_EQ(m_session.roster().addressOf(jonas.sender), "127.0.0.1:40001");
+    EXPECT_EQ(m_session.roster().displayName({jonas.sender, 7}), "Character 7");
     const TakeVerdict verdict = verdictOf(m_session, recentSpan(m_session));
     EXPECT_EQ(say(verdict.said, words::Form::Headline).find("Character"), std::string::npos) << verdict.said;
-    const auto& worst = m_session.retired().worst;
+    const auto& worst = m_session.accounts().retired().worst;
     const auto gap = std::ranges::find(worst, Figure::SpacingMost, &RetiredTotals::Worst::figure);
     EXPECT_NEAR(gap->value, 20, 1) << "limits of a run hold for it too";
 }
@@ -172,8 +176,8 @@ TEST_F(LifecycleTest, ASenderOfEveryCharacterLeavesRoomForOthers) {
     }
     sendPose("honest:1", 1);
     follow();
-    EXPECT_NE(m_session.find(log::StreamKey{sender("honest:1"), 0, 2}), nullptr);
-    EXPECT_EQ(m_session.unfollowed(), 0U);
+    EXPECT_NE(m_session.roster().find(log::StreamKey{sender("honest:1"), 0, 2}), nullptr);
+    EXPECT_EQ(m_session.accounts().unfollowed(), 0U);
 }
 
 TEST_F(LifecycleTest, StreamsOfASenderBeyondTheLimitAreCounted) {
@@ -190,9 +194,9 @@ TEST_F(LifecycleTest, StreamsOfASenderBeyondTheLimitAreCounted) {
         }
     }
     follow();
-    EXPECT_EQ(m_session.streams().size(), Ingest::kMostStreamsOfSender);
-    EXPECT_EQ(m_session.unfollowed(), sent - Ingest::kMostStreamsOfSender);
-    EXPECT_EQ(m_session.allSenders().wellFormed(), sent);
+    EXPECT_EQ(m_session.roster().streams().size(), Roll::kMostStreamsOfSender);
+    EXPECT_EQ(m_session.accounts().unfollowed(), sent - Roll::kMostStreamsOfSender);
+    EXPECT_EQ(m_session.accounts().allSenders().wellFormed(), sent);
 }
 
 /// A log that a session is too late for.
@@ -222,20 +226,20 @@ TEST_F(OvertakenTest, PacketsAreThisComputersLossToTheSample) {
     m_session.follow(m_stamp);
     send(20'000); // more than the log holds
     m_session.follow(m_stamp);
-    const Stream& stream = m_session.streams().front();
+    const Stream& stream = m_session.roster().streams().front();
     const StreamCounts counts = stream.accounting.counts();
-    EXPECT_GT(m_session.overtaken(), 0U);
-    EXPECT_EQ(m_session.senders().front().datagrams + m_session.overtaken(), 20'200U);
-    EXPECT_EQ(counts.lost, m_session.overtaken());
+    EXPECT_GT(m_session.accounts().overtaken(), 0U);
+    EXPECT_EQ(m_session.roster().senders().front().datagrams + m_session.accounts().overtaken(), 20'200U);
+    EXPECT_EQ(counts.lost, m_session.accounts().overtaken());
     EXPECT_EQ(counts.samples + counts.lost, 20'200U);
     EXPECT_EQ(stream.lostByCause()[static_cast<std::size_t>(LossCause::ThisComputer)], counts.lost);
-    ASSERT_EQ(m_session.gaps().size(), 1U);
-    EXPECT_EQ(m_session.gaps().front().evidence, Gap::Evidence::Overtaken);
+    ASSERT_EQ(m_session.accounts().gaps().size(), 1U);
+    EXPECT_EQ(m_session.accounts().gaps().front().evidence, Gap::Evidence::Overtaken);
     const auto told =
-        std::ranges::find(m_session.incidents().all(), IncidentKind::Overtaken, &Incident::kind);
-    ASSERT_NE(told, m_session.incidents().all().end());
-    EXPECT_EQ(static_cast<std::uint64_t>(told->value), m_session.overtaken());
-    EXPECT_EQ(m_session.addressOf(told->sender), "this computer");
+        std::ranges::find(m_session.verdicts().incidents().all(), IncidentKind::Overtaken, &Incident::kind);
+    ASSERT_NE(told, m_session.verdicts().incidents().all().end());
+    EXPECT_EQ(static_cast<std::uint64_t>(told->value), m_session.accounts().overtaken());
+    EXPECT_EQ(m_session.roster().addressOf(told->sender), "this computer");
 }
 
 TEST_F(OvertakenTest, PacketsTakeTheDropsThatTheyTellOfWithThem) {
@@ -246,17 +250,19 @@ TEST_F(OvertakenTest, PacketsTakeTheDropsThatTheyTellOfWithThem) {
     m_sample += 7;
     send(10'000); // more than the log holds
     m_session.follow(m_stamp);
-    const StreamCounts counts = m_session.streams().front().accounting.counts();
-    EXPECT_EQ(m_session.dropsUnseen(), 10'007U);
-    EXPECT_EQ(m_session.allSenders().kernelDrops, 10'007U);
-    EXPECT_EQ(m_session.allSenders().datagrams + m_session.overtaken() + m_session.allSenders().kernelDrops,
+    const StreamCounts counts = m_session.roster().streams().front().accounting.counts();
+    EXPECT_EQ(m_session.accounts().dropsUnseen(), 10'007U);
+    EXPECT_EQ(m_session.accounts().allSenders().kernelDrops, 10'007U);
+    EXPECT_EQ(m_session.accounts().allSenders().datagrams + m_session.accounts().overtaken() +
+                  m_session.accounts().allSenders().kernelDrops,
               m_sample);
     EXPECT_EQ(counts.restarts, 0U);
-    EXPECT_EQ(counts.lost, m_session.overtaken() + m_session.dropsUnseen());
+    EXPECT_EQ(counts.lost, m_session.accounts().overtaken() + m_session.accounts().dropsUnseen());
     EXPECT_EQ(counts.samples + counts.lost, m_sample);
-    const auto told = std::ranges::find(m_session.incidents().all(), IncidentKind::Local, &Incident::kind);
-    ASSERT_NE(told, m_session.incidents().all().end());
-    EXPECT_EQ(static_cast<std::uint64_t>(told->value), m_session.dropsUnseen());
+    const auto told =
+        std::ranges::find(m_session.verdicts().incidents().all(), IncidentKind::Local, &Incident::kind);
+    ASSERT_NE(told, m_session.verdicts().incidents().all().end());
+    EXPECT_EQ(static_cast<std::uint64_t>(told->value), m_session.accounts().dropsUnseen());
 }
 
 TEST(Dropped, PacketsAreThisComputersLossToTheSampleHoweverMany) {
@@ -282,12 +288,12 @@ TEST(Dropped, PacketsAreThisComputersLossToTheSampleHoweverMany) {
     send(11'562, 0);
     log.writer().publish();
     session.follow(stamp + 1s);
-    const Stream& stream = session.streams().front();
+    const Stream& stream = session.roster().streams().front();
     const StreamCounts counts = stream.accounting.counts();
     EXPECT_EQ(counts.lost, 10'560U);
     EXPECT_EQ(counts.restarts, 0U);
     EXPECT_EQ(stream.lostByCause()[static_cast<std::size_t>(LossCause::ThisComputer)], counts.lost);
-    EXPECT_EQ(session.gaps().size(), 1U);
+    EXPECT_EQ(session.accounts().gaps().size(), 1U);
 }
 
 } // namespace

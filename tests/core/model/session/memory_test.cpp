@@ -3,6 +3,10 @@
 
 #include "core/model/accounting/attribution.h"
 #include "core/model/body/null_pose.h"
+#include "core/model/session/memory_figures.h"
+#include "core/model/session/messages.h"
+#include "core/model/session/roster.h"
+#include "core/model/session/verdict.h"
 
 #include <algorithm>
 #include <array>
@@ -55,7 +59,7 @@ protected:
         return part == figures.parts.end() ? 0 : part->bytes;
     }
     [[nodiscard]] log::StreamKey streamKey(std::uint8_t type) const {
-        return {m_session.senders().front().id, 0, type};
+        return {m_session.roster().senders().front().id, 0, type};
     }
 
     log::PacketLog m_log{{.memoryCap = std::size_t{48} << 20, .chunkSize = std::size_t{1} << 20}};
@@ -86,7 +90,7 @@ TEST_F(MemoryTest, OfMetadataThatAlwaysChangesIsBounded) {
     }
     follow();
     EXPECT_GT(bytesOf("metadata"), 0U);
-    for (const Incident& event : m_session.incidents().all()) {
+    for (const Incident& event : m_session.verdicts().incidents().all()) {
         for (const std::string& change : namesIn(event.detail, "changes")) {
             EXPECT_LE(change.size(), Incidents::kMostDetailBytes);
         }
@@ -123,14 +127,14 @@ TEST_F(MemoryTest, OfTheNewestMessagesIsBoundedHoweverLargeTheyAre) {
     follow();
     EXPECT_LT(bytesOf("messages"), std::size_t{1} << 20);
     std::size_t poses = 0;
-    for (const Character& character : m_session.characters()) {
-        poses += m_session.pose(character.key) != nullptr ? 1 : 0;
+    for (const Character& character : m_session.roster().characters()) {
+        poses += m_session.messages().pose(character.key) != nullptr ? 1 : 0;
     }
     EXPECT_GT(poses, 100U) << "who asks gets it, as long as it is in the log";
     expectWithinBudget();
     for (const std::uint8_t type : std::array<std::uint8_t, 3>{2, 12, 13}) {
-        EXPECT_NE(m_session.message(m_session.characters().back().key, type), nullptr);
-        EXPECT_EQ(m_session.find(streamKey(type))->newest.packet, UINT64_MAX);
+        EXPECT_NE(m_session.messages().message(m_session.roster().characters().back().key, type), nullptr);
+        EXPECT_EQ(m_session.roster().find(streamKey(type))->newest.packet, UINT64_MAX);
     }
 }
 
@@ -144,15 +148,15 @@ TEST_F(MemoryTest, OfALargeMessageIsNotLeftToAStreamThatBeginsSmall) {
         send(small, 1, static_cast<std::uint8_t>(character));
     }
     follow();
-    for (const Stream& stream : m_session.streams()) {
+    for (const Stream& stream : m_session.roster().streams()) {
         const auto* pose = std::get_if<wire::PoseQuaternion>(&stream.newest.datagram.body);
         if (pose != nullptr) {
             EXPECT_LE(pose->segments.capacity() * sizeof(pose->segments[0]), Ingest::kMostNewestBytes);
         }
     }
-    const Stream* stream = m_session.find(streamKey(2));
+    const Stream* stream = m_session.roster().find(streamKey(2));
     ASSERT_NE(stream, nullptr);
-    const Message* message = m_session.message({stream->key.sender, 0}, 2);
+    const Message* message = m_session.messages().message({stream->key.sender, 0}, 2);
     EXPECT_EQ(message, &stream->newest) << "which is at hand without decoding it again";
 }
 
@@ -168,19 +172,19 @@ TEST_F(MemoryTest, OfManyStreamsIsThatOfAFewHundred) {
         }
         follow();
     };
-    const auto depth = [this] { return m_session.streams().front().accounting.depth(); };
+    const auto depth = [this] { return m_session.roster().streams().front().accounting.depth(); };
     streamsFrom(2);
-    ASSERT_EQ(m_session.streams().size(), AccountingDepth::kFullStreams);
+    ASSERT_EQ(m_session.roster().streams().size(), AccountingDepth::kFullStreams);
     EXPECT_EQ(depth(), AccountingDepth()) << "nothing changes up to there";
     streamsFrom(3);
     EXPECT_EQ(depth(), AccountingDepth::of(768));
     streamsFrom(4);
-    for (const Stream& stream : m_session.streams()) {
-        EXPECT_EQ(stream.accounting.depth(), AccountingDepth::of(m_session.streams().size()));
+    for (const Stream& stream : m_session.roster().streams()) {
+        EXPECT_EQ(stream.accounting.depth(), AccountingDepth::of(m_session.roster().streams().size()));
         EXPECT_EQ(stream.accounting.counts().samples, 3U);
     }
     std::size_t most = 0;
-    for (std::size_t streams = 1; streams <= Ingest::kMostStreams; ++streams) {
+    for (std::size_t streams = 1; streams <= Roll::kMostStreams; ++streams) {
         most = std::max(most, streams * StreamAccounting::mostBytes(AccountingDepth::of(streams)));
     }
     EXPECT_LT(most, std::size_t{380} << 20);
@@ -193,7 +197,7 @@ TEST_F(MemoryTest, OfIncompleteSamplesIsBoundedWhereStampsStandStill) {
     follow();
     EXPECT_LE(bytesOf("accounting"), std::size_t{200} << 20);
     std::uint64_t attributed = 0;
-    for (const Stream& stream : m_session.streams()) {
+    for (const Stream& stream : m_session.roster().streams()) {
         attributed += stream.attributed[static_cast<std::size_t>(LossCause::Network)];
     }
     EXPECT_GT(attributed, 200'000U) << "what had to go was judged";

@@ -3,6 +3,7 @@
 
 #include "core/model/body/null_pose_findings.h"
 #include "core/model/body/points.h"
+#include "core/model/session/messages.h"
 #include "core/model/session/verdict.h"
 
 #include <limits>
@@ -47,18 +48,18 @@ protected:
     }
     NullPoseEvidence evidence() {
         follow();
-        return m_session.nullPoseEvidence(key());
+        return m_session.messages().nullPoseEvidence(key());
     }
     NullPoseEvidence evidenceAt(std::uint64_t packet) {
         follow();
         m_session.setCursor({Cursor::Mode::Paused, packet});
-        return m_session.nullPoseEvidence(key());
+        return m_session.messages().nullPoseEvidence(key());
     }
 };
 
 TEST_F(EvidenceTest, IsNothingOfAnUnknownCharacter) {
     m_session.follow(at(7s));
-    const NullPoseEvidence none = m_session.nullPoseEvidence(key());
+    const NullPoseEvidence none = m_session.messages().nullPoseEvidence(key());
     EXPECT_EQ(none.record.pose, nullptr);
     EXPECT_EQ(none.record.messages, 0U);
     EXPECT_EQ(none.scale, nullptr);
@@ -115,9 +116,10 @@ TEST_F(EvidenceTest, KnowsThePartsThatAreMissing) {
     ASSERT_NE(evidence().record.newest, nullptr);
     EXPECT_EQ(evidence().record.newest->missingParts, (std::vector<unsigned>{1}));
     m_session.follow(at(1s) + 500ms);
-    EXPECT_TRUE(findContradictions(m_session.nullPoseEvidence(key())).empty()) << "it may still come";
+    EXPECT_TRUE(findContradictions(m_session.messages().nullPoseEvidence(key())).empty())
+        << "it may still come";
     m_session.follow(at(3s));
-    const auto findings = findContradictions(m_session.nullPoseEvidence(key()));
+    const auto findings = findContradictions(m_session.messages().nullPoseEvidence(key()));
     ASSERT_EQ(findings.size(), 1U);
     EXPECT_EQ(findings[0].fault, NullPoseFault::MissingPart);
     send(pointsOf(1), 0, at(4s), 0x01);
@@ -217,17 +219,18 @@ TEST_F(EvidenceTest, IsAnIncidentOfItsCharacterWhereItContradictsItself) {
     };
     sendFrom("127.0.0.1:40001", wrong, 0, at(1s));
     poses(1, 300);
-    const Incident& incident = m_session.incidents().all().back();
+    const Incident& incident = m_session.verdicts().incidents().all().back();
     EXPECT_EQ(incident.kind, IncidentKind::Scale);
     EXPECT_EQ(incident.character(), 0);
     EXPECT_EQ(say(incident.fact(), words::Form::Sentence), findContradictions(evidence()).front().what)
         << "as the dock has it";
-    EXPECT_EQ(m_session.verdict(key()).state, TakeVerdict::State::Warning);
+    EXPECT_EQ(m_session.verdicts().of(key()).state, TakeVerdict::State::Warning);
     sendFrom("127.0.0.1:40001", bodyOf(1), 0, at(4s + 5ms));
     poses(301, 320);
-    EXPECT_TRUE(m_session.verdict(key()).isOver) << m_session.verdict(key()).said;
+    EXPECT_TRUE(m_session.verdicts().of(key()).isOver) << m_session.verdicts().of(key()).said;
     poses(321, 2'000);
-    EXPECT_EQ(m_session.verdict(key()).state, TakeVerdict::State::Good) << m_session.verdict(key()).said;
+    EXPECT_EQ(m_session.verdicts().of(key()).state, TakeVerdict::State::Good)
+        << m_session.verdicts().of(key()).said;
 }
 
 } // namespace

@@ -2,6 +2,9 @@
 #include "tests/core/model/session/session_fixture.h"
 
 #include "core/model/incidents/thresholds.h"
+#include "core/model/session/accounts.h"
+#include "core/model/session/messages.h"
+#include "core/model/session/roster.h"
 #include "core/model/session/verdict.h"
 
 #include <algorithm>
@@ -33,7 +36,7 @@ protected:
     TakeVerdict verdictAfter(log::Duration silence) {
         follow();
         m_session.follow(m_at - 10ms + silence);
-        return m_session.verdict(key());
+        return m_session.verdicts().of(key());
     }
     static double silence(const TakeVerdict& verdict, std::string_view name) {
         return numberIn(partOf(verdict.said, "reason"), name).value_or(0);
@@ -56,7 +59,7 @@ TEST_F(ConditionTest, HasTheRateOfItsSamplesWhateverComesTwice) {
         poses(sample + 1, 1);
     }
     follow();
-    EXPECT_NEAR(m_session.streams().front().statistics.rateHz(), 100, 1);
+    EXPECT_NEAR(m_session.roster().streams().front().statistics.rateHz(), 100, 1);
 }
 
 TEST_F(ConditionTest, WarnsOfAFifthOfASecondOfSilence) {
@@ -67,7 +70,7 @@ TEST_F(ConditionTest, WarnsOfAFifthOfASecondOfSilence) {
     EXPECT_EQ(partOf(silent.said, "reason").kind, words::Kind::Outage);
     EXPECT_NEAR(silence(silent, "silence"), 0.225, 0.02);
     ASSERT_TRUE(silent.incident.has_value());
-    EXPECT_EQ(m_session.incidents().find(*silent.incident)->kind, IncidentKind::Outage);
+    EXPECT_EQ(m_session.verdicts().incidents().find(*silent.incident)->kind, IncidentKind::Outage);
     EXPECT_EQ(verdictAfter(999ms).state, State::Warning);
 }
 
@@ -85,7 +88,7 @@ TEST_F(ConditionTest, IsThatOfNowWhilePaused) {
     EXPECT_EQ(verdictAfter(0ms).state, State::Good);
     EXPECT_EQ(verdictAfter(5s).state, State::Bad) << "the sender died meanwhile";
     m_session.setCursor({});
-    EXPECT_EQ(m_session.verdict(key()).state, State::Bad);
+    EXPECT_EQ(m_session.verdicts().of(key()).state, State::Bad);
 }
 
 TEST_F(ConditionTest, IsTheSameAsTheVerdictThatScriptsGet) {
@@ -93,7 +96,7 @@ TEST_F(ConditionTest, IsTheSameAsTheVerdictThatScriptsGet) {
     poses(111, 200);
     const TakeVerdict mine = verdictAfter(0ms);
     EXPECT_EQ(mine, verdictOf(m_session, recentSpan(m_session), key()));
-    EXPECT_EQ(m_session.verdicts().all, verdictOf(m_session, recentSpan(m_session)));
+    EXPECT_EQ(m_session.verdicts().all().all, verdictOf(m_session, recentSpan(m_session)));
 }
 
 TEST_F(ConditionTest, OfARecordingIsThatOfAllOfIt) {
@@ -104,8 +107,8 @@ TEST_F(ConditionTest, OfARecordingIsThatOfAllOfIt) {
     m_session.endFile();
     m_session.setCursor({Cursor::Mode::Paused, 50});
     EXPECT_TRUE(m_session.isRecording());
-    EXPECT_EQ(m_session.verdict(key()).state, State::Warning);
-    const words::Fact said = m_session.verdict(key()).said;
+    EXPECT_EQ(m_session.verdicts().of(key()).state, State::Warning);
+    const words::Fact said = m_session.verdicts().of(key()).said;
     EXPECT_EQ(partOf(said, "reason").kind, words::Kind::Loss) << said;
     EXPECT_EQ(toldIn(partOf(said, "reason")).cause, words::Kind::CauseUnknown);
     EXPECT_EQ(partOf(said, "lasts").kind, words::Kind::Over);
@@ -121,7 +124,7 @@ TEST_F(ConditionTest, OfARecordingCountsSilenceToItsEndWheneverItIsRead) {
     while (m_session.followFile(m_at + 10'000h)) {
     }
     m_session.endFile();
-    EXPECT_NEAR(silence(m_session.verdict(key()), "left"), 2, 0.05);
+    EXPECT_NEAR(silence(m_session.verdicts().of(key()), "left"), 2, 0.05);
 }
 
 TEST_F(ConditionTest, OfARecordingLooksNotBeyondItsEnd) {
@@ -134,7 +137,7 @@ TEST_F(ConditionTest, OfARecordingLooksNotBeyondItsEnd) {
     while (m_session.followFile(m_at + 100h)) {
     }
     m_session.endFile();
-    EXPECT_NEAR(silence(m_session.verdict(key()), "left"), 1.9, 0.05);
+    EXPECT_NEAR(silence(m_session.verdicts().of(key()), "left"), 1.9, 0.05);
 }
 
 TEST_F(ConditionTest, OfARecordingHasTheSilenceAtItsEnd) {
@@ -142,10 +145,10 @@ TEST_F(ConditionTest, OfARecordingHasTheSilenceAtItsEnd) {
     while (m_session.followFile(m_at + 100h)) {
     }
     m_session.endFile(3s);
-    EXPECT_NEAR(silence(m_session.verdict(key()), "left"), 3, 0.05);
-    EXPECT_EQ(m_session.verdict(key()).state, State::Bad);
-    EXPECT_EQ(partOf(m_session.verdict(key()).said, "when").kind, words::Kind::ToTheEnd);
-    EXPECT_TRUE(partOf(m_session.verdict(key()).said, "lasts").isNothing());
+    EXPECT_NEAR(silence(m_session.verdicts().of(key()), "left"), 3, 0.05);
+    EXPECT_EQ(m_session.verdicts().of(key()).state, State::Bad);
+    EXPECT_EQ(partOf(m_session.verdicts().of(key()).said, "when").kind, words::Kind::ToTheEnd);
+    EXPECT_TRUE(partOf(m_session.verdicts().of(key()).said, "lasts").isNothing());
 }
 
 TEST_F(ConditionTest, OfARecordingKnowsOfNoSilenceThatNobodyWaitedFor) {
@@ -153,7 +156,7 @@ TEST_F(ConditionTest, OfARecordingKnowsOfNoSilenceThatNobodyWaitedFor) {
     while (m_session.followFile(m_at + 100h)) {
     }
     m_session.endFile();
-    EXPECT_EQ(m_session.verdict(key()).state, State::Good);
+    EXPECT_EQ(m_session.verdicts().of(key()).state, State::Good);
 }
 
 TEST_F(ConditionTest, FindsAContradictionAtTheSamePacketHoweverMuchIsFollowedAtOnce) {
@@ -164,7 +167,7 @@ TEST_F(ConditionTest, FindsAContradictionAtTheSamePacketHoweverMuchIsFollowedAtO
     }
     follow();
     const auto contradictionOf = [](const Session& session) {
-        const auto& all = session.incidents().all();
+        const auto& all = session.verdicts().incidents().all();
         const auto found = std::ranges::find(all, IncidentKind::Scale, &Incident::kind);
         return found == all.end() ? log::Stamp() : found->firstStamp;
     };
@@ -198,7 +201,7 @@ TEST_F(ConditionTest, NumbersWhatHappenedAlikeHoweverOftenSilenceIsLookedAt) {
     follow();
     const auto numbersOf = [](const Session& session) {
         std::map<std::uint64_t, IncidentKind> numbers;
-        for (const Incident& incident : session.incidents().all()) {
+        for (const Incident& incident : session.verdicts().incidents().all()) {
             numbers[incident.number] = incident.kind;
         }
         return numbers;
@@ -219,8 +222,8 @@ TEST_F(ConditionTest, WarnsOfASenderThatChangesItsHeaders) {
 TEST_F(ConditionTest, OfAnUnknownCharacterIsNone) {
     poses(1, 10);
     follow();
-    EXPECT_EQ(m_session.verdict({sender(), 99}).state, State::None);
-    EXPECT_TRUE(m_session.troublesOf({sender(), 99}).empty());
+    EXPECT_EQ(m_session.verdicts().of({sender(), 99}).state, State::None);
+    EXPECT_TRUE(m_session.verdicts().troublesOf({sender(), 99}).empty());
 }
 
 /// More senders, characters and streams than anybody has.
@@ -249,14 +252,14 @@ TEST_F(CrowdTest, OfCharactersIsBoundedAndStillCountedBySender) {
     }
     m_log.writer().publish();
     follow();
-    EXPECT_EQ(m_session.characters().size(), static_cast<std::size_t>(kMostCharacters));
-    EXPECT_EQ(m_session.senders().size(), 5U);
-    EXPECT_EQ(m_session.senders().back().datagrams, 100U);
-    EXPECT_EQ(m_session.digests().end(), m_sent);
-    const CharacterKey tooMany{m_session.senders().back().id, 50};
-    EXPECT_EQ(m_session.find(tooMany), nullptr);
-    EXPECT_EQ(m_session.message(tooMany, 24), nullptr);
-    EXPECT_EQ(m_session.displayName(tooMany), "Character 50");
+    EXPECT_EQ(m_session.roster().characters().size(), static_cast<std::size_t>(kMostCharacters));
+    EXPECT_EQ(m_session.roster().senders().size(), 5U);
+    EXPECT_EQ(m_session.roster().senders().back().datagrams, 100U);
+    EXPECT_EQ(m_session.accounts().digests().end(), m_sent);
+    const CharacterKey tooMany{m_session.roster().senders().back().id, 50};
+    EXPECT_EQ(m_session.roster().find(tooMany), nullptr);
+    EXPECT_EQ(m_session.messages().message(tooMany, 24), nullptr);
+    EXPECT_EQ(m_session.roster().displayName(tooMany), "Character 50");
 }
 
 TEST_F(CrowdTest, OfStreamsIsBounded) {
@@ -269,9 +272,9 @@ TEST_F(CrowdTest, OfStreamsIsBounded) {
     }
     m_log.writer().publish();
     follow();
-    EXPECT_EQ(m_session.streams().size(), log::StreamIndex::kStreamLimit);
+    EXPECT_EQ(m_session.roster().streams().size(), log::StreamIndex::kStreamLimit);
     std::uint64_t datagrams = 0;
-    for (const Sender& sender : m_session.senders()) {
+    for (const Sender& sender : m_session.roster().senders()) {
         datagrams += sender.datagrams;
         EXPECT_EQ(sender.malformed, 0U);
     }

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "core/model/session/messages.h"
+#include "core/model/session/roster.h"
 #include "tests/core/model/session/session_fixture.h"
 
 #include <gmock/gmock.h>
@@ -15,12 +17,12 @@ TEST_F(SessionTest, ListsSenderCharacterAndStreamInOrderOfAppearance) {
     send(wire::MetaData{true, "name:Factory\n"}, 0, at(1s));
     send(standingAt(0), 1, at(2s));
     follow();
-    ASSERT_EQ(m_session.senders().size(), 1U);
-    EXPECT_EQ(m_session.senders()[0].info.address, "127.0.0.1:40001");
-    ASSERT_EQ(m_session.streams().size(), 2U);
-    EXPECT_EQ(m_session.streams()[0].key.type, 12);
-    EXPECT_EQ(m_session.streams()[1].key.type, 2);
-    EXPECT_EQ(m_session.displayName(key()), "Factory");
+    ASSERT_EQ(m_session.roster().senders().size(), 1U);
+    EXPECT_EQ(m_session.roster().senders()[0].info.address, "127.0.0.1:40001");
+    ASSERT_EQ(m_session.roster().streams().size(), 2U);
+    EXPECT_EQ(m_session.roster().streams()[0].key.type, 12);
+    EXPECT_EQ(m_session.roster().streams()[1].key.type, 2);
+    EXPECT_EQ(m_session.roster().displayName(key()), "Factory");
 }
 
 TEST_F(SessionTest, CountsForeignMalformedAndSkippedApart) {
@@ -34,7 +36,7 @@ TEST_F(SessionTest, CountsForeignMalformedAndSkippedApart) {
     m_log.writer().append(kForeign, skipped);
     m_log.writer().publish();
     follow();
-    const Sender& sender = m_session.senders().front();
+    const Sender& sender = m_session.roster().senders().front();
     EXPECT_EQ(sender.foreign, 1U);
     EXPECT_EQ(sender.malformed, 1U);
     EXPECT_EQ(sender.skippedBytes, kForeign.size());
@@ -53,12 +55,12 @@ TEST_F(SessionTest, HandsOnTheNewestMessageAsItWasDecodedWhenItCame) {
                             {.stamp = at(sample * 1s), .sender = log.senders().intern({"a:1"})});
         log.writer().publish();
         ingest.follow(at(sample * 1s), 100);
-        const Message* newest = ingest.newest({log::SenderId{0}, 0, wire::PoseQuaternion::kType});
-        ASSERT_NE(newest, nullptr);
-        EXPECT_EQ(newest->datagram.header.sampleCounter, sample);
-        EXPECT_EQ(newest->packet, sample - 1);
+        const Stream* stream =
+            ingest.roll().streams().find({log::SenderId{0}, 0, wire::PoseQuaternion::kType});
+        ASSERT_NE(stream, nullptr);
+        EXPECT_EQ(stream->newest.datagram.header.sampleCounter, sample);
+        EXPECT_EQ(stream->newest.packet, sample - 1);
     }
-    EXPECT_EQ(ingest.newest({log::SenderId{0}, 1, wire::PoseQuaternion::kType}), nullptr);
 }
 
 TEST_F(SessionTest, ReadsTheMessageBeforeAMalformedOneFromTheLog) {
@@ -69,33 +71,33 @@ TEST_F(SessionTest, ReadsTheMessageBeforeAMalformedOneFromTheLog) {
     const auto bytes = *wire::encode(datagram);
     sendBytes(wire::Bytes(bytes).first(100), at(3s));
     follow();
-    EXPECT_EQ(m_session.senders().front().malformed, 1U);
-    EXPECT_EQ(m_session.streams().front().accounting.malformed(), 1U);
-    const Message* message = m_session.message(key(), wire::PoseQuaternion::kType);
+    EXPECT_EQ(m_session.roster().senders().front().malformed, 1U);
+    EXPECT_EQ(m_session.roster().streams().front().accounting.malformed(), 1U);
+    const Message* message = m_session.messages().message(key(), wire::PoseQuaternion::kType);
     ASSERT_NE(message, nullptr);
     EXPECT_EQ(message->datagram.header.sampleCounter, 2U);
     EXPECT_EQ(message->packet, 1U);
-    EXPECT_FLOAT_EQ(static_cast<float>(m_session.pose(key())->segments[0].position.x()), 2.0F);
+    EXPECT_FLOAT_EQ(static_cast<float>(m_session.messages().pose(key())->segments[0].position.x()), 2.0F);
 }
 
 TEST_F(SessionTest, GivesTheNewestPoseAndFreezesItWhenPaused) {
     send(standingAt(0), 1, at(1s));
     send(standingAt(1), 2, at(2s));
     follow();
-    ASSERT_NE(m_session.pose(key()), nullptr);
-    EXPECT_FLOAT_EQ(static_cast<float>(m_session.pose(key())->segments[0].position.x()), 1.0F);
+    ASSERT_NE(m_session.messages().pose(key()), nullptr);
+    EXPECT_FLOAT_EQ(static_cast<float>(m_session.messages().pose(key())->segments[0].position.x()), 1.0F);
 
     m_session.setCursor({Cursor::Mode::Paused, 0});
-    EXPECT_FLOAT_EQ(static_cast<float>(m_session.pose(key())->segments[0].position.x()), 0.0F);
+    EXPECT_FLOAT_EQ(static_cast<float>(m_session.messages().pose(key())->segments[0].position.x()), 0.0F);
     EXPECT_EQ(m_session.cursorStamp(), at(1s));
 
     send(standingAt(2), 3, at(3s));
     follow();
-    EXPECT_FLOAT_EQ(static_cast<float>(m_session.pose(key())->segments[0].position.x()), 0.0F);
+    EXPECT_FLOAT_EQ(static_cast<float>(m_session.messages().pose(key())->segments[0].position.x()), 0.0F);
     EXPECT_EQ(m_session.end(), 3U);
 
     m_session.setCursor({});
-    EXPECT_FLOAT_EQ(static_cast<float>(m_session.pose(key())->segments[0].position.x()), 2.0F);
+    EXPECT_FLOAT_EQ(static_cast<float>(m_session.messages().pose(key())->segments[0].position.x()), 2.0F);
 }
 
 TEST_F(SessionTest, PosesOfTypes01And02And05AgreeInTheOneFrame) {
@@ -117,7 +119,7 @@ TEST_F(SessionTest, PosesOfTypes01And02And05AgreeInTheOneFrame) {
         // A second apart, so that the newest type is the one that counts.
         send(bodies[i], static_cast<std::uint32_t>(i), at(std::chrono::seconds(i + 1)));
         follow();
-        const CharacterPose* pose = m_session.pose(key());
+        const CharacterPose* pose = m_session.messages().pose(key());
         ASSERT_NE(pose, nullptr);
         EXPECT_EQ(pose->segments.size(), 23U);
         for (std::size_t s = 0; s < 23; ++s) {
@@ -136,7 +138,7 @@ TEST_F(SessionTest, PrefersTheQuaternionPoseAmongTypesSentTogether) {
     send(standingAt(0), 7, at(1s));
     send(euler, 7, at(1'001ms));
     follow();
-    EXPECT_EQ(m_session.pose(key())->type, 2);
+    EXPECT_EQ(m_session.messages().pose(key())->type, 2);
 }
 
 TEST_F(SessionTest, JoinsAPoseThatCameInSeveralDatagramsOnceAllAreThere) {
@@ -147,24 +149,25 @@ TEST_F(SessionTest, JoinsAPoseThatCameInSeveralDatagramsOnceAllAreThere) {
     second.segments.assign(whole.segments.begin() + 12, whole.segments.end());
     send(first, 5, at(1s), 0);
     follow();
-    EXPECT_EQ(m_session.message(key(), 2), nullptr);
+    EXPECT_EQ(m_session.messages().message(key(), 2), nullptr);
     send(second, 5, at(1s), 0x81);
     follow();
-    const Message* message = m_session.message(key(), 2);
+    const Message* message = m_session.messages().message(key(), 2);
     ASSERT_NE(message, nullptr);
     EXPECT_EQ(std::get<wire::PoseQuaternion>(message->datagram.body), whole);
 
     // The first half of the next sample must not hide the last complete one.
     send(first, 6, at(2s), 0);
     follow();
-    EXPECT_EQ(m_session.message(key(), 2)->datagram.header.sampleCounter, 5U);
+    EXPECT_EQ(m_session.messages().message(key(), 2)->datagram.header.sampleCounter, 5U);
 }
 
 TEST_F(SessionTest, ComputesTheOriginsOfABodyOncePerScaleMessage) {
     send(standingAt(0), 1, at(1s));
     follow();
     EXPECT_LT(
-        (m_session.bodyOrigins(key()).places[segment::kHead] - referenceOrigins()[segment::kHead]).norm(),
+        (m_session.messages().bodyOrigins(key()).places[segment::kHead] - referenceOrigins()[segment::kHead])
+            .norm(),
         1e-6);
     wire::NullPose nullPose;
     for (const Eigen::Vector3d& origin : referenceOrigins()) {
@@ -173,35 +176,36 @@ TEST_F(SessionTest, ComputesTheOriginsOfABodyOncePerScaleMessage) {
     }
     send(nullPose, 0, at(2s));
     follow();
-    const BodyOrigins* origins = &m_session.bodyOrigins(key());
+    const BodyOrigins* origins = &m_session.messages().bodyOrigins(key());
     const Eigen::Vector3d head = origins->places[segment::kHead];
     EXPECT_GT(head.z(), referenceOrigins()[segment::kHead].z());
-    EXPECT_EQ(&m_session.bodyOrigins(key()), origins);
+    EXPECT_EQ(&m_session.messages().bodyOrigins(key()), origins);
     m_session.setCursor({Cursor::Mode::Paused, 0});
     EXPECT_LT(
-        (m_session.bodyOrigins(key()).places[segment::kHead] - referenceOrigins()[segment::kHead]).norm(),
+        (m_session.messages().bodyOrigins(key()).places[segment::kHead] - referenceOrigins()[segment::kHead])
+            .norm(),
         1e-6);
     m_session.setCursor({});
-    EXPECT_EQ(m_session.bodyOrigins(key()).places[segment::kHead], head);
+    EXPECT_EQ(m_session.messages().bodyOrigins(key()).places[segment::kHead], head);
 }
 
 TEST_F(SessionTest, NamesACharacterByItsIdWhereNoNameWasSentAndWhereItIsUnknown) {
     send(standingAt(0), 1, at(1s));
     follow();
-    EXPECT_EQ(m_session.displayName(key()), "Character 0");
-    EXPECT_EQ(m_session.displayName({sender(), 3}), "Character 3");
-    EXPECT_EQ(m_session.displayName({log::SenderId{77}, 3}), "Character 3");
+    EXPECT_EQ(m_session.roster().displayName(key()), "Character 0");
+    EXPECT_EQ(m_session.roster().displayName({sender(), 3}), "Character 3");
+    EXPECT_EQ(m_session.roster().displayName({log::SenderId{77}, 3}), "Character 3");
 }
 
 TEST_F(SessionTest, KeepsWhatIsHiddenWithTheChoices) {
     m_session.setHidden({sender(), 1}, true);
-    EXPECT_TRUE(m_session.isHidden({sender(), 1}));
-    EXPECT_FALSE(m_session.isHidden({sender(), 0}));
+    EXPECT_TRUE(m_session.roster().isHidden({sender(), 1}));
+    EXPECT_FALSE(m_session.roster().isHidden({sender(), 0}));
     m_session.setHidden({sender(), 1}, false);
-    EXPECT_FALSE(m_session.isHidden({sender(), 1}));
-    EXPECT_FALSE(m_session.isGhostShown());
+    EXPECT_FALSE(m_session.roster().isHidden({sender(), 1}));
+    EXPECT_FALSE(m_session.choices().isGhostShown);
     m_session.setGhostShown(true);
-    EXPECT_TRUE(m_session.isGhostShown());
+    EXPECT_TRUE(m_session.choices().isGhostShown);
 }
 
 TEST_F(SessionTest, VisitsMessagesOldestFirstUpToTheCursor) {
@@ -211,12 +215,13 @@ TEST_F(SessionTest, VisitsMessagesOldestFirstUpToTheCursor) {
     follow();
     m_session.setCursor({Cursor::Mode::Paused, 7});
     std::vector<std::uint32_t> samples;
-    const auto visited = m_session.visit({sender(), 0, 2}, at(3s), 100, [&](const Message& message) {
-        samples.push_back(message.datagram.header.sampleCounter);
-    });
+    const auto visited =
+        m_session.messages().visit({sender(), 0, 2}, at(3s), 100, [&](const Message& message) {
+            samples.push_back(message.datagram.header.sampleCounter);
+        });
     EXPECT_EQ(visited, 5U);
     EXPECT_EQ(samples, (std::vector<std::uint32_t>{3, 4, 5, 6, 7}));
-    EXPECT_EQ(m_session.visit({sender(), 0, 2}, at(0s), 2, [](const auto&) {}), 2U);
+    EXPECT_EQ(m_session.messages().visit({sender(), 0, 2}, at(0s), 2, [](const auto&) {}), 2U);
 }
 
 TEST_F(SessionTest, FindsThePacketOfATime) {
@@ -238,17 +243,17 @@ TEST_F(SessionTest, FindsThePacketOfATime) {
 TEST_F(SessionTest, TellsTheAgeOfACharacterAgainstTheGivenTime) {
     send(standingAt(0), 1, at(1s));
     m_session.follow(at(3'200ms));
-    EXPECT_NEAR(m_session.ageSeconds(key()), 2.2, 1e-9);
+    EXPECT_NEAR(m_session.messages().ageSeconds(key()), 2.2, 1e-9);
 }
 
 TEST_F(SessionTest, FallsBackToDefaultNameAndColour) {
     send(standingAt(0), 1, at(1s));
     follow();
-    EXPECT_EQ(m_session.displayName(key()), "Character 0");
-    EXPECT_EQ(m_session.colour(key()), defaultColour(0));
+    EXPECT_EQ(m_session.roster().displayName(key()), "Character 0");
+    EXPECT_EQ(m_session.roster().colour(key()), defaultColour(0));
     send(wire::MetaData{true, "color:e96417\n"}, 0, at(2s));
     follow();
-    EXPECT_NEAR(m_session.colour(key()).red, 0xe9 / 255.0, 1e-6);
+    EXPECT_NEAR(m_session.roster().colour(key()).red, 0xe9 / 255.0, 1e-6);
 }
 
 TEST_F(SessionTest, ForgetsWhatTheLogForgetsWithoutLosingItsPlace) {
@@ -270,7 +275,7 @@ TEST_F(SessionTest, ForgetsWhatTheLogForgetsWithoutLosingItsPlace) {
     session.follow({});
     EXPECT_EQ(session.end(), 60'000U);
     EXPECT_GT(session.begin(), 0U);
-    EXPECT_NE(session.message({arrival.sender, 0}, 2), nullptr);
+    EXPECT_NE(session.messages().message({arrival.sender, 0}, 2), nullptr);
 }
 
 } // namespace

@@ -4,6 +4,10 @@
 #include "core/model/accounting/attribution.h"
 #include "core/model/accounting/stream_figures.h"
 #include "core/model/incidents/thresholds.h"
+#include "core/model/session/accounts.h"
+#include "core/model/session/messages.h"
+#include "core/model/session/roster.h"
+#include "core/model/session/verdict.h"
 
 #include <algorithm>
 #include <random>
@@ -33,7 +37,7 @@ protected:
             send(standingAt(static_cast<float>(first + i)), first + i, from + i * 10ms);
         }
     }
-    double pelvisX() { return m_session.pose(key())->segments[0].position.x(); }
+    double pelvisX() { return m_session.messages().pose(key())->segments[0].position.x(); }
 };
 
 TEST_F(ViewTest, IsEmptyBeforeAnythingComes) {
@@ -42,19 +46,18 @@ TEST_F(ViewTest, IsEmptyBeforeAnythingComes) {
     EXPECT_EQ(m_session.now(), at(5s));
     EXPECT_EQ(m_session.firstStamp(), log::Stamp());
     EXPECT_EQ(m_session.cursorStamp(), at(5s));
-    EXPECT_TRUE(m_session.currentCharacters().empty());
-    EXPECT_EQ(m_session.countsOf(key(), {at(0s), at(9s)}), StreamCounts{});
-    EXPECT_EQ(m_session.ageSeconds(key()), 0);
+    EXPECT_TRUE(m_session.roster().listed().empty());
+    EXPECT_EQ(m_session.accounts().countsOf(key(), {at(0s), at(9s)}), StreamCounts{});
+    EXPECT_EQ(m_session.messages().ageSeconds(key()), 0);
     EXPECT_EQ(m_session.packet(0), std::nullopt);
-    EXPECT_EQ(m_session.message(key(), 2), nullptr);
-    EXPECT_EQ(m_session.pose(key()), nullptr);
-    EXPECT_EQ(m_session.nullPose(key()), nullptr);
-    EXPECT_EQ(m_session.nullPoses(key()), nullptr);
-    EXPECT_EQ(m_session.visit({sender(), 0, 2}, at(0s), 10, [](const Message&) { FAIL(); }), 0U);
+    EXPECT_EQ(m_session.messages().message(key(), 2), nullptr);
+    EXPECT_EQ(m_session.messages().pose(key()), nullptr);
+    EXPECT_EQ(m_session.messages().nullPose(key()), nullptr);
+    EXPECT_EQ(m_session.messages().visit({sender(), 0, 2}, at(0s), 10, [](const Message&) { FAIL(); }), 0U);
     pauseAt(7);
     EXPECT_EQ(m_session.cursorStamp(), at(5s)) << "there is no such packet";
-    EXPECT_EQ(m_session.message(key(), 2), nullptr);
-    EXPECT_TRUE(m_session.troublesOf(key()).empty());
+    EXPECT_EQ(m_session.messages().message(key(), 2), nullptr);
+    EXPECT_TRUE(m_session.verdicts().troublesOf(key()).empty());
 }
 
 TEST_F(ViewTest, FindsPacketsByTimeAsAWalkDoes) {
@@ -135,14 +138,14 @@ TEST_F(ViewTest, KnowsTheStateOfATypeThatIsSentRarely) {
     poses(51, 50, at(4s));
     follow();
     pauseAt(50);
-    EXPECT_EQ(m_session.displayName(key()), "Ana");
-    EXPECT_EQ(m_session.colour(key()), defaultColour(0)) << "its own was sent later";
-    const Message* message = m_session.message(key(), wire::MetaData::kType);
+    EXPECT_EQ(m_session.roster().displayName(key()), "Ana");
+    EXPECT_EQ(m_session.roster().colour(key()), defaultColour(0)) << "its own was sent later";
+    const Message* message = m_session.messages().message(key(), wire::MetaData::kType);
     ASSERT_NE(message, nullptr);
     EXPECT_EQ(message->packet, 0U);
     pauseAt(51);
-    EXPECT_EQ(m_session.displayName(key()), "Berta");
-    EXPECT_EQ(m_session.colour(key()), (Colour{1, 0, 0}));
+    EXPECT_EQ(m_session.roster().displayName(key()), "Berta");
+    EXPECT_EQ(m_session.roster().colour(key()), (Colour{1, 0, 0}));
 }
 
 TEST_F(ViewTest, MeasuresAgeAtTheCursorFromWhatHadComeByThen) {
@@ -152,26 +155,26 @@ TEST_F(ViewTest, MeasuresAgeAtTheCursorFromWhatHadComeByThen) {
     send(wire::CentreOfMass{}, 1, at(6s));
     follow();
     m_session.follow(at(10s));
-    EXPECT_DOUBLE_EQ(m_session.ageSeconds(key()), 4) << "any datagram of the character counts";
+    EXPECT_DOUBLE_EQ(m_session.messages().ageSeconds(key()), 4) << "any datagram of the character counts";
     pauseAt(2);
-    EXPECT_DOUBLE_EQ(m_session.ageSeconds(key()), 3);
+    EXPECT_DOUBLE_EQ(m_session.messages().ageSeconds(key()), 3);
     pauseAt(3);
-    EXPECT_DOUBLE_EQ(m_session.ageSeconds(key()), 0);
+    EXPECT_DOUBLE_EQ(m_session.messages().ageSeconds(key()), 0);
     pauseAt(0);
-    EXPECT_DOUBLE_EQ(m_session.ageSeconds(key()), 0);
-    EXPECT_DOUBLE_EQ(m_session.ageSeconds({sender(), 9}), 0) << "there is none";
+    EXPECT_DOUBLE_EQ(m_session.messages().ageSeconds(key()), 0);
+    EXPECT_DOUBLE_EQ(m_session.messages().ageSeconds({sender(), 9}), 0) << "there is none";
     goOn();
     m_session.follow(at(5s)); // the clock was set back
-    EXPECT_DOUBLE_EQ(m_session.ageSeconds(key()), 0);
+    EXPECT_DOUBLE_EQ(m_session.messages().ageSeconds(key()), 0);
 }
 
 TEST_F(ViewTest, KeepsAChosenRangeAtTheCursor) {
     poses(1, 100, at(1s));
     follow();
-    EXPECT_EQ(m_session.rangeChoice(), RangeChoice{});
+    EXPECT_EQ(m_session.choices().range, RangeChoice{});
     EXPECT_EQ(m_session.range(), std::nullopt);
     m_session.setRange({.last = 500ms});
-    EXPECT_NE(m_session.rangeChoice(), RangeChoice{});
+    EXPECT_NE(m_session.choices().range, RangeChoice{});
     ASSERT_TRUE(m_session.range().has_value());
     // What arrives at this very moment belongs to it.
     EXPECT_EQ(m_session.range()->to, m_session.now() + 1ns);
@@ -189,9 +192,9 @@ TEST_F(ViewTest, CountsForTheTakeFromTheResetOn) {
     poses(1, 100, at(1s));
     follow();
     m_session.resetForTake();
-    EXPECT_EQ(m_session.reset(), m_session.now());
+    EXPECT_EQ(m_session.choices().reset, m_session.now());
     ASSERT_TRUE(m_session.range().has_value());
-    EXPECT_EQ(m_session.range()->from, m_session.reset());
+    EXPECT_EQ(m_session.range()->from, m_session.choices().reset);
     pauseAt(20);
     EXPECT_EQ(m_session.range()->seconds(), 0) << "the cursor is before the take";
     m_session.setRange({});
@@ -210,15 +213,15 @@ TEST_F(ViewTest, SumsWhatItsStreamsCount) {
     }
     follow();
     const CharacterKey other{sender("10.0.0.7:1"), 0};
-    EXPECT_EQ(m_session.countsOf(key(), kAllTime).samples, 190U);
-    EXPECT_EQ(m_session.countsOf(key(), kAllTime).lost, 9U) << "the last one is not missed yet";
-    EXPECT_EQ(m_session.countsOf({sender(), 1}, kAllTime).samples, 200U);
-    EXPECT_EQ(m_session.countsOf(other, kAllTime).duplicates, 200U);
-    EXPECT_EQ(m_session.countsOf({sender("10.0.0.8:1"), 0}, kAllTime), StreamCounts{});
+    EXPECT_EQ(m_session.accounts().countsOf(key(), kAllTime).samples, 190U);
+    EXPECT_EQ(m_session.accounts().countsOf(key(), kAllTime).lost, 9U) << "the last one is not missed yet";
+    EXPECT_EQ(m_session.accounts().countsOf({sender(), 1}, kAllTime).samples, 200U);
+    EXPECT_EQ(m_session.accounts().countsOf(other, kAllTime).duplicates, 200U);
+    EXPECT_EQ(m_session.accounts().countsOf({sender("10.0.0.8:1"), 0}, kAllTime), StreamCounts{});
     const TimeRange all{at(0s), at(100s)};
     StreamCounts ofSender;
     StreamCounts inAll;
-    for (const Stream& stream : m_session.streams()) {
+    for (const Stream& stream : m_session.roster().streams()) {
         ofSender += stream.key.sender == sender() ? stream.accounting.counts() : StreamCounts{};
         inAll += stream.accounting.countsBetween(all.from, all.to);
     }
@@ -226,9 +229,9 @@ TEST_F(ViewTest, SumsWhatItsStreamsCount) {
     EXPECT_EQ(ofSender.lost, 9U);
     EXPECT_EQ(inAll.datagrams, m_session.end());
     EXPECT_EQ(inAll.samples, 590U);
-    EXPECT_EQ(m_session.countsOf(key(), all).lost, 9U);
-    EXPECT_EQ(m_session.countsOf(other, {at(11s), at(12s)}).samples, 100U);
-    EXPECT_EQ(m_session.countsOf(other, {at(13s), at(14s)}).samples, 0U);
+    EXPECT_EQ(m_session.accounts().countsOf(key(), all).lost, 9U);
+    EXPECT_EQ(m_session.accounts().countsOf(other, {at(11s), at(12s)}).samples, 100U);
+    EXPECT_EQ(m_session.accounts().countsOf(other, {at(13s), at(14s)}).samples, 0U);
 }
 
 TEST_F(ViewTest, VisitsNoMoreThanItWasAskedFor) {
@@ -238,7 +241,7 @@ TEST_F(ViewTest, VisitsNoMoreThanItWasAskedFor) {
     std::vector<std::uint32_t> seen;
     const auto visit = [&](log::Stamp from, std::size_t most) {
         seen.clear();
-        return m_session.visit(stream, from, most, [&](const Message& message) {
+        return m_session.messages().visit(stream, from, most, [&](const Message& message) {
             seen.push_back(message.datagram.header.sampleCounter);
         });
     };
@@ -252,7 +255,7 @@ TEST_F(ViewTest, VisitsNoMoreThanItWasAskedFor) {
     pauseAt(4);
     EXPECT_EQ(visit(at(0s), 3), 3U);
     EXPECT_EQ(seen, (std::vector<std::uint32_t>{3, 4, 5}));
-    EXPECT_EQ(m_session.visit({sender(), 0, 21}, at(0s), 10, [](const Message&) {}), 0U);
+    EXPECT_EQ(m_session.messages().visit({sender(), 0, 21}, at(0s), 10, [](const Message&) {}), 0U);
 }
 
 TEST_F(ViewTest, VisitsNoPartsAndNothingMalformed) {
@@ -264,7 +267,7 @@ TEST_F(ViewTest, VisitsNoPartsAndNothingMalformed) {
     poses(5, 2, at(3s));
     follow();
     std::vector<std::uint32_t> seen;
-    EXPECT_EQ(m_session.visit(
+    EXPECT_EQ(m_session.messages().visit(
                   {sender(), 0, 2}, at(0s), 100,
                   [&](const Message& message) { seen.push_back(message.datagram.header.sampleCounter); }),
               5U);
@@ -276,16 +279,16 @@ TEST_F(ViewTest, KnowsTheGapThatAPacketEnded) {
     poses(54, 50, at(11s)); // three are lost
     poses(110, 50, at(12s));
     follow();
-    ASSERT_EQ(m_session.gaps().size(), 2U);
-    EXPECT_EQ(m_session.gapEndedBy(49), nullptr);
-    ASSERT_NE(m_session.gapEndedBy(50), nullptr);
-    EXPECT_EQ(m_session.gapEndedBy(50)->lost, 3U);
-    EXPECT_EQ(m_session.gapEndedBy(50)->fromSample, 50U);
-    EXPECT_EQ(m_session.gapEndedBy(51), nullptr);
-    EXPECT_EQ(m_session.gapEndedBy(100)->lost, 6U);
-    EXPECT_EQ(m_session.gapEndedBy(1'000), nullptr);
-    EXPECT_EQ(m_session.digests().nextProblem(0), 50U);
-    EXPECT_EQ(m_session.digests().nextProblem(50), 100U);
+    ASSERT_EQ(m_session.accounts().gaps().size(), 2U);
+    EXPECT_EQ(m_session.accounts().gapEndedBy(49), nullptr);
+    ASSERT_NE(m_session.accounts().gapEndedBy(50), nullptr);
+    EXPECT_EQ(m_session.accounts().gapEndedBy(50)->lost, 3U);
+    EXPECT_EQ(m_session.accounts().gapEndedBy(50)->fromSample, 50U);
+    EXPECT_EQ(m_session.accounts().gapEndedBy(51), nullptr);
+    EXPECT_EQ(m_session.accounts().gapEndedBy(100)->lost, 6U);
+    EXPECT_EQ(m_session.accounts().gapEndedBy(1'000), nullptr);
+    EXPECT_EQ(m_session.accounts().digests().nextProblem(0), 50U);
+    EXPECT_EQ(m_session.accounts().digests().nextProblem(50), 100U);
 }
 
 TEST_F(ViewTest, ShowsEveryCharacterOnceWhoeverSendsIt) {
@@ -294,10 +297,10 @@ TEST_F(ViewTest, ShowsEveryCharacterOnceWhoeverSendsIt) {
     sendFrom("10.0.0.5:1001", standingAt(0), 1, at(2s), 0); // restarted
     sendFrom("10.0.0.6:1000", standingAt(0), 1, at(3s), 0);
     follow();
-    EXPECT_EQ(m_session.characters().size(), 4U);
+    EXPECT_EQ(m_session.roster().characters().size(), 4U);
     const auto keysShown = [this] {
         std::vector<CharacterKey> keys;
-        for (const Character* character : m_session.currentCharacters()) {
+        for (const Character* character : m_session.roster().listed()) {
             keys.push_back(character->key);
         }
         return keys;
@@ -307,11 +310,11 @@ TEST_F(ViewTest, ShowsEveryCharacterOnceWhoeverSendsIt) {
     const CharacterKey restarted{sender("10.0.0.5:1001"), 0};
     const CharacterKey elsewhere{sender("10.0.0.6:1000"), 0};
     EXPECT_EQ(keysShown(), (std::vector{restarted, second, elsewhere})) << "restarted, and in its place";
-    EXPECT_EQ(m_session.current(old), restarted);
-    EXPECT_EQ(m_session.colour(old), m_session.colour(restarted));
+    EXPECT_EQ(m_session.roster().current(old), restarted);
+    EXPECT_EQ(m_session.roster().colour(old), m_session.roster().colour(restarted));
     pauseAt(1);
-    EXPECT_EQ(m_session.current(old), old);
-    EXPECT_EQ(m_session.current({sender(), 77}), (CharacterKey{sender(), 77}));
+    EXPECT_EQ(m_session.roster().current(old), old);
+    EXPECT_EQ(m_session.roster().current({sender(), 77}), (CharacterKey{sender(), 77}));
 }
 
 TEST_F(ViewTest, FollowsALogInPortions) {
@@ -331,17 +334,17 @@ TEST_F(ViewTest, PrefersAPoseThatIsNewerByMoreThanAQuarterOfASecond) {
     send(standingAt(0), 1, at(1s));
     send(euler, 1, at(1'250ms));
     follow();
-    EXPECT_EQ(m_session.pose(key())->type, wire::PoseQuaternion::kType);
+    EXPECT_EQ(m_session.messages().pose(key())->type, wire::PoseQuaternion::kType);
     send(euler, 2, at(1'250ms) + 1ns);
     follow();
-    EXPECT_EQ(m_session.pose(key())->type, wire::PoseEuler::kType);
+    EXPECT_EQ(m_session.messages().pose(key())->type, wire::PoseEuler::kType);
 }
 
 TEST_F(ViewTest, ShowsNoSegmentOfADatagramWithoutSegments) {
     send(wire::PoseQuaternion{}, 1, at(1s));
     follow();
-    EXPECT_NE(m_session.message(key(), 2), nullptr);
-    const CharacterPose* pose = m_session.pose(key());
+    EXPECT_NE(m_session.messages().message(key(), 2), nullptr);
+    const CharacterPose* pose = m_session.messages().pose(key());
     EXPECT_EQ(pose == nullptr ? 0
                               : std::ranges::count_if(pose->sources,
                                                       [](const SegmentSource& source) {
@@ -351,21 +354,21 @@ TEST_F(ViewTest, ShowsNoSegmentOfADatagramWithoutSegments) {
 }
 
 TEST_F(ViewTest, KeepsWhatTheOperatorChose) {
-    EXPECT_EQ(m_session.cursor().mode, Cursor::Mode::Following);
-    EXPECT_EQ(m_session.selection(), Selection{});
+    EXPECT_EQ(m_session.choices().cursor.mode, Cursor::Mode::Following);
+    EXPECT_EQ(m_session.choices().selection, Selection{});
     Selection selection;
     selection.sender = sender();
     selection.character = key();
     selection.segment = 7;
     selection.packet = 99;
     m_session.setSelection(selection);
-    EXPECT_EQ(m_session.selection(), selection);
+    EXPECT_EQ(m_session.choices().selection, selection);
     m_session.setDisplayFilter("type == 02");
-    EXPECT_EQ(m_session.displayFilter(), "type == 02");
+    EXPECT_EQ(m_session.choices().displayFilter, "type == 02");
     Thresholds limits;
     limits.lossPercent = 7;
     m_session.setThresholds(limits);
-    EXPECT_EQ(m_session.thresholds(), limits);
+    EXPECT_EQ(m_session.verdicts().thresholds(), limits);
 }
 
 TEST_F(ViewTest, AJumpIsUndoneWithTheFilterAndTheSelectionThereWere) {
@@ -373,35 +376,35 @@ TEST_F(ViewTest, AJumpIsUndoneWithTheFilterAndTheSelectionThereWere) {
     own.packet = 7;
     m_session.setSelection(own);
     m_session.setDisplayFilter("type == 02");
-    EXPECT_FALSE(m_session.canGoBack());
+    EXPECT_FALSE(m_session.choices().canGoBack());
     Selection there;
     there.packet = 99;
     m_session.jump(there, "type == 02");
-    EXPECT_EQ(m_session.filterJump(), nullptr) << "it kept the operator's filter";
+    EXPECT_EQ(m_session.choices().filterJump(), nullptr) << "it kept the operator's filter";
     there.packet = 120;
     m_session.jump(there, "gap > 0");
-    ASSERT_NE(m_session.filterJump(), nullptr);
-    EXPECT_EQ(m_session.ownFilter(), "type == 02");
+    ASSERT_NE(m_session.choices().filterJump(), nullptr);
+    EXPECT_EQ(m_session.choices().ownFilter(), "type == 02");
     there.packet = 130;
     m_session.jump(there, "duplicate"); // from a jump's filter to another
-    EXPECT_EQ(m_session.ownFilter(), "type == 02");
+    EXPECT_EQ(m_session.choices().ownFilter(), "type == 02");
     m_session.goBack();
-    EXPECT_EQ(m_session.displayFilter(), "type == 02");
-    EXPECT_EQ(m_session.selection().packet, 99U);
+    EXPECT_EQ(m_session.choices().displayFilter, "type == 02");
+    EXPECT_EQ(m_session.choices().selection.packet, 99U);
     m_session.goBack();
-    EXPECT_EQ(m_session.selection(), own);
-    EXPECT_EQ(m_session.displayFilter(), "type == 02");
+    EXPECT_EQ(m_session.choices().selection, own);
+    EXPECT_EQ(m_session.choices().displayFilter, "type == 02");
     m_session.goBack();
-    EXPECT_EQ(m_session.selection(), own);
+    EXPECT_EQ(m_session.choices().selection, own);
 }
 
 TEST_F(ViewTest, AJumpStopsAtItsPacketAndIsUndoneWithTheMomentThereWas) {
     Selection there;
     there.packet = 99;
     m_session.jump(there, "");
-    EXPECT_EQ(m_session.cursor(), (Cursor{Cursor::Mode::Paused, 99}));
+    EXPECT_EQ(m_session.choices().cursor, (Cursor{Cursor::Mode::Paused, 99}));
     m_session.goBack();
-    EXPECT_EQ(m_session.cursor(), Cursor());
+    EXPECT_EQ(m_session.choices().cursor, Cursor());
 }
 
 /// A sample may come in several datagrams.
@@ -413,42 +416,42 @@ TEST_F(ViewTest, StepsFromSampleToSample) {
     follow();
     const log::StreamKey stream{sender(), 0, wire::PoseQuaternion::kType};
     m_session.setCursor({Cursor::Mode::Paused, 3});
-    EXPECT_EQ(m_session.packetOfSample(stream, 0), 3U);
-    EXPECT_EQ(m_session.packetOfSample(stream, 1), 5U);
-    EXPECT_EQ(m_session.packetOfSample(stream, 2), 7U);
-    EXPECT_EQ(m_session.packetOfSample(stream, 10), 7U);
-    EXPECT_EQ(m_session.packetOfSample(stream, -1), 1U);
-    EXPECT_EQ(m_session.packetOfSample(stream, -10), 1U);
+    EXPECT_EQ(m_session.messages().packetOfSample(stream, 0), 3U);
+    EXPECT_EQ(m_session.messages().packetOfSample(stream, 1), 5U);
+    EXPECT_EQ(m_session.messages().packetOfSample(stream, 2), 7U);
+    EXPECT_EQ(m_session.messages().packetOfSample(stream, 10), 7U);
+    EXPECT_EQ(m_session.messages().packetOfSample(stream, -1), 1U);
+    EXPECT_EQ(m_session.messages().packetOfSample(stream, -10), 1U);
     m_session.setCursor({Cursor::Mode::Paused, 2}); // amidst a sample
-    EXPECT_EQ(m_session.packetOfSample(stream, -1), 1U);
-    EXPECT_EQ(m_session.packetOfSample({sender(), 7, 2}, 1), std::nullopt);
+    EXPECT_EQ(m_session.messages().packetOfSample(stream, -1), 1U);
+    EXPECT_EQ(m_session.messages().packetOfSample({sender(), 7, 2}, 1), std::nullopt);
 }
 
 TEST_F(ViewTest, AFilterThatIsWrittenAfterAJumpIsTheOperatorsOwn) {
     m_session.jump({}, "gap > 0");
     m_session.setDisplayFilter("gap > 1");
-    EXPECT_EQ(m_session.filterJump(), nullptr);
-    EXPECT_EQ(m_session.ownFilter(), "gap > 1");
+    EXPECT_EQ(m_session.choices().filterJump(), nullptr);
+    EXPECT_EQ(m_session.choices().ownFilter(), "gap > 1");
     m_session.goBack();
-    EXPECT_EQ(m_session.displayFilter(), "");
+    EXPECT_EQ(m_session.choices().displayFilter, "");
 }
 
 TEST_F(ViewTest, KeepsMarksAndCommentsByPacketNumber) {
     m_session.setMarked(5, true);
     m_session.setMarked(5, true);
     m_session.setMarked(9, true);
-    EXPECT_EQ(m_session.annotations().marks, (std::set<std::uint64_t>{5, 9}));
+    EXPECT_EQ(m_session.choices().annotations.marks, (std::set<std::uint64_t>{5, 9}));
     m_session.setMarked(5, false);
     m_session.setMarked(77, false); // was not marked
-    EXPECT_EQ(m_session.annotations().marks, (std::set<std::uint64_t>{9}));
+    EXPECT_EQ(m_session.choices().annotations.marks, (std::set<std::uint64_t>{9}));
     m_session.setComment(3, "odd");
     m_session.setComment(3, "Ton ab, zweiter Versuch …");
     m_session.setComment(4, "x");
-    EXPECT_EQ(m_session.annotations().comments.size(), 2U);
-    EXPECT_EQ(m_session.annotations().comments.at(3), "Ton ab, zweiter Versuch …");
+    EXPECT_EQ(m_session.choices().annotations.comments.size(), 2U);
+    EXPECT_EQ(m_session.choices().annotations.comments.at(3), "Ton ab, zweiter Versuch …");
     m_session.setComment(3, "");
     m_session.setComment(8, ""); // had none
-    EXPECT_EQ(m_session.annotations().comments, (std::map<std::uint64_t, std::string>{{4, "x"}}));
+    EXPECT_EQ(m_session.choices().annotations.comments, (std::map<std::uint64_t, std::string>{{4, "x"}}));
 }
 
 } // namespace

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "tests/core/model/session/session_fixture.h"
 
+#include "core/model/session/memory_figures.h"
+#include "core/model/session/messages.h"
+#include "core/model/session/roster.h"
 #include "core/wire/messages.h"
 
 #include <algorithm>
@@ -32,7 +35,7 @@ protected:
     }
     /// The sample that is shown; 0 for none.
     std::uint32_t shown() {
-        const Message* message = m_session.message(key(), wire::PoseQuaternion::kType);
+        const Message* message = m_session.messages().message(key(), wire::PoseQuaternion::kType);
         return message == nullptr ? 0 : message->datagram.header.sampleCounter;
     }
 };
@@ -47,13 +50,13 @@ TEST_F(SplitMessages, AreWholeInWhateverOrderTheirPartsCome) {
             follow();
             EXPECT_EQ(shown(), i == 2 ? sample : sample - 1) << "part " << i << " of sample " << sample;
         }
-        const Message* message = m_session.message(key(), wire::PoseQuaternion::kType);
+        const Message* message = m_session.messages().message(key(), wire::PoseQuaternion::kType);
         ASSERT_NE(message, nullptr);
         const auto& body = std::get<wire::PoseQuaternion>(message->datagram.body);
         EXPECT_EQ(body, standingAt(static_cast<float>(sample)));
     } while (std::ranges::next_permutation(order).found);
     const StreamCounts counts =
-        m_session.find({sender(), 0, wire::PoseQuaternion::kType})->accounting.counts();
+        m_session.roster().find({sender(), 0, wire::PoseQuaternion::kType})->accounting.counts();
     EXPECT_EQ(counts.samples, 6U);
     EXPECT_EQ(counts.incomplete, 0U);
 }
@@ -112,7 +115,7 @@ TEST_F(SplitMessages, MayHaveAHundredAndTwentyEightParts) {
         follow();
         EXPECT_EQ(shown(), isLast ? 5U : 0U) << index;
     }
-    const Message* message = m_session.message(key(), wire::PoseQuaternion::kType);
+    const Message* message = m_session.messages().message(key(), wire::PoseQuaternion::kType);
     EXPECT_EQ(std::get<wire::PoseQuaternion>(message->datagram.body), standingAt(5));
 }
 
@@ -137,13 +140,13 @@ TEST_F(SplitMessages, CarryTheStampAndNumberOfTheirLastDatagram) {
     sendThird(1, 2, at(2s));
     sendThird(1, 1, at(3s));
     follow();
-    const Message* message = m_session.message(key(), wire::PoseQuaternion::kType);
+    const Message* message = m_session.messages().message(key(), wire::PoseQuaternion::kType);
     ASSERT_NE(message, nullptr);
     EXPECT_EQ(message->packet, 1U) << "the one that says it is the last";
     EXPECT_EQ(message->stamp, at(2s));
     EXPECT_EQ(message->sender, sender());
-    EXPECT_EQ(m_session.pose(key())->packet, 1U);
-    EXPECT_EQ(m_session.pose(key())->segments.size(), 23U);
+    EXPECT_EQ(m_session.messages().pose(key())->packet, 1U);
+    EXPECT_EQ(m_session.messages().pose(key())->segments.size(), 23U);
 }
 
 TEST_F(SplitMessages, AreGatheredNoFurtherThanAnyoneNeeds) {
@@ -153,7 +156,7 @@ TEST_F(SplitMessages, AreGatheredNoFurtherThanAnyoneNeeds) {
         send(props, 0, at(1s), static_cast<std::uint8_t>(part | (part == 127 ? 0x80 : 0)));
     }
     follow();
-    const Message* message = m_session.message(key(), wire::PropInformation::kType);
+    const Message* message = m_session.messages().message(key(), wire::PropInformation::kType);
     ASSERT_NE(message, nullptr);
     const auto& props = std::get<wire::PropInformation>(message->datagram.body).props;
     EXPECT_GE(props.size(), 5U);
@@ -177,9 +180,9 @@ TEST_F(SplitMessages, KeepMetadataAndNullPosesWithinTheirBudgets) {
     const auto bytesOf = [figures = m_session.memory()](std::string_view part) {
         return std::ranges::find(figures.parts, part, &MemoryFigures::Part::key)->bytes;
     };
-    EXPECT_LE(bytesOf("metadata"), Ingest::kMetadataBudget);
-    EXPECT_LE(bytesOf("nullPoses"), Ingest::kNullPoseBudget);
-    EXPECT_TRUE(m_session.displayName(key()).shown().starts_with("1999x"));
+    EXPECT_LE(bytesOf("metadata"), Content::kMetadataBudget);
+    EXPECT_LE(bytesOf("nullPoses"), Content::kNullPoseBudget);
+    EXPECT_TRUE(m_session.roster().displayName(key()).shown().starts_with("1999x"));
 }
 
 } // namespace

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include "core/model/session/accounts.h"
+#include "core/model/session/messages.h"
+#include "core/model/session/roster.h"
 #include "core/model/session/verdict.h"
 #include "tests/core/model/incidents/incidents_fixture.h"
 
@@ -28,14 +31,14 @@ TEST_F(SuccessionTest, TakesWhatItHasNotSentFromTheSenderBefore) {
     sendFrom("10.0.0.5:1002", wire::TimeCode{}, at(3s));
     follow();
     const CharacterKey newest = keyOf("10.0.0.5:1002");
-    EXPECT_EQ(m_session.displayName(newest), "Factory");
-    EXPECT_NEAR(m_session.colour(newest).red, 0xe9 / 255.0, 1e-6);
-    ASSERT_NE(m_session.pose(newest), nullptr);
-    EXPECT_NEAR(m_session.pose(newest)->segments[0].position.x(), 3, 1e-6);
-    EXPECT_EQ(m_session.metadata(newest).tags().size(), 2U);
-    EXPECT_TRUE(m_session.isSuperseded(keyOf("10.0.0.5:1000")));
-    EXPECT_TRUE(m_session.isSuperseded(keyOf("10.0.0.5:1001")));
-    EXPECT_FALSE(m_session.isSuperseded(newest));
+    EXPECT_EQ(m_session.roster().displayName(newest), "Factory");
+    EXPECT_NEAR(m_session.roster().colour(newest).red, 0xe9 / 255.0, 1e-6);
+    ASSERT_NE(m_session.messages().pose(newest), nullptr);
+    EXPECT_NEAR(m_session.messages().pose(newest)->segments[0].position.x(), 3, 1e-6);
+    EXPECT_EQ(m_session.messages().metadata(newest).tags().size(), 2U);
+    EXPECT_TRUE(m_session.roster().isSuperseded(keyOf("10.0.0.5:1000")));
+    EXPECT_TRUE(m_session.roster().isSuperseded(keyOf("10.0.0.5:1001")));
+    EXPECT_FALSE(m_session.roster().isSuperseded(newest));
 }
 
 TEST_F(SuccessionTest, KeepsTwoSendersApartThatSendAtTheSameTime) {
@@ -43,25 +46,25 @@ TEST_F(SuccessionTest, KeepsTwoSendersApartThatSendAtTheSameTime) {
     sendFrom("10.0.0.5:1001", standingAt(0), at(2s));
     sendFrom("10.0.0.5:1000", standingAt(1), at(3s));
     follow();
-    EXPECT_FALSE(m_session.isSuperseded(keyOf("10.0.0.5:1000")));
-    EXPECT_EQ(m_session.displayName(keyOf("10.0.0.5:1001")), "Character 0");
+    EXPECT_FALSE(m_session.roster().isSuperseded(keyOf("10.0.0.5:1000")));
+    EXPECT_EQ(m_session.roster().displayName(keyOf("10.0.0.5:1001")), "Character 0");
 }
 
 TEST_F(SuccessionTest, KeepsHostsAndCharactersApart) {
     sendFrom("10.0.0.5:1000", wire::MetaData{true, "name:Ana\n"}, at(1s));
     sendFrom("10.0.0.6:1000", standingAt(0), at(2s));
     follow();
-    EXPECT_FALSE(m_session.isSuperseded(keyOf("10.0.0.5:1000")));
-    EXPECT_EQ(m_session.displayName(keyOf("10.0.0.6:1000")), "Character 0");
+    EXPECT_FALSE(m_session.roster().isSuperseded(keyOf("10.0.0.5:1000")));
+    EXPECT_EQ(m_session.roster().displayName(keyOf("10.0.0.6:1000")), "Character 0");
 }
 
 TEST_F(SuccessionTest, ShowsTheOldSenderAgainBeforeItsSuccessorCame) {
     sendFrom("10.0.0.5:1000", standingAt(0), at(1s));
     sendFrom("10.0.0.5:1001", standingAt(1), at(2s));
     follow();
-    EXPECT_TRUE(m_session.isSuperseded(keyOf("10.0.0.5:1000")));
+    EXPECT_TRUE(m_session.roster().isSuperseded(keyOf("10.0.0.5:1000")));
     m_session.setCursor({Cursor::Mode::Paused, 0});
-    EXPECT_FALSE(m_session.isSuperseded(keyOf("10.0.0.5:1000")));
+    EXPECT_FALSE(m_session.roster().isSuperseded(keyOf("10.0.0.5:1000")));
 }
 
 /// Poses at 100 Hz from ports that follow each other.
@@ -84,7 +87,7 @@ protected:
     CharacterKey keyOf(const std::string& address) { return {sender(address), 0}; }
     std::vector<CharacterKey> shown() {
         std::vector<CharacterKey> keys;
-        for (const Character* one : m_session.atNow().currentCharacters()) {
+        for (const Character* one : m_session.atNow().roster().listed()) {
             keys.push_back(one->key);
         }
         return keys;
@@ -98,23 +101,23 @@ protected:
 TEST_F(RestartTest, IsOneCharacterThroughPortsWithAHistory) {
     posesFromAllPorts();
     EXPECT_EQ(shown(), std::vector{keyOf(m_third)});
-    EXPECT_EQ(m_session.restartsOf(keyOf(m_third)), 2U);
-    EXPECT_EQ(m_session.lineage(keyOf(m_third)).size(), 3U);
-    EXPECT_TRUE(m_session.isSame(keyOf(m_first), keyOf(m_third)));
-    ASSERT_EQ(m_session.endedSenders().size(), 2U);
+    EXPECT_EQ(m_session.accounts().restartsOf(keyOf(m_third)), 2U);
+    EXPECT_EQ(m_session.roster().lineage(keyOf(m_third)).size(), 3U);
+    EXPECT_TRUE(m_session.roster().isSame(keyOf(m_first), keyOf(m_third)));
+    ASSERT_EQ(m_session.accounts().endedSenders().size(), 2U);
     m_session.setSelection({sender(m_first), keyOf(m_first), -1});
-    EXPECT_TRUE(m_session.isSelected(keyOf(m_third)));
+    EXPECT_TRUE(m_session.roster().isSelected(keyOf(m_third)));
     m_session.setHidden(keyOf(m_first), true);
-    EXPECT_TRUE(m_session.isHidden(keyOf(m_third)));
+    EXPECT_TRUE(m_session.roster().isHidden(keyOf(m_third)));
     m_session.setHidden(keyOf(m_third), false);
-    EXPECT_FALSE(m_session.isHidden(keyOf(m_first)));
+    EXPECT_FALSE(m_session.roster().isHidden(keyOf(m_first)));
 }
 
 TEST_F(RestartTest, CountsRestartsOnTheSamePort) {
     posesFrom(m_first, 400, 10'000);
     posesFrom(m_first, 400);
-    EXPECT_EQ(m_session.restartsOf(keyOf(m_first)), 1U);
-    EXPECT_TRUE(m_session.endedSenders().empty());
+    EXPECT_EQ(m_session.accounts().restartsOf(keyOf(m_first)), 1U);
+    EXPECT_TRUE(m_session.accounts().endedSenders().empty());
 }
 
 TEST_F(RestartTest, KeepsItsVerdictThroughAnotherPort) {
@@ -122,9 +125,9 @@ TEST_F(RestartTest, KeepsItsVerdictThroughAnotherPort) {
     posesFrom(m_first, 100, 311); // ten lost
     m_at += 300ms;
     posesFrom(m_second, 200);
-    const TakeVerdict verdict = m_session.verdict(keyOf(m_second));
+    const TakeVerdict verdict = m_session.verdicts().of(keyOf(m_second));
     EXPECT_EQ(verdict.state, TakeVerdict::State::Warning) << "what is said of all is said of somebody";
-    EXPECT_EQ(verdict.said, m_session.verdicts().all.said);
+    EXPECT_EQ(verdict.said, m_session.verdicts().all().all.said);
 }
 
 TEST_F(RestartTest, ForgetsTheEndedAndLosesNothing) {
@@ -135,7 +138,7 @@ TEST_F(RestartTest, ForgetsTheEndedAndLosesNothing) {
     m_at += 1s;
     posesFrom("127.0.0.1:40003", 100);
     const CharacterKey now = keyOf("127.0.0.1:40003");
-    const SenderTotals before = m_session.allSenders();
+    const SenderTotals before = m_session.accounts().allSenders();
     m_session.setSelection({sender(), key(), -1});
     m_session.setHidden(key(), true);
     m_session.setLifted(key(), true);
@@ -143,20 +146,20 @@ TEST_F(RestartTest, ForgetsTheEndedAndLosesNothing) {
     EXPECT_TRUE(m_session.forget(sender("127.0.0.1:40002"))) << "from the middle of the line";
     EXPECT_EQ(shown(), std::vector{now}) << "the first is not back";
     EXPECT_TRUE(m_session.forget(sender()));
-    EXPECT_TRUE(m_session.endedSenders().empty());
-    EXPECT_EQ(m_session.senders().size(), 1U);
-    EXPECT_EQ(m_session.restartsOf(now), 2U);
-    EXPECT_EQ(m_session.displayName(now), "Ana");
-    EXPECT_EQ(m_session.selection().character, now);
-    EXPECT_TRUE(m_session.isHidden(now));
-    EXPECT_TRUE(m_session.isLifted(now));
-    EXPECT_EQ(m_session.allSenders().datagrams, before.datagrams);
-    EXPECT_EQ(m_session.retired().samples, 200U);
+    EXPECT_TRUE(m_session.accounts().endedSenders().empty());
+    EXPECT_EQ(m_session.roster().senders().size(), 1U);
+    EXPECT_EQ(m_session.accounts().restartsOf(now), 2U);
+    EXPECT_EQ(m_session.roster().displayName(now), "Ana");
+    EXPECT_EQ(m_session.choices().selection.character, now);
+    EXPECT_TRUE(m_session.roster().isHidden(now));
+    EXPECT_TRUE(m_session.roster().isLifted(now));
+    EXPECT_EQ(m_session.accounts().allSenders().datagrams, before.datagrams);
+    EXPECT_EQ(m_session.accounts().retired().samples, 200U);
 }
 
 TEST_F(RestartTest, ForgetsWhoIsSilentForLong) {
     posesFrom(m_first, 100);
-    EXPECT_FALSE(m_session.isForgettable(sender(m_first)));
+    EXPECT_FALSE(m_session.accounts().isForgettable(sender(m_first)));
     m_session.follow(m_at + 2s);
     EXPECT_TRUE(m_session.forget(sender(m_first)));
     EXPECT_TRUE(shown().empty());
@@ -169,9 +172,9 @@ TEST_F(RestartTest, IsForgottenWithAllThatCameBefore) {
     m_session.follow(m_at + 2s);
     EXPECT_TRUE(m_session.forget(sender(m_third)));
     EXPECT_TRUE(shown().empty()) << "what it had taken over does not come back";
-    EXPECT_TRUE(m_session.senders().empty());
+    EXPECT_TRUE(m_session.roster().senders().empty());
     m_session.follow(m_at + 20s);
-    EXPECT_EQ(m_session.verdicts().all.state, TakeVerdict::State::None);
+    EXPECT_EQ(m_session.verdicts().all().all.state, TakeVerdict::State::None);
 }
 
 TEST_F(RestartTest, IsSilentWhereWhatItHadTakenOverMustStay) {
@@ -192,25 +195,26 @@ TEST_F(RestartTest, IsSilentWhereWhatItHadTakenOverMustStay) {
     EXPECT_TRUE(m_session.forget(sender(m_second)));
     posesOfOther(20s);
     follow();
-    EXPECT_EQ(m_session.verdict(keyOf(m_first)).state, TakeVerdict::State::Bad) << "nobody sends it";
-    EXPECT_EQ(m_session.verdict({sender(m_first), 1}).state, TakeVerdict::State::Good);
+    EXPECT_EQ(m_session.verdicts().of(keyOf(m_first)).state, TakeVerdict::State::Bad) << "nobody sends it";
+    EXPECT_EQ(m_session.verdicts().of({sender(m_first), 1}).state, TakeVerdict::State::Good);
 }
 
 TEST_F(RestartTest, IsNoTroubleOfTheSenderThatEnded) {
     posesFrom(m_first, 300);
     posesFrom(m_second, 2'000); // at once, so that nobody was silent
-    EXPECT_EQ(m_session.verdict(keyOf(m_second)).state, TakeVerdict::State::Good)
-        << m_session.verdict(keyOf(m_second)).said;
-    EXPECT_EQ(m_session.verdicts().all.state, TakeVerdict::State::Good) << m_session.verdicts().all.said;
+    EXPECT_EQ(m_session.verdicts().of(keyOf(m_second)).state, TakeVerdict::State::Good)
+        << m_session.verdicts().of(keyOf(m_second)).said;
+    EXPECT_EQ(m_session.verdicts().all().all.state, TakeVerdict::State::Good)
+        << m_session.verdicts().all().all.said;
 }
 
 TEST_F(RestartTest, EndsWithItsSenderWhatOnlyThatSenderCanEnd) {
     posesFrom(m_first, 300);
     m_session.setOverride(sender(m_first), {.revision = Revision::E});
-    ASSERT_EQ(m_session.verdict(keyOf(m_first)).state, TakeVerdict::State::Warning);
+    ASSERT_EQ(m_session.verdicts().of(keyOf(m_first)).state, TakeVerdict::State::Warning);
     m_session.setOverride(sender(m_first), {.revision = Revision::E});
     posesFrom(m_second, 1'500);
-    EXPECT_TRUE(std::ranges::none_of(m_session.incidents().all(), [&](const Incident& one) {
+    EXPECT_TRUE(std::ranges::none_of(m_session.verdicts().incidents().all(), [&](const Incident& one) {
         return one.sender == sender(m_first) && one.isCurrent && one.kind == IncidentKind::Scale;
     }));
 }

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "core/model/session/accounts.h"
+#include "core/model/session/roster.h"
 #include "core/model/session/unconfirmed.h"
 
 #include "tests/core/model/session/verdict_fixture.h"
@@ -16,9 +18,9 @@ TEST_F(VerdictTest, DoesNotBelieveACharacterOfOneCorruptHeader) {
     sendBytes(*wire::encode(datagram), m_at);
     poses(201, 300);
     EXPECT_EQ(verdict().state, TakeVerdict::State::Good);
-    EXPECT_EQ(m_session.currentCharacters().size(), 1U);
-    ASSERT_NE(m_session.find(CharacterKey{sender(), 66}), nullptr) << "it is counted";
-    EXPECT_FALSE(m_session.find(CharacterKey{sender(), 66})->isConfirmed);
+    EXPECT_EQ(m_session.roster().listed().size(), 1U);
+    ASSERT_NE(m_session.roster().find(CharacterKey{sender(), 66}), nullptr) << "it is counted";
+    EXPECT_FALSE(m_session.roster().find(CharacterKey{sender(), 66})->isConfirmed);
 }
 
 TEST_F(VerdictTest, DoesNotBelieveACharacterOfCorruptHeadersHoweverMany) {
@@ -29,9 +31,9 @@ TEST_F(VerdictTest, DoesNotBelieveACharacterOfCorruptHeadersHoweverMany) {
         (random >> 24) % 20 == 0 ? poseOfOther(sample) : pose(sample);
     }
     follow();
-    EXPECT_EQ(m_session.atNow().currentCharacters().size(), 1U);
-    EXPECT_EQ(m_session.unproven().characters, 1U);
-    EXPECT_GT(m_session.unproven().datagrams, 200U);
+    EXPECT_EQ(m_session.atNow().roster().listed().size(), 1U);
+    EXPECT_EQ(m_session.accounts().unproven().characters, 1U);
+    EXPECT_GT(m_session.accounts().unproven().datagrams, 200U);
 }
 
 TEST_F(VerdictTest, BelievesACharacterWithinATenthOfASecondThatLosesSome) {
@@ -43,7 +45,7 @@ TEST_F(VerdictTest, BelievesACharacterWithinATenthOfASecondThatLosesSome) {
         }
     }
     follow();
-    EXPECT_EQ(m_session.atNow().currentCharacters().size(), 2U);
+    EXPECT_EQ(m_session.atNow().roster().listed().size(), 2U);
 }
 
 TEST_F(VerdictTest, TakesAllOfACharacterOnceItIsBelieved) {
@@ -57,10 +59,10 @@ TEST_F(VerdictTest, TakesAllOfACharacterOnceItIsBelieved) {
         sendBytes(*wire::encode(datagram), m_at);
     }
     follow();
-    const Stream* stream = m_session.find(log::StreamKey{sender(), 1, 2});
+    const Stream* stream = m_session.roster().find(log::StreamKey{sender(), 1, 2});
     ASSERT_NE(stream, nullptr);
     EXPECT_EQ(stream->accounting.counts().samples, 60U);
-    EXPECT_EQ(m_session.currentCharacters().size(), 2U);
+    EXPECT_EQ(m_session.roster().listed().size(), 2U);
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/model/session/roster.h"
 #include "core/model/session/verdict.h"
 
 #include "tests/core/model/incidents/incidents_fixture.h"
@@ -60,7 +61,7 @@ protected:
     }
     std::array<std::uint64_t, kLossCauses> lost() {
         std::array<std::uint64_t, kLossCauses> sums{};
-        for (const Stream& stream : m_session.streams()) {
+        for (const Stream& stream : m_session.roster().streams()) {
             const auto own = stream.lostByCause();
             std::transform(sums.begin(), sums.end(), own.begin(), sums.begin(), std::plus());
         }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/session/held_up.h"
 #include "core/model/session/listed_incidents.h"
+#include "core/model/session/roster.h"
 #include "core/model/session/verdict.h"
 
 #include "tests/core/model/session/verdict_fixture.h"
@@ -263,7 +264,7 @@ TEST_F(VerdictTest, WhatIsNotSettledKeepsItsNumberAndItsStreams) {
     poses(1'014, 1'050);
     follow();
     EXPECT_TRUE(unsettledIncidents(m_session).empty());
-    const Incident* settled = m_session.incidents().find(unsettled[0].incident.number);
+    const Incident* settled = m_session.verdicts().incidents().find(unsettled[0].incident.number);
     ASSERT_NE(settled, nullptr);
     const words::Fact part = settled->fact(settled->parts[0]);
     EXPECT_EQ(toldIn(part).amount, 12);
@@ -384,7 +385,7 @@ TEST_F(VerdictTest, SaysWhenSomethingWasInOneTimeWhereItTookNoSecond) {
     ListedIncident one;
     one.state = ListedIncident::State::Over;
     one.incident.kind = IncidentKind::JitterLimit;
-    one.incident.sender = m_session.senders().front().id;
+    one.incident.sender = m_session.roster().senders().front().id;
     one.incident.value = 12.8;
     one.incident.limit = 10;
     one.incident.firstStamp = one.incident.lastStamp = m_session.now();

@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "core/model/session/ingest.h"
-
-#include "core/model/incidents/incident_follower.h"
+#include "core/model/session/roll.h"
 
 #include <utility>
 
-/// Senders, characters and streams that a packet is the first of: what they begin with, and where there is no
-/// room for them.
 namespace posewire::model {
 namespace {
 
@@ -19,11 +15,14 @@ constexpr std::size_t kEstablishedEach = 32;
 
 } // namespace
 
-Sender* Ingest::senderOf(const log::Packet& packet) {
+Sender* Roll::take(const log::Packet& packet) {
+    m_observed = packet.stamp;
     if (Sender* known = m_senders.find(packet.sender)) {
+        const Place& place = m_recencies.at(known->id);
+        place.list->splice(place.list->end(), *place.list, place.at);
         return known;
     }
-    auto held = m_log.senders().find(packet.sender);
+    auto held = m_known.find(packet.sender);
     if (held == nullptr) {
         return nullptr;
     }
@@ -36,15 +35,37 @@ Sender* Ingest::senderOf(const log::Packet& packet) {
     sender.held = std::move(held);
     if (const auto host = sender.host()) {
         const auto [newest, isNew] = m_newestOfHost.try_emplace(*host, sender.id);
-        const Sender* before = isNew ? nullptr : find(std::exchange(newest->second, sender.id));
+        const Sender* before = isNew ? nullptr : m_senders.find(std::exchange(newest->second, sender.id));
         sender.overrides = before != nullptr ? before->overrides : SenderOverride{};
     }
     m_recencies[sender.id] = {&m_strangers, m_strangers.insert(m_strangers.end(), sender.id)};
     return &sender;
 }
 
-Character* Ingest::characterOf(Sender& sender, std::uint8_t character, std::uint64_t packetNumber) {
-    const CharacterKey key{sender.id, character};
+bool Roll::enter(Observed& seen) {
+    const log::Packet& packet = seen.packet;
+    const wire::Header& header = *seen.header;
+    promote(*seen.sender);
+    seen.character = characterOf(*seen.sender, seen);
+    if (seen.character == nullptr) {
+        return false;
+    }
+    if (seen.stream == nullptr) {
+        seen.stream = streamOf({packet.sender, header.character, header.type()}, *seen.sender);
+        if (seen.stream == nullptr) {
+            return false;
+        }
+        seen.character->streams.push_back(seen.stream);
+    }
+    seen.character->isConfirmed =
+        seen.character->isConfirmed || m_unconfirmed.take(seen.character->key, packet, header);
+    seen.character->lastStamp = packet.stamp;
+    seen.character->lastPacket = packet.number;
+    return true;
+}
+
+Character* Roll::characterOf(Sender& sender, const Observed& seen) {
+    const CharacterKey key{sender.id, seen.header->character};
     if (Character* known = m_characters.find(key)) {
         return known;
     }
@@ -56,19 +77,19 @@ Character* Ingest::characterOf(Sender& sender, std::uint8_t character, std::uint
     Character& added = m_characters.add(key);
     added.isConfirmed = others == 0 || sender.datagrams <= kEstablishedEach * others;
     Character* const before = predecessorOf(added);
-    added.firstPacket = packetNumber;
+    added.firstPacket = seen.packet.number;
     added.ordinal = m_characterCount++;
     if (before != nullptr) {
         before->after = key;
         added.before = before->key;
-        m_incidents->supersede(before->key, key, m_observed);
+        m_listener.tookOver(before->key, key);
         added.ordinal = before->ordinal;
     }
     sender.characters.push_back(&added);
     return &added;
 }
 
-Stream* Ingest::streamOf(const log::StreamKey& key, const Sender& sender) {
+Stream* Roll::streamOf(const log::StreamKey& key, const Sender& sender) {
     std::size_t ofSender = 0;
     for (const Character* character : sender.characters) {
         ofSender += character->streams.size();
@@ -77,16 +98,14 @@ Stream* Ingest::streamOf(const log::StreamKey& key, const Sender& sender) {
         return nullptr;
     }
     Stream& added = m_streams.add(key);
-    added.accounting.setDepth(m_depth);
-    fitDepth();
-    m_attribution->addStream(added, sender.info);
+    m_listener.began(added, sender);
     return &added;
 }
 
 /// The one of the same host with the same ID that was heard last, among the newest; from now on the new one
 /// is one of them.
-Character* Ingest::predecessorOf(const Character& character) {
-    const auto host = find(character.key.sender)->host();
+Character* Roll::predecessorOf(const Character& character) {
+    const auto host = m_senders.find(character.key.sender)->host();
     if (!host) {
         return nullptr;
     }

@@ -13,7 +13,7 @@ namespace posewire::model {
 /// Things in the order in which they first appeared, found by their keys. Each stays where it is in memory
 /// until it is removed; Item(key) makes one.
 template <class Key, class Item>
-class Roster {
+class KeyedList {
 public:
     /// Goes through the things themselves.
     class Iterator {

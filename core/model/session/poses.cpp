@@ -24,10 +24,10 @@ void lift(const BodyOrigins& body, CharacterPose& pose) {
 } // namespace
 
 /// A message among the newest kSampleSearch datagrams of its stream; null if its sample did not come whole.
-const Message* SessionView::messageOfSample(const CharacterKey& key, std::size_t place,
-                                            std::uint32_t sample) const {
-    const log::StreamEntries* stream = m_ingest.index().find({key.sender, key.character, kPoseTypes[place]});
-    const std::size_t count = stream != nullptr ? visibleCount(*stream) : 0;
+const Message* Messages::messageOfSample(const CharacterKey& key, std::size_t place,
+                                         std::uint32_t sample) const {
+    const log::StreamEntries* stream = m_moment.entriesOf({key.sender, key.character, kPoseTypes[place]});
+    const std::size_t count = stream != nullptr ? m_moment.countOf(*stream) : 0;
     for (std::size_t i = count; i-- > (count > kSampleSearch ? count - kSampleSearch : 0);) {
         if ((*stream)[i].sample != sample) {
             continue;
@@ -43,7 +43,7 @@ const Message* SessionView::messageOfSample(const CharacterKey& key, std::size_t
     return nullptr;
 }
 
-const CharacterPose* SessionView::pose(const CharacterKey& key) const {
+const CharacterPose* Messages::pose(const CharacterKey& key) const {
     PoseMessages newest{};
     for (std::size_t i = 0; i < newest.size(); ++i) {
         newest[i] = message(key, kPoseTypes[i]);
@@ -59,10 +59,10 @@ const CharacterPose* SessionView::pose(const CharacterKey& key) const {
     Decoded::OfCharacter& read = decoded().characters[key];
     Decoded::PoseOrigin origin;
     origin.body = read.bodyOrigin;
-    origin.isLifted = isLifted(key);
+    origin.isLifted = m_roster.isLifted(key);
     for (std::size_t i = 0; i < chosen.size(); ++i) {
         if (const Message* one = chosen[i]) {
-            const Sender* sender = find(one->sender);
+            const Sender* sender = m_roster.find(one->sender);
             origin.packets[i] = one->packet + 1;
             origin.units[i] = sender != nullptr ? sender->positionUnit(kPoseTypes[i]) : LengthUnit::Metre;
         }
@@ -77,14 +77,14 @@ const CharacterPose* SessionView::pose(const CharacterKey& key) const {
     return read.isValid ? &read.pose : nullptr;
 }
 
-PoseRemark SessionView::poseRemark(const CharacterKey& key) const {
+PoseRemark Messages::poseRemark(const CharacterKey& key) const {
     const CharacterPose* shown = pose(key);
     return shown != nullptr ? remarkOn(*shown, bodyOrigins(key)) : PoseRemark{};
 }
 
-const BodyOrigins& SessionView::bodyOrigins(const CharacterKey& key) const {
+const BodyOrigins& Messages::bodyOrigins(const CharacterKey& key) const {
     const NullPose* pose = nullPose(key);
-    const Character* character = find(key);
+    const Character* character = m_roster.find(key);
     const BodyMeasure* measure = pose == nullptr && character != nullptr ? &character->measuredBody : nullptr;
     const std::uint64_t origin = pose != nullptr      ? pose->packet
                                  : measure != nullptr ? kMeasured | measure->version()

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#include "core/model/session/content.h"
+
+#include "core/model/body/character_pose.h"
+#include "core/model/body/null_pose.h"
+#include "core/model/body/null_pose_findings.h"
+#include "core/model/incidents/incident_follower.h"
+#include "core/model/text.h"
+
+#include <functional>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace posewire::model {
+namespace {
+
+/// The usual time between two looks for contradictions.
+constexpr log::Duration kContradictions = std::chrono::milliseconds(500);
+
+/// A sentence as it is said after a colon.
+std::string clauseOf(std::string text) {
+    const bool isWord = text.size() > 1 && text[1] >= 'a' && text[1] <= 'z';
+    if (isWord && text[0] >= 'A' && text[0] <= 'Z') {
+        text[0] = static_cast<char>(text[0] - 'A' + 'a');
+    }
+    text.erase(text.find_last_not_of('.') + 1);
+    return text;
+}
+
+/// The changes that a packet made, tag by tag; empty if it brought nothing new.
+std::string changeBy(const Metadata& metadata, std::uint64_t packet) {
+    std::vector<std::string> changes;
+    for (const MetadataTag& tag : metadata.tags()) {
+        if (tag.values.size() > 1 && tag.values.back().packet == packet) {
+            changes.push_back(tag.name.shown() + ": " + tag.values[tag.values.size() - 2].text.shown() +
+                              " → " + tag.values.back().text.shown());
+        }
+    }
+    return listed(changes);
+}
+
+/// Nothing if the null pose has no error.
+words::Fact contradictionOf(const NullPoseRecord& record) {
+    const std::string error = gravestError(record);
+    return error.empty()
+               ? words::Fact()
+               : words::Fact{words::Kind::Contradiction, {{"text", error}, {"clause", clauseOf(error)}}};
+}
+
+} // namespace
+
+void Content::take(const Observed& seen) {
+    if (const auto* message = std::get_if<wire::MetaData>(&seen.datagram->body)) {
+        takeMetadata(*message, seen);
+    } else if (const auto* part = std::get_if<wire::NullPose>(&seen.datagram->body)) {
+        takeNullPose(*part, seen);
+    } else if (seen.header->datagramIndex() == 0) {
+        seen.sender->detector.addBody(seen.datagram->body);
+        if (BodyMeasure& body = seen.character->measuredBody;
+            !body.isSettled() && hasPoses(seen.header->type()) && seen.character->nullPoses == nullptr) {
+            body.add(*seen.datagram, seen.sender->positionUnit(seen.header->type()));
+        }
+    }
+}
+
+void Content::takeMetadata(const wire::MetaData& message, const Observed& seen) {
+    const log::Packet& packet = seen.packet;
+    Metadata& metadata = seen.character->metadata;
+    const std::size_t before = metadata.memoryBytes();
+    metadata.add(message, packet.number, packet.stamp);
+    if (std::string change = changeBy(metadata, packet.number); !change.empty()) {
+        m_incidents.takeChange(IncidentKind::MetadataChange, seen.character->key, packet,
+                               {words::Kind::MetadataChanged, {{"changes", std::move(change)}}});
+    }
+    if (m_metadataKeeping.grew(before, metadata.memoryBytes())) {
+        std::vector<Metadata*> all;
+        m_roll.characters().forEach([&all](Character& each) { all.push_back(&each.metadata); });
+        m_metadataKeeping.keepWithin(all);
+    }
+}
+
+void Content::takeNullPose(const wire::NullPose& part, const Observed& seen) {
+    const log::Packet& packet = seen.packet;
+    Character& character = *seen.character;
+    character.nullPoses = character.nullPoses ? character.nullPoses : std::make_shared<NullPoseHistory>();
+    NullPoseHistory& history = *character.nullPoses;
+    const std::size_t before = history.memoryBytes();
+    if (history.add(part, seen.header->datagramCounter, packet.number, packet.stamp)) {
+        m_incidents.takeChange(IncidentKind::ScaleChange, character.key, packet, {});
+    }
+    // Once for each that differs, as soon as it is whole.
+    const NullPoseRecord record = history.record(packet.number);
+    const bool isWhole = record.pose != nullptr && record.pose->isComplete();
+    if (isWhole && record.changed != std::exchange(character.judgedNullPose, record.changed)) {
+        m_incidents.takeContradiction(packet.sender, character.key.character, packet.stamp,
+                                      contradictionOf(record));
+    }
+    if (m_nullPoseKeeping.grew(before, history.memoryBytes())) {
+        std::vector<NullPoseHistory*> all;
+        m_roll.characters().forEach([&all](Character& each) {
+            if (each.nullPoses != nullptr) {
+                all.push_back(each.nullPoses.get());
+            }
+        });
+        m_nullPoseKeeping.keepWithin(all);
+    }
+}
+
+void Content::lookForContradictions(log::Stamp stamp) {
+    if (stamp < m_nextContradictions) {
+        return;
+    }
+    m_nextContradictions = stamp + kContradictions;
+    for (const Sender& sender : std::as_const(m_roll).senders()) {
+        if (sender.isPerforming()) {
+            const auto found = m_roll.hasEnded(sender) ? std::vector<words::Fact>() : sender.contradictions();
+            m_incidents.takeContradiction(sender.id, std::nullopt, stamp,
+                                          found.empty() ? words::Fact() : found.front());
+        }
+    }
+}
+
+std::size_t Content::metadataBytes() const {
+    const auto& all = std::as_const(m_roll).characters();
+    return std::transform_reduce(all.begin(), all.end(), std::size_t{0}, std::plus(),
+                                 [](const Character& each) { return each.metadata.memoryBytes(); });
+}
+
+std::size_t Content::nullPoseBytes() const {
+    const auto& all = std::as_const(m_roll).characters();
+    return std::transform_reduce(
+        all.begin(), all.end(), std::size_t{0}, std::plus(),
+        [](const Character& each) { return each.nullPoses ? each.nullPoses->memoryBytes() : 0; });
+}
+
+} // namespace posewire::model

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+#include "core/model/session/counting.h"
+
+#include "core/model/incidents/incident_follower.h"
+
+namespace posewire::model {
+
+Counting::Counting(const std::shared_ptr<log::Scratch>& scratch, Roll& roll, IncidentFollower& incidents)
+    : m_roll(roll), m_incidents(incidents), m_attribution(incidents), m_index(scratch), m_digests(scratch) {}
+
+void Counting::takePacket(const Observed& seen) {
+    Sender& sender = *seen.sender;
+    m_observed = seen.packet.stamp;
+    sender.lastStamp = seen.packet.stamp;
+    sender.kernelDrops += seen.packet.kernelDropsBefore;
+    sender.bytes += seen.packet.bytes.size();
+    sender.datagrams += seen.digest.kind == PacketKind::Skipped ? 0 : 1;
+    m_incidents.takePacket(seen.packet, seen.digest, seen.header);
+    passOverDropped(seen);
+    m_attribution.takePacket(seen.packet, sender.info.localPort);
+}
+
+/// The socket may have dropped datagrams of any stream that it hears: a counter that is as far ahead did not
+/// restart.
+void Counting::passOverDropped(const Observed& seen) {
+    if (seen.packet.kernelDropsBefore == 0) {
+        return;
+    }
+    m_roll.streams().forEach([&](Stream& stream) {
+        const Sender* sender = m_roll.senders().find(stream.key.sender);
+        if (sender != nullptr && sender->info.localPort == seen.sender->info.localPort) {
+            stream.accounting.passOver(seen.packet.kernelDropsBefore);
+        }
+    });
+}
+
+void Counting::takeFaulty(const Observed& seen) {
+    Sender& sender = *seen.sender;
+    switch (seen.digest.kind) {
+    case PacketKind::Datagram:
+        break;
+    case PacketKind::Malformed:
+        sender.takeMalformed(seen.packet.stamp);
+        if (seen.header) {
+            m_attribution.takeMalformed(seen.packet, *seen.header);
+        }
+        if (seen.stream != nullptr) {
+            seen.stream->accounting.addMalformed(seen.packet.stamp);
+        }
+        break;
+    case PacketKind::Foreign:
+        sender.takeForeign(seen.packet.bytes);
+        break;
+    case PacketKind::Skipped:
+        sender.skippedBytes += seen.packet.bytes.size();
+        break;
+    }
+}
+
+void Counting::takeDatagram(Observed& seen) {
+    const log::Packet& packet = seen.packet;
+    Stream& stream = *seen.stream;
+    m_index.add(packet, *seen.header);
+    stream.statistics.add(packet.stamp);
+    const bool isConfirmed = seen.character->isConfirmed;
+    if (isConfirmed) {
+        m_incidents.takeDatagram(packet, *seen.header, stream, seen.sender->info.address);
+    }
+    const bool isSampled = countsSamples(seen.digest.type);
+    if (isSampled) {
+        m_attribution.takeSampled(packet.sender, packet.stamp);
+    } else if (seen.header->datagramIndex() == 0) {
+        stream.statistics.addSample(packet.stamp);
+    }
+    for (const Verdict& verdict : addToStream(packet, *seen.header, stream.accounting, seen.digest)) {
+        if (verdict.packet != packet.number) {
+            m_digests.amend(verdict);
+        }
+        if (isSampled && verdict.isFirstOfSample) {
+            stream.statistics.addSample(verdict.stamp);
+        }
+        takeVerdict(stream, verdict, isConfirmed);
+    }
+}
+
+void Counting::close(const Observed& seen) {
+    m_digests.append(seen.packet.number, seen.digest);
+    amendGaps();
+}
+
+void Counting::takeOvertaken(std::uint64_t packet, std::uint64_t count, log::Stamp stamp) {
+    m_attribution.takeOvertaken(packet, count);
+    m_incidents.takeOvertaken(packet, count, stamp);
+    passOver(count);
+}
+
+void Counting::takeDropsUnseen(std::uint64_t count, const log::Packet& next) {
+    m_incidents.takeDropsUnseen(count, next);
+    passOver(count);
+}
+
+void Counting::passOver(std::uint64_t count) {
+    m_roll.streams().forEach([count](Stream& stream) { stream.accounting.passOver(count); });
+}
+
+void Counting::advance(log::Stamp stamp) {
+    m_attribution.advance(stamp - kUnderWay);
+    m_incidents.advance(stamp);
+    amendGaps();
+}
+
+void Counting::settle() {
+    m_roll.streams().forEach([this](Stream& stream) {
+        const Character* character =
+            m_roll.characters().find(CharacterKey{stream.key.sender, stream.key.character});
+        for (const Verdict& verdict : stream.accounting.conclude()) {
+            m_digests.amend(verdict);
+            takeVerdict(stream, verdict, character->isConfirmed);
+        }
+    });
+    m_attribution.settle();
+    amendGaps();
+}
+
+void Counting::dropBefore(std::uint64_t packet) {
+    m_index.dropBefore(packet);
+    m_digests.dropBefore(packet);
+}
+
+void Counting::began(Stream& stream, const Sender& sender) {
+    stream.accounting.setDepth(m_depth);
+    fitDepth();
+    m_attribution.addStream(stream, sender.info);
+}
+
+void Counting::tookOver(const CharacterKey& before, const CharacterKey& after) {
+    m_incidents.supersede(before, after, m_observed);
+}
+
+void Counting::isAwaited(const CharacterKey& key) {
+    m_incidents.expect(key);
+}
+
+void Counting::goes(const Sender& sender) {
+    m_attribution.retire(sender.id);
+    m_incidents.retire(sender.id);
+    for (const Character* character : sender.characters) {
+        for (const Stream* stream : character->streams) {
+            m_index.forget(stream->key);
+        }
+    }
+}
+
+void Counting::takeVerdict(Stream& stream, const Verdict& verdict, bool isConfirmed) {
+    m_attribution.takeVerdict(stream, verdict);
+    if (isConfirmed) {
+        m_incidents.takeVerdict(stream, verdict);
+    }
+}
+
+/// The list of packets shows what is lost as it is counted.
+void Counting::amendGaps() {
+    for (const Attribution::Recount& recount : m_attribution.recounts()) {
+        m_digests.amendGap(recount.packet, recount.lost);
+    }
+    m_attribution.clearRecounts();
+}
+
+/// Depth that is given up comes back only if it will last.
+void Counting::fitDepth() {
+    const std::size_t streams = m_roll.streams().size();
+    const AccountingDepth depth = AccountingDepth::of(streams);
+    const AccountingDepth soon = AccountingDepth::of(streams + streams / 3);
+    if (depth == m_depth || (depth.samples > m_depth.samples && soon.samples <= m_depth.samples)) {
+        return;
+    }
+    m_depth = depth;
+    m_roll.streams().forEach([this](Stream& stream) {
+        stream.accounting.setDepth(m_depth);
+        Attribution::expectJudgement(stream);
+    });
+}
+
+} // namespace posewire::model
