@@ -3,6 +3,7 @@
 // ms a frame (30 frames a second), 16 ms to select, 2 s to filter a million in the background. What the
 // window's own thread does while a filter runs, and to find the next problem in a filtered list, must not be
 // felt.
+#include "app/gui/models/packet_choice.h"
 #include "app/gui/models/packet_model.h"
 #include "app/gui/models/packet_search.h"
 #include "app/gui/panels/packet_view.h"
@@ -80,14 +81,14 @@ int filterAll(model::Session& session, gui::PacketModel& model, bool isChecked) 
         std::this_thread::sleep_for(std::chrono::milliseconds(100));
         progress = run.progress();
         const auto tick = Clock::now();
-        const auto found = run.take(session);
-        model.addMatches(found.packets, found.problems);
+        model.addMatches(run.take(session));
         model.refresh();
         longestMs = std::max(longestMs, millisecondsSince(tick));
     } while (progress.done < progress.total);
     const double seconds = millisecondsSince(begin) / 1000 / static_cast<double>(progress.total) * 1e6;
     begin = Clock::now();
-    const bool hasProblem = model.previousProblem(session.end()).has_value();
+    const bool hasProblem =
+        nearestListed(session, model, gui::Landmark::Problem, gui::Direction::Backward).has_value();
     const double problemMs = millisecondsSince(begin);
     begin = Clock::now();
     const std::size_t matches = model.matches().size();

@@ -12,7 +12,7 @@ TEST(FurtherMessage, IsInspected) {
     const auto bytes = test::readHexadecimal(test::sourcePath("tests/extension/26_probes.hex"));
     const FieldDocument document(log::Packet{7, {}, {}, 0, {}, bytes}, model::LengthUnit::Metre);
     EXPECT_EQ(documentTitle(document), "26 Probes");
-    EXPECT_TRUE(document.problems().empty());
+    EXPECT_TRUE(document.problems.empty());
     const std::int32_t item = document.find("readings[1]");
     ASSERT_GE(item, 0);
     EXPECT_EQ(fieldTitle(document, item), QStringLiteral("Segment 22 · Left Foot"));

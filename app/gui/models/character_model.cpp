@@ -2,7 +2,6 @@
 #include "app/gui/models/character_model.h"
 
 #include "app/gui/models/shown_character.h"
-#include "app/gui/models/stream_state.h"
 #include "app/gui/models/text.h"
 #include "app/gui/theme/words.h"
 #include "core/model/body/character_pose.h"

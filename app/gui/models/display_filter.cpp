@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/models/display_filter.h"
 
-#include "app/gui/models/packet_model.h"
+#include "app/gui/models/packet_choice.h"
+#include "app/gui/models/packet_search.h"
+#include "app/gui/models/shown_character.h"
 #include "app/gui/theme/words.h"
 #include "core/filter/completion.h"
 #include "core/model/accounting/gap.h"
@@ -15,7 +17,6 @@
 #include <QStringList>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <deque>
@@ -43,6 +44,18 @@ QStringList conditionsOf(std::optional<std::uint8_t> type, std::optional<std::ui
         conditions += expression("source", source->info.address);
     }
     return conditions;
+}
+
+/// Empty if none of the senders is known any more.
+QString anySource(const model::SessionView& view, const std::set<log::SenderId>& senders) {
+    QStringList sources;
+    for (const log::SenderId id : senders) {
+        if (const model::Sender* sender = view.roster().find(id)) {
+            sources += expression("source", sender->info.address);
+        }
+    }
+    const QString any = sources.join(QStringLiteral(" || "));
+    return sources.size() < 2 ? any : QLatin1Char('(') + any + QLatin1Char(')');
 }
 
 /// What packets have at which such a thing happened; null where no packet shows it.
@@ -95,15 +108,9 @@ QStringList conditionsOf(model::SessionView& view, const std::vector<log::Stream
         return values.size() == 1 ? std::optional(*values.begin()) : std::nullopt;
     };
     QStringList conditions = conditionsOf(onlyOne(types), onlyOne(characters), nullptr);
-    QStringList sources;
-    for (const log::SenderId id : senders) {
-        if (const model::Sender* sender = view.roster().find(id)) {
-            sources += expression("source", sender->info.address);
-        }
-    }
+    const QString sources = anySource(view, senders);
     if (senders.size() < view.roster().senders().size() && !sources.isEmpty()) {
-        const QString any = sources.join(QStringLiteral(" || "));
-        conditions += sources.size() == 1 ? any : QLatin1Char('(') + any + QLatin1Char(')');
+        conditions += sources;
     }
     return conditions;
 }
@@ -123,6 +130,49 @@ PacketsBehind behindOf(model::SessionView& view, const std::vector<log::StreamKe
         behind.character = streams.front().character;
     }
     return behind;
+}
+
+bool mayBe(const PacketsBehind& behind, const model::PacketDigest& digest) {
+    return (!behind.type || digest.type == *behind.type) &&
+           (!behind.character || digest.character == *behind.character) &&
+           (!behind.isTrouble || digest.isProblem());
+}
+
+bool isMatch(model::SessionView& view, PacketMatcher& matcher, std::uint64_t number) {
+    const auto packet = view.packet(number);
+    const model::PacketDigest* digest = view.accounts().digests().find(number);
+    return packet && digest != nullptr && matcher.matches(*packet, *digest);
+}
+
+/// The newest of those from one packet to before another.
+std::optional<std::uint64_t> newestIn(model::SessionView& view, const PacketsBehind& behind,
+                                      PacketMatcher& matcher, std::uint64_t from, std::uint64_t end) {
+    const std::uint64_t oldest = std::max(view.accounts().digests().begin(), from);
+    WalkBounds bounds;
+    for (std::uint64_t number = end; number-- > oldest && bounds.look();) {
+        const model::PacketDigest* digest = view.accounts().digests().find(number);
+        if (digest != nullptr && mayBe(behind, *digest)) {
+            if (!bounds.read()) {
+                return std::nullopt;
+            }
+            if (isMatch(view, matcher, number)) {
+                return number;
+            }
+        }
+    }
+    return std::nullopt;
+}
+
+/// The newest up to the cursor; where there is none, the newest there is.
+std::optional<std::uint64_t> newestBehind(model::SessionView& view, const PacketsBehind& behind) {
+    auto filter = filter::Filter::compile(behind.filter.toStdString());
+    if (!filter || view.end() == 0) {
+        return std::nullopt;
+    }
+    PacketMatcher matcher(view, *std::move(filter));
+    const std::uint64_t visibleEnd = newestVisiblePacket(view) + 1;
+    const auto before = newestIn(view, behind, matcher, 0, visibleEnd);
+    return before ? before : newestIn(view, behind, matcher, visibleEnd, view.end());
 }
 
 } // namespace
@@ -237,17 +287,16 @@ QString statisticsFilterTitle(int column) {
 }
 
 QString characterFilter(const model::SessionView& view, const model::CharacterKey& key) {
-    QStringList sources;
+    std::set<log::SenderId> senders;
     for (const model::Character* one : view.roster().lineage(key)) {
-        if (const model::Sender* sender = view.roster().find(one->key.sender)) {
-            sources += expression("source", sender->info.address);
-        }
+        senders.insert(one->key.sender);
     }
-    const QString source = sources.join(QStringLiteral(" || "));
-    const QString character = conditionsOf({}, key.character, nullptr).front();
-    return view.roster().senders().size() < 2 || sources.empty() ? character
-           : sources.size() == 1                                 ? character + QStringLiteral(" && ") + source
-                                 : character + QStringLiteral(" && (") + source + QLatin1Char(')');
+    QStringList conditions = conditionsOf({}, key.character, nullptr);
+    const QString sources = anySource(view, senders);
+    if (view.roster().senders().size() > 1 && !sources.isEmpty()) {
+        conditions += sources;
+    }
+    return conditions.join(QStringLiteral(" && "));
 }
 
 QString packetFilterOf(model::SessionView& view, const model::Incident& event) {
@@ -278,19 +327,19 @@ QString packetCellFilter(model::SessionView& view, std::uint64_t number, int col
     if (!facts) {
         return {};
     }
+    const auto seconds = [](const char* condition, double value) {
+        return QLatin1String(condition) + QString::number(value, 'f', 6);
+    };
     switch (column) {
     case PacketModel::kNumber:
         return expression("number", std::to_string(number));
     case PacketModel::kTime:
-        return QStringLiteral("time >= %1")
-            .arg(log::secondsOf(
-                     std::chrono::floor<std::chrono::microseconds>(facts->stamp - view.firstStamp())),
-                 0, 'f', 6);
-    case PacketModel::kDelta:
-        return facts->digest.deltaS < 0
-                   ? QString()
-                   : QStringLiteral("delta >= %1")
-                         .arg(std::floor(1e6 * static_cast<double>(facts->digest.deltaS)) / 1e6, 0, 'f', 6);
+        return seconds("time >= ", log::secondsOf(std::chrono::floor<std::chrono::microseconds>(
+                                       facts->stamp - view.firstStamp())));
+    case PacketModel::kDelta: {
+        const double delta = static_cast<double>(facts->digest.deltaS);
+        return delta < 0 ? QString() : seconds("delta >= ", std::floor(1e6 * delta) / 1e6);
+    }
     case PacketModel::kSender: {
         const auto sender = view.log().senders().find(facts->sender);
         return sender == nullptr ? QString() : expression("source", sender->address);
@@ -299,28 +348,21 @@ QString packetCellFilter(model::SessionView& view, std::uint64_t number, int col
         return expression("size", std::to_string(facts->size));
     case PacketModel::kNote:
         return noteFilter(facts->digest);
+    case PacketModel::kType:
+        return facts->header              ? expression("type", wire::typeDigits(facts->header->type()))
+               : isStrange(facts->digest) ? QStringLiteral("foreign")
+                                          : QStringLiteral("malformed");
     default:
         break;
     }
-    const auto& header = facts->header;
-    if (!header) {
-        const bool isStray = isStrange(facts->digest);
-        return column != PacketModel::kType ? QString()
-               : isStray                    ? QStringLiteral("foreign")
-                                            : QStringLiteral("malformed");
-    }
-    switch (column) {
-    case PacketModel::kCharacter:
-        return expression("character", std::to_string(header->character));
-    case PacketModel::kSample:
-        return expression("sample", std::to_string(header->sampleCounter));
-    case PacketModel::kPart:
-        return expression("datagram", std::to_string(header->datagramIndex()));
-    case PacketModel::kType:
-        return expression("type", wire::typeDigits(header->type()));
-    default:
+    if (!facts->header) {
         return {};
     }
+    return column == PacketModel::kCharacter
+               ? expression("character", std::to_string(facts->header->character))
+           : column == PacketModel::kSample
+               ? expression("sample", std::to_string(facts->header->sampleCounter))
+               : expression("datagram", std::to_string(facts->header->datagramIndex()));
 }
 
 QString joinedFilter(const QString& filter, const QString& condition, FilterJoin join) {
@@ -336,6 +378,40 @@ QString joinedFilter(const QString& filter, const QString& condition, FilterJoin
     const bool isLoose = before.contains(either);
     const QString kept = isLoose ? QStringLiteral("(%1)").arg(before) : before;
     return kept + QStringLiteral(" && ") + (join == FilterJoin::AndNot ? negated : condition);
+}
+
+bool isListed(model::SessionView& view, const QString& filter, std::uint64_t packet) {
+    auto compiled = filter::Filter::compile(filter.trimmed().toStdString());
+    if (!compiled) {
+        return true;
+    }
+    PacketMatcher matcher(view, *std::move(compiled));
+    return isMatch(view, matcher, packet);
+}
+
+bool showPackets(model::SessionView& view, Commands& commands, const PacketsBehind& behind, PacketLook look) {
+    const auto packet = behind.packet ? behind.packet : newestBehind(view, behind);
+    if (!packet || !view.packet(*packet)) {
+        return false;
+    }
+    QString filter = QString::fromStdString(view.choices().ownFilter());
+    const QString alone =
+        behind.filter.isEmpty() ? QStringLiteral("number == %1").arg(*packet) : behind.filter;
+    if (look == PacketLook::Alone) {
+        filter = alone;
+    } else if (!isListed(view, filter, *packet)) {
+        // Beside the packets that a limit or an outage is about lies the one to go to.
+        filter = joinedFilter(
+            filter, isListed(view, alone, *packet) ? alone : QStringLiteral("number == %1").arg(*packet),
+            FilterJoin::Or);
+    }
+    commands.jump(*packet, filter);
+    commands.showDock(QStringLiteral("packets"));
+    return true;
+}
+
+QString noPacketsText() {
+    return tr("None of these packets is in memory any more.");
 }
 
 } // namespace posewire::gui

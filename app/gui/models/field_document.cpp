@@ -39,7 +39,7 @@ QString place(const FieldDocument& document, std::int32_t node) {
 
 /// What the field that reading ended in lacks.
 QString cutText(const FieldDocument& document) {
-    const wire::FieldTree& tree = document.tree();
+    const wire::FieldTree& tree = document.tree;
     const wire::WireError& error = tree.cutError;
     if (tree.cutNode < 0) {
         return {};
@@ -67,8 +67,8 @@ QString cutText(const FieldDocument& document) {
 }
 
 QString datagramText(const FieldDocument& document) {
-    const wire::WireError& fault = *document.tree().fault;
-    const QString size = grouped(document.bytes().size());
+    const wire::WireError& fault = *document.tree.fault;
+    const QString size = grouped(document.bytes.size());
     switch (fault.code) {
     case wire::ErrorCode::HeaderTruncated:
         return tr("the datagram ends at byte %1, within its header of 24").arg(size);
@@ -76,7 +76,7 @@ QString datagramText(const FieldDocument& document) {
         return tr("the datagram ends at byte %1, its header announces %2").arg(size, grouped(fault.need));
     case wire::ErrorCode::ItemsTruncated:
         return tr("the %1 announced items do not fit, %2 bytes are missing")
-            .arg(grouped(document.header().items), grouped(fault.need - fault.have));
+            .arg(grouped(document.header.items), grouped(fault.need - fault.have));
     case wire::ErrorCode::BadType:
         return tr("MXTP is not followed by two digits");
     case wire::ErrorCode::TooLong:
@@ -89,49 +89,49 @@ QString datagramText(const FieldDocument& document) {
 QString faultText(const FieldDocument& document) {
     const QString whole = datagramText(document);
     const QString near = cutText(document);
-    const std::int32_t cut = document.tree().cutNode;
-    const std::uint32_t offset = cut >= 0 ? document.node(cut).offset : document.tree().fault->offset;
+    const std::int32_t cut = document.tree.cutNode;
+    const std::uint32_t offset = cut >= 0 ? document.node(cut).offset : document.tree.fault->offset;
     const QString both = whole.isEmpty() || near.isEmpty() ? whole + near : tr("%1; %2").arg(whole, near);
     return tr("malformed: %1 (byte %2)").arg(both, grouped(offset));
 }
 
 /// What bytes are that are no datagram.
 QString outsideText(const FieldDocument& document) {
-    return document.kind() == model::PacketKind::Skipped
+    return document.kind == model::PacketKind::Skipped
                ? tr("skipped: bytes of a byte stream that belong to no datagram")
                : tr("foreign: does not begin with MXTP, so no sender of motion capture data sent this");
 }
 
 QString cutByReceiverText(const FieldDocument& document) {
     return tr("longer than what could be received: only the first %1 bytes are here")
-        .arg(grouped(document.bytes().size()));
+        .arg(grouped(document.bytes.size()));
 }
 
 } // namespace
 
-FieldDocument::FieldDocument(const log::Packet& packet, model::LengthUnit unit)
-    : m_bytes(packet.bytes.begin(), packet.bytes.end()),
-      m_number(packet.number),
-      m_stamp(packet.stamp),
-      m_sender(packet.sender),
-      m_unit(unit) {
+FieldDocument::FieldDocument(const log::Packet& packet, model::LengthUnit lengthUnit)
+    : bytes(packet.bytes.begin(), packet.bytes.end()),
+      number(packet.number),
+      stamp(packet.stamp),
+      sender(packet.sender),
+      unit(lengthUnit) {
     if (packet.flags.skipped) {
-        m_kind = model::PacketKind::Skipped;
-        FieldNode& rest = m_tree.nodes.emplace_back();
+        kind = model::PacketKind::Skipped;
+        FieldNode& rest = tree.nodes.emplace_back();
         rest.name = "unread";
         rest.kind = NodeKind::Unread;
-        rest.length = static_cast<std::uint32_t>(m_bytes.size());
+        rest.length = static_cast<std::uint32_t>(bytes.size());
     } else {
-        m_tree = wire::fieldTree(m_bytes, wire::FieldDetail::Parts);
-        m_kind = !wire::startsWithMagic(m_bytes) ? model::PacketKind::Foreign
-                 : m_tree.fault                  ? model::PacketKind::Malformed
-                                                 : model::PacketKind::Datagram;
+        tree = wire::fieldTree(bytes, wire::FieldDetail::Parts);
+        kind = !wire::startsWithMagic(bytes) ? model::PacketKind::Foreign
+               : tree.fault                  ? model::PacketKind::Malformed
+                                             : model::PacketKind::Datagram;
     }
-    if (const auto header = wire::decodeHeader(m_bytes); header && !packet.flags.skipped) {
-        m_hasHeader = true;
-        m_header = *header;
+    if (const auto read = wire::decodeHeader(bytes); read && !packet.flags.skipped) {
+        hasHeader = true;
+        header = *read;
     }
-    m_children.resize(m_tree.nodes.size() + 1);
+    m_children.resize(tree.nodes.size() + 1);
     for (std::int32_t i = 0; i < count(); ++i) {
         m_children[nodeIndex(node(i).parent + 1)].push_back(i);
     }
@@ -157,9 +157,9 @@ void FieldDocument::readContext() {
         }
     }
     const RefersTo about = first >= 0 ? node(first).refersTo : RefersTo::Nothing;
-    m_places = model::itemPlaces(m_header, std::min<std::size_t>(items, wire::kMaxItems),
+    m_places = model::itemPlaces(header, std::min<std::size_t>(items, wire::kMaxItems),
                                  first >= 0 ? numberOf(first, about) : std::nullopt);
-    if (about == RefersTo::Joint && m_header.datagramIndex() != 0) {
+    if (about == RefersTo::Joint && header.datagramIndex() != 0) {
         m_places.first = firstJoint(first);
     }
     if (!ids.empty()) {
@@ -190,7 +190,7 @@ int FieldDocument::placeOf(std::int32_t item) const {
 
 std::string FieldDocument::lastingPath(std::int32_t node) const {
     const std::int32_t item = itemOf(node);
-    const std::string path = m_tree.path(node);
+    const std::string path = tree.path(node);
     if (item < 0) {
         return path;
     }
@@ -202,7 +202,7 @@ std::string FieldDocument::lastingPath(std::int32_t node) const {
         return path;
     }
     const std::string own = id ? '#' + std::to_string(*id) : std::to_string(placeOf(item));
-    return m_tree.path(this->node(item).parent) + '[' + own + ']' + path.substr(m_tree.path(item).size());
+    return tree.path(this->node(item).parent) + '[' + own + ']' + path.substr(tree.path(item).size());
 }
 
 bool FieldDocument::isInHeader(std::int32_t node) const {
@@ -234,7 +234,7 @@ std::int32_t FieldDocument::itemOf(std::int32_t node) const {
 }
 
 std::int32_t FieldDocument::nodeAt(std::uint32_t offset) const {
-    const std::int32_t found = m_tree.nodeAt(offset);
+    const std::int32_t found = tree.nodeAt(offset);
     const bool isBits = found >= 0 && node(found).kind == NodeKind::Part && node(found).parent >= 0 &&
                         node(node(found).parent).length == node(found).length;
     return isBits ? node(found).parent : found;
@@ -246,7 +246,7 @@ std::int32_t FieldDocument::find(const std::string& path) const {
     for (bool isDeeper = true; isDeeper;) {
         isDeeper = false;
         for (const std::int32_t child : children(around)) {
-            const std::string begin = m_tree.path(child);
+            const std::string begin = tree.path(child);
             if (begin == path) {
                 return child;
             }
@@ -310,33 +310,33 @@ std::int32_t FieldDocument::nodeOfSegment(int segment) const {
 }
 
 void FieldDocument::findProblems(const log::Packet& packet) {
-    const auto whole = static_cast<std::uint32_t>(m_bytes.size());
-    if (m_kind == model::PacketKind::Skipped || m_kind == model::PacketKind::Foreign) {
-        m_problems.push_back({Health::Error, outsideText(*this), 0, whole, count() > 0 ? 0 : -1});
+    const auto whole = static_cast<std::uint32_t>(bytes.size());
+    if (kind == model::PacketKind::Skipped || kind == model::PacketKind::Foreign) {
+        problems.push_back({Health::Error, outsideText(*this), 0, whole, count() > 0 ? 0 : -1});
         return;
     }
     if (packet.flags.truncated) {
         addProblem(Health::Error, cutByReceiverText(*this), kNone, whole);
     }
-    if (m_tree.fault) {
+    if (tree.fault) {
         addFault();
     }
-    for (const wire::Notice& notice : m_tree.notices) {
+    for (const wire::Notice& notice : tree.notices) {
         addNotice(notice);
     }
 }
 
 void FieldDocument::addProblem(Health level, const QString& text, std::int32_t index, std::uint32_t offset) {
     if (index < 0) {
-        m_problems.push_back({level, text, offset, 0, kNone});
+        problems.push_back({level, text, offset, 0, kNone});
     } else {
-        m_problems.push_back({level, text, node(index).offset, node(index).length, index});
+        problems.push_back({level, text, node(index).offset, node(index).length, index});
     }
 }
 
 void FieldDocument::addFault() {
-    addProblem(Health::Error, faultText(*this), m_tree.cutNode, m_tree.fault->offset);
-    if (const FieldNode& rest = m_tree.nodes.back(); rest.kind == NodeKind::Unread) {
+    addProblem(Health::Error, faultText(*this), tree.cutNode, tree.fault->offset);
+    if (const FieldNode& rest = tree.nodes.back(); rest.kind == NodeKind::Unread) {
         const QString text = tr("%1 bytes from byte %2 are unread");
         addProblem(Health::Unknown, text.arg(grouped(rest.length), grouped(rest.offset)), count() - 1);
     }
@@ -382,22 +382,22 @@ void FieldDocument::addNotice(const wire::Notice& notice) {
 }
 
 void FieldDocument::markNodes() {
-    m_own.assign(m_tree.nodes.size(), Health::Unknown);
-    for (const FieldProblem& problem : m_problems) {
+    m_own.assign(tree.nodes.size(), Health::Unknown);
+    for (const FieldProblem& problem : problems) {
         if (problem.node >= 0) {
             m_own[nodeIndex(problem.node)] = worse(m_own[nodeIndex(problem.node)], problem.level);
         }
     }
     m_within = m_own;
-    for (std::size_t i = m_tree.nodes.size(); i-- > 0;) {
-        if (const std::int32_t parent = m_tree.nodes[i].parent; parent >= 0) {
+    for (std::size_t i = tree.nodes.size(); i-- > 0;) {
+        if (const std::int32_t parent = tree.nodes[i].parent; parent >= 0) {
             m_within[nodeIndex(parent)] = worse(m_within[nodeIndex(parent)], m_within[i]);
         }
     }
 }
 
 bool FieldDocument::hasSameRows(const FieldDocument& other) const {
-    return std::ranges::equal(m_tree.nodes, other.m_tree.nodes, [](const FieldNode& a, const FieldNode& b) {
+    return std::ranges::equal(tree.nodes, other.tree.nodes, [](const FieldNode& a, const FieldNode& b) {
         return a.parent == b.parent && a.kind == b.kind && a.offset == b.offset && a.name == b.name;
     });
 }

@@ -35,30 +35,28 @@ inline std::size_t nodeIndex(std::int32_t node) {
 }
 
 /// One packet taken apart: a copy of its bytes, the tree of its fields with what they need to be explained,
-/// and what is wrong with it. Nodes are indices in tree().nodes.
-class FieldDocument {
-public:
+/// and what is wrong with it. Nodes are indices in tree.nodes.
+struct FieldDocument {
     FieldDocument() = default;
-    /// `unit` is that of positions in types 02, 21 and 24 of this sender.
-    FieldDocument(const log::Packet& packet, model::LengthUnit unit);
+    /// `lengthUnit` is that of positions in types 02, 21 and 24 of this sender.
+    FieldDocument(const log::Packet& packet, model::LengthUnit lengthUnit);
 
-    [[nodiscard]] bool isEmpty() const { return m_bytes.empty(); }
-    [[nodiscard]] std::uint64_t number() const { return m_number; }
-    [[nodiscard]] log::Stamp stamp() const { return m_stamp; }
-    [[nodiscard]] log::SenderId sender() const { return m_sender; }
-    [[nodiscard]] model::PacketKind kind() const { return m_kind; }
-    [[nodiscard]] bool hasHeader() const { return m_hasHeader; }
-    [[nodiscard]] std::uint8_t type() const { return m_header.type(); }
-    [[nodiscard]] const wire::Header& header() const { return m_header; }
-    [[nodiscard]] model::LengthUnit unit() const { return m_unit; }
-    [[nodiscard]] const std::vector<std::byte>& bytes() const { return m_bytes; }
-    [[nodiscard]] const wire::FieldTree& tree() const { return m_tree; }
-    [[nodiscard]] const std::vector<FieldProblem>& problems() const { return m_problems; }
+    std::vector<std::byte> bytes;
+    std::uint64_t number = 0;
+    log::Stamp stamp{};
+    log::SenderId sender{};
+    model::PacketKind kind = model::PacketKind::Datagram;
+    bool hasHeader = false;
+    wire::Header header;
+    model::LengthUnit unit = model::LengthUnit::Metre;
+    wire::FieldTree tree;
+    std::vector<FieldProblem> problems;
 
+    [[nodiscard]] std::uint8_t type() const { return header.type(); }
     [[nodiscard]] const wire::FieldNode& node(std::int32_t index) const {
-        return m_tree.nodes[static_cast<std::size_t>(index)];
+        return tree.nodes[static_cast<std::size_t>(index)];
     }
-    [[nodiscard]] std::int32_t count() const { return static_cast<std::int32_t>(m_tree.nodes.size()); }
+    [[nodiscard]] std::int32_t count() const { return static_cast<std::int32_t>(tree.nodes.size()); }
     /// Of -1: those at the top.
     [[nodiscard]] std::span<const std::int32_t> children(std::int32_t node) const;
     /// The item that a node belongs to (or is); -1 where it is in none.
@@ -109,19 +107,9 @@ private:
     void markNodes();
     [[nodiscard]] bool isAffected(wire::NoticeCode code, std::int32_t node) const;
 
-    std::vector<std::byte> m_bytes;
-    std::uint64_t m_number = 0;
-    log::Stamp m_stamp{};
-    log::SenderId m_sender{};
-    model::PacketKind m_kind = model::PacketKind::Datagram;
-    bool m_hasHeader = false;
-    wire::Header m_header;
-    model::LengthUnit m_unit = model::LengthUnit::Metre;
     model::PointIdCoding m_coding = model::PointIdCoding::By256;
-    model::ItemPlaces m_places; ///< of the items of its first list
-    wire::FieldTree m_tree;
+    model::ItemPlaces m_places;                        ///< of the items of its first list
     std::vector<std::vector<std::int32_t>> m_children; ///< in wire order; the first element is of the top
-    std::vector<FieldProblem> m_problems;
     std::vector<Health> m_own;
     std::vector<Health> m_within;
 };

@@ -84,7 +84,7 @@ ColumnRoom FieldModel::room(int column) const {
 }
 
 void FieldModel::setDocument(std::shared_ptr<const FieldDocument> document) {
-    if (m_other == nullptr && m_document->hasSameRows(*document) && !document->isEmpty()) {
+    if (m_other == nullptr && m_document->hasSameRows(*document) && !document->bytes.empty()) {
         m_document = std::move(document);
         announceChange();
         return;
@@ -166,7 +166,7 @@ QString FieldModel::otherText(std::int32_t node) const {
 QString FieldModel::helpOf(std::int32_t node) const {
     return tr("%1\n%2\n%3")
         .arg(
-            shownText(m_document->tree().path(node)), fieldPlace(*m_document, node),
+            shownText(m_document->tree.path(node)), fieldPlace(*m_document, node),
             (fieldMeaning(*m_document, node) + QLatin1Char(' ') + fieldSection(*m_document, node)).trimmed());
 }
 

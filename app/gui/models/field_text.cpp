@@ -38,9 +38,8 @@ Scale scaleOf(const FieldDocument& document, const FieldNode& node) {
     case Unit::Metres:
     case Unit::Centimetres:
         // Null poses come in metres whatever the sender's poses come in.
-        return {
-            model::metresPer(wire::isSampled(document.type()) ? document.unit() : model::LengthUnit::Metre),
-            "m", 4};
+        return {model::metresPer(wire::isSampled(document.type()) ? document.unit : model::LengthUnit::Metre),
+                "m", 4};
     case Unit::Degrees:
         return {1, "°", 2};
     case Unit::RadiansPerSecond:
@@ -138,9 +137,8 @@ QString headerText(const FieldDocument& document, std::int32_t index) {
         return node.unit == Unit::Identifier ? fromUtf8(wire::typeTitle(document.type())) : QString();
     }
     if (node.kind == NodeKind::Field && !document.children(index).empty()) {
-        return node.scalar == wire::Scalar::Characters
-                   ? documentTitle(document)
-                   : datagramCounterText(document.header().datagramCounter);
+        return node.scalar == wire::Scalar::Characters ? documentTitle(document)
+                                                       : datagramCounterText(document.header.datagramCounter);
     }
     return {};
 }
@@ -161,21 +159,21 @@ QString spacedName(std::string_view name) {
 } // namespace
 
 QString documentTitle(const FieldDocument& document) {
-    if (document.kind() == model::PacketKind::Skipped) {
+    if (document.kind == model::PacketKind::Skipped) {
         return tr("Skipped bytes");
     }
-    if (document.hasHeader()) {
+    if (document.hasHeader) {
         return fromUtf8(wire::typeTitle(document.type()));
     }
-    return document.kind() == model::PacketKind::Foreign ? tr("Foreign datagram") : tr("Malformed datagram");
+    return document.kind == model::PacketKind::Foreign ? tr("Foreign datagram") : tr("Malformed datagram");
 }
 
 QStringList documentLines(const FieldDocument& document) {
-    const QString size = tr("%1 bytes").arg(grouped(document.bytes().size()));
-    if (!document.hasHeader()) {
+    const QString size = tr("%1 bytes").arg(grouped(document.bytes.size()));
+    if (!document.hasHeader) {
         return {size};
     }
-    const wire::Header& header = document.header();
+    const wire::Header& header = document.header;
     QStringList lines{
         tr("%1 · sample %2 · %3")
             .arg(size, grouped(header.sampleCounter), datagramCounterText(header.datagramCounter))};
@@ -195,9 +193,9 @@ QString fieldTitle(const FieldDocument& document, std::int32_t index) {
     case NodeKind::Item:
         return itemTitle(document, index);
     case NodeKind::Unread:
-        return document.kind() == model::PacketKind::Datagram ? tr("Bytes without a field")
-               : document.hasHeader()                         ? tr("Unread")
-                                                              : tr("Bytes");
+        return document.kind == model::PacketKind::Datagram ? tr("Bytes without a field")
+               : document.hasHeader                         ? tr("Unread")
+                                                            : tr("Bytes");
     case NodeKind::Part:
         return document.node(node.parent).unit == Unit::TagLines ? shownText(node.name)
                                                                  : spacedName(node.name);
@@ -208,11 +206,11 @@ QString fieldTitle(const FieldDocument& document, std::int32_t index) {
 
 QString wireValue(const FieldDocument& document, std::int32_t index) {
     const FieldNode& node = document.node(index);
-    if (node.kind == NodeKind::Cut && document.tree().cutError.code == wire::ErrorCode::BadLength) {
-        return QString::number(static_cast<std::int32_t>(document.tree().cutError.need));
+    if (node.kind == NodeKind::Cut && document.tree.cutError.code == wire::ErrorCode::BadLength) {
+        return QString::number(static_cast<std::int32_t>(document.tree.cutError.need));
     }
-    if (node.kind == NodeKind::Cut && document.tree().cutError.code == wire::ErrorCode::CountTooLarge) {
-        return QString::number(document.tree().cutError.need);
+    if (node.kind == NodeKind::Cut && document.tree.cutError.code == wire::ErrorCode::CountTooLarge) {
+        return QString::number(document.tree.cutError.need);
     }
     const Unit unit = node.kind == NodeKind::Part && node.unit == Unit::None && node.parent >= 0
                           ? document.node(node.parent).unit
@@ -233,10 +231,8 @@ QString convertedValue(const FieldDocument& document, std::int32_t index) {
     case NodeKind::Item:
         return tr("%1 bytes").arg(node.length);
     case NodeKind::Cut:
-        return document.tree().cutError.code == wire::ErrorCode::FieldTruncated
-                   ? tr("%1 of %2 bytes")
-                         .arg(document.tree().cutError.have)
-                         .arg(document.tree().cutError.need)
+        return document.tree.cutError.code == wire::ErrorCode::FieldTruncated
+                   ? tr("%1 of %2 bytes").arg(document.tree.cutError.have).arg(document.tree.cutError.need)
                    : tr("past the end");
     case NodeKind::Unread:
         return tr("%1 bytes").arg(grouped(node.length));
@@ -272,7 +268,7 @@ QString fieldMeaning(const FieldDocument& document, std::int32_t index) {
     if (node.text.empty() && node.parent >= 0 && node.kind == NodeKind::Part) {
         return fieldMeaning(document, node.parent);
     }
-    if (node.kind == NodeKind::Unread && !document.hasHeader()) {
+    if (node.kind == NodeKind::Unread && !document.hasHeader) {
         return tr("no datagram of this protocol");
     }
     return fromUtf8(node.text);

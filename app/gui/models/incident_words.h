@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/models/packet_jump.h"
+#include "app/gui/models/display_filter.h"
 #include "app/gui/theme/theme.h"
 #include "core/model/incidents/incident.h"
 

@@ -7,6 +7,7 @@
 #include "core/model/session/accounts.h"
 #include "core/model/session/ingest.h"
 #include "core/model/session/messages.h"
+#include "core/model/session/roster.h"
 #include "core/wire/messages.h"
 #include "core/wire/type_table.h"
 
@@ -88,6 +89,105 @@ Target relative(model::SessionView& view, const QString& digits, bool isForward)
     return bounded(view, isForward ? from + std::min(distance, view.end()) : from - distance);
 }
 
+struct Neighbour {
+    std::optional<std::uint64_t> packet;
+    bool isFar = false; ///< there may be one, but farther away than a walk may go
+};
+
+/// The first packet of the stream of one among those that `next` gives.
+template <class Next>
+Neighbour walkStream(model::SessionView& view, std::uint64_t packet, Next next) {
+    const model::PacketDigest* own = view.accounts().digests().find(packet);
+    const auto ownPacket = view.packet(packet);
+    if (own == nullptr || !ownPacket) {
+        return {};
+    }
+    WalkBounds bounds;
+    while (const std::optional<std::uint64_t> at = next()) {
+        const model::PacketDigest* digest = view.accounts().digests().find(*at);
+        const bool isAlike = digest != nullptr && digest->type == own->type;
+        const bool mayBe =
+            isAlike && (own->type != 0 ? digest->character == own->character : digest->kind == own->kind);
+        if (!bounds.look() || (mayBe && !bounds.read())) {
+            return {{}, true};
+        }
+        const auto found = mayBe && *at != packet ? view.packet(*at) : std::nullopt;
+        if (found && found->sender == ownPacket->sender) {
+            return {at};
+        }
+    }
+    return {};
+}
+
+Target nearestInStream(model::SessionView& view, const PacketModel& list, bool isForward) {
+    const auto from = view.choices().selection.packet;
+    const std::uint64_t packet = from.value_or(view.end() - 1);
+    if (!view.packet(packet)) {
+        return tl::unexpected(tr("No packet is selected."));
+    }
+    const int end = list.rowCount();
+    int row = isForward ? (from ? list.rowFrom(packet + 1) : 0) - 1 : from ? list.rowFrom(packet) : end;
+    const Neighbour found = walkStream(view, packet, [&] {
+        row += isForward ? 1 : -1;
+        return row >= 0 && row < end ? std::optional(list.packetAt(row)) : std::nullopt;
+    });
+    if (found.packet) {
+        return *found.packet;
+    }
+    return tl::unexpected(found.isFar ? (isForward ? tr("No later packet of this stream is near this one.")
+                                                   : tr("No earlier packet of this stream is near this one."))
+                          : isForward ? tr("No later packet of this stream.")
+                                      : tr("No earlier packet of this stream."));
+}
+
+/// Whether what was sent for a character, under all ports that its sender had, has this packet.
+bool isOf(model::SessionView& view, const model::CharacterKey& key, std::uint64_t packet) {
+    const model::PacketDigest* digest = view.accounts().digests().find(packet);
+    const bool mayBe = digest != nullptr && digest->type != 0 && digest->character == key.character;
+    const auto read = mayBe ? view.packet(packet) : std::nullopt;
+    return read && std::ranges::any_of(view.roster().lineage(key), [&read](const model::Character* one) {
+               return one->key.sender == read->sender;
+           });
+}
+
+Target nearestProblem(model::SessionView& view, const PacketModel& list, bool isForward, bool isOfSelected) {
+    const model::PacketDigests& digests = view.accounts().digests();
+    const auto& character = view.choices().selection.character;
+    const bool isOfOne = isOfSelected && character && !list.isFiltered();
+    const auto step = [&](std::uint64_t from) {
+        return isForward ? digests.nextProblem(from) : digests.previousProblem(from);
+    };
+    // The first packet comes after the one before it.
+    auto found =
+        step(view.choices().selection.packet.value_or(isForward ? digests.begin() - 1 : digests.end()));
+    for (WalkBounds bounds; found && bounds.look(); found = step(*found)) {
+        if (list.rowOf(*found) >= 0 && (!isOfOne || isOf(view, *character, *found))) {
+            return *found;
+        }
+    }
+    const QString whose = isOfOne ? tr(" of %1").arg(characterName(view, *character)) : QString();
+    return tl::unexpected(isForward ? tr("No problem%1 after this packet.").arg(whose)
+                                    : tr("No problem%1 before this packet.").arg(whose));
+}
+
+Target nearestMark(model::SessionView& view, const PacketModel& list, bool isForward) {
+    const auto& marks = view.choices().annotations.marks;
+    const auto isListed = [&](std::uint64_t number) { return list.rowOf(number) >= 0; };
+    const auto from = view.choices().selection.packet;
+    const auto after = from && isForward ? marks.upper_bound(*from) : marks.lower_bound(from.value_or(0));
+    if (isForward) {
+        if (const auto found = std::find_if(after, marks.end(), isListed); found != marks.end()) {
+            return *found;
+        }
+        return tl::unexpected(tr("No mark after this packet."));
+    }
+    const auto last = std::make_reverse_iterator(from ? after : marks.end());
+    if (const auto found = std::find_if(last, marks.rend(), isListed); found != marks.rend()) {
+        return *found;
+    }
+    return tl::unexpected(tr("No mark before this packet."));
+}
+
 } // namespace
 
 std::optional<std::uint64_t> inspectedPacket(model::SessionView& view, std::uint8_t preferredType) {
@@ -104,31 +204,33 @@ std::optional<std::uint64_t> inspectedPacket(model::SessionView& view, std::uint
 }
 
 std::optional<std::uint64_t> neighbourInStream(model::SessionView& view, std::uint64_t packet,
-                                               int direction) {
-    const model::PacketDigests& digests = view.accounts().digests();
-    const model::PacketDigest* own = digests.find(packet);
-    const auto ownPacket = view.packet(packet);
-    if (own == nullptr || !ownPacket) {
-        return std::nullopt;
-    }
-    const auto isAlike = [own](const model::PacketDigest& digest) {
-        return own->type != 0 ? digest.type == own->type && digest.character == own->character
-                              : digest.kind == own->kind;
-    };
-    const auto step = static_cast<std::uint64_t>(direction);
-    WalkBounds bounds;
-    for (std::uint64_t at = packet + step; bounds.look(); at += step) {
-        const auto* digest = digests.find(at);
-        const bool mayBe = digest != nullptr && isAlike(*digest);
-        if (digest == nullptr || (mayBe && !bounds.read())) {
-            return std::nullopt;
+                                               Direction direction) {
+    const std::uint64_t step = direction == Direction::Forward ? 1 : -1;
+    return walkStream(view, packet,
+                      [&, at = packet]() mutable {
+                          at += step;
+                          return view.accounts().digests().find(at) != nullptr ? std::optional(at)
+                                                                               : std::nullopt;
+                      })
+        .packet;
+}
+
+tl::expected<std::uint64_t, QString> nearestListed(model::SessionView& view, const PacketModel& list,
+                                                   Landmark landmark, Direction direction) {
+    switch (landmark) {
+    case Landmark::SameStream:
+        return nearestInStream(view, list, direction == Direction::Forward);
+    case Landmark::First:
+        if (list.rowCount() == 0) {
+            return tl::unexpected(tr("No packet is listed."));
         }
-        const auto found = mayBe ? view.packet(at) : std::nullopt;
-        if (found && found->sender == ownPacket->sender) {
-            return at;
-        }
+        return list.packetAt(0);
+    case Landmark::Mark:
+        return nearestMark(view, list, direction == Direction::Forward);
+    default:
+        return nearestProblem(view, list, direction == Direction::Forward,
+                              landmark == Landmark::ProblemOfSelected);
     }
-    return std::nullopt;
 }
 
 std::optional<std::uint64_t> comparableBefore(model::SessionView& view, std::uint64_t packet) {
@@ -141,7 +243,7 @@ std::optional<std::uint64_t> comparableBefore(model::SessionView& view, std::uin
     const auto part = partOf(packet);
     std::optional<std::uint64_t> before = packet;
     for (int i = 0; i < kFarthest && before; ++i) {
-        before = neighbourInStream(view, *before, -1);
+        before = neighbourInStream(view, *before, Direction::Backward);
         if (before && partOf(*before) == part) {
             return before;
         }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/model/session/session_view.h"
+#include "app/gui/models/packet_model.h"
 
 #include <QString>
 
@@ -18,11 +18,6 @@ namespace posewire::gui {
 [[nodiscard]] std::optional<std::uint64_t> inspectedPacket(model::SessionView& view,
                                                            std::uint8_t preferredType);
 
-/// The nearest packet of the same sender, character and type before (-1) or after (+1) one; for bytes that
-/// are no datagram the nearest of their kind. Nothing where there is none, or none as near as a walk may go.
-[[nodiscard]] std::optional<std::uint64_t> neighbourInStream(model::SessionView& view, std::uint64_t packet,
-                                                             int direction);
-
 /// How far a key press may walk over packets, a tenth of a second: what it looks at of a packet without
 /// reading it, and what it reads.
 struct WalkBounds {
@@ -32,6 +27,25 @@ struct WalkBounds {
     [[nodiscard]] bool look() { return looks != 0 && looks-- != 0; }
     [[nodiscard]] bool read() { return reads != 0 && reads-- != 0; }
 };
+
+enum class Direction { Backward, Forward };
+
+/// The nearest packet of the same sender, character and type before or after one; for bytes that are no
+/// datagram the nearest of their kind. Empty if there is none, or none as near as a walk may go.
+[[nodiscard]] std::optional<std::uint64_t> neighbourInStream(model::SessionView& view, std::uint64_t packet,
+                                                             Direction direction);
+
+/// What to go to among listed packets.
+enum class Landmark {
+    Problem,
+    ProblemOfSelected, ///< of the selected character, if there is one; a filter decides by itself
+    SameStream,
+    Mark,
+    First, ///< whatever the direction
+};
+/// The nearest listed one before or after the selected packet. The error says that there is none.
+[[nodiscard]] tl::expected<std::uint64_t, QString>
+nearestListed(model::SessionView& view, const PacketModel& list, Landmark landmark, Direction direction);
 
 /// The packet that one is compared with: the nearest before it of its stream that is the same part of its
 /// sample, where parts of samples come. Nothing where there is none among as many

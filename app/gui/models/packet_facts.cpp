@@ -190,37 +190,21 @@ QString packetPart(model::SessionView& view, const PacketFacts& facts) {
     return place + QStringLiteral("/?");
 }
 
-namespace {
-
-/// With what the operator wrote about the packet.
-QString withComment(QString note, const model::Annotations& annotations, const PacketFacts& facts) {
+QString packetNote(model::SessionView& view, const PacketFacts& facts, NoteFor reader) {
+    const bool isSpoken = reader == NoteFor::Ear;
+    const PropertyValue findings{facts.findings, packetHealth(facts)};
+    QString note = facts.findings.isEmpty() ? QString() : isSpoken ? findings.spoken() : findings.display();
+    const model::Annotations& annotations = view.choices().annotations;
+    if (annotations.marks.contains(facts.number)) {
+        const QString mark = isSpoken ? QString() : QStringLiteral("◆ ");
+        note.prepend(mark + (note.isEmpty() ? tr("marked") : isSpoken ? tr("marked, ") : QString()));
+    }
     if (const auto comment = annotations.comments.find(facts.number); comment != annotations.comments.end()) {
         note += (note.isEmpty() ? QStringLiteral("“") : QStringLiteral(" · “")) +
                 shownText(QString::fromStdString(comment->second).simplified().toStdString()) +
                 QStringLiteral("”");
     }
     return note;
-}
-
-} // namespace
-
-QString packetNote(model::SessionView& view, const PacketFacts& facts) {
-    QString note = facts.findings.isEmpty() ? QString() : healthText(packetHealth(facts), facts.findings);
-    const model::Annotations& annotations = view.choices().annotations;
-    if (annotations.marks.contains(facts.number)) {
-        note.prepend(note.isEmpty() ? tr("◆ marked") : QStringLiteral("◆ "));
-    }
-    return withComment(std::move(note), annotations, facts);
-}
-
-QString spokenNote(model::SessionView& view, const PacketFacts& facts) {
-    QString note =
-        facts.findings.isEmpty() ? QString() : PropertyValue{facts.findings, packetHealth(facts)}.spoken();
-    const model::Annotations& annotations = view.choices().annotations;
-    if (annotations.marks.contains(facts.number)) {
-        note.prepend(note.isEmpty() ? tr("marked") : tr("marked, "));
-    }
-    return withComment(std::move(note), annotations, facts);
 }
 
 } // namespace posewire::gui

@@ -44,9 +44,11 @@ struct PacketFacts {
 /// was, with the evidence; whether it came twice or out of order.
 [[nodiscard]] QStringList sequenceFindings(model::SessionView& view, std::uint64_t number);
 
-/// Findings with their symbol, then the operator's comment: the column that says it in words.
-[[nodiscard]] QString packetNote(model::SessionView& view, const PacketFacts& facts);
-/// The same without symbols, for screen readers: "warning, gap: 1 missing".
-[[nodiscard]] QString spokenNote(model::SessionView& view, const PacketFacts& facts);
+enum class NoteFor {
+    Eye, ///< with symbols: "▲ gap: 1 missing"
+    Ear, ///< for screen readers: "warning, gap: 1 missing"
+};
+/// The column that says it in words: a mark, findings, then the operator's comment.
+[[nodiscard]] QString packetNote(model::SessionView& view, const PacketFacts& facts, NoteFor reader);
 
 } // namespace posewire::gui

@@ -4,8 +4,11 @@
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
 #include "app/gui/theme/words.h"
+#include "core/export/json.h"
+#include "core/export/sheets.h"
 #include "core/model/session/accounts.h"
 #include "core/model/session/roster.h"
+#include "core/wire/text.h"
 
 #include <QDateTime>
 
@@ -72,7 +75,9 @@ PacketModel::PacketModel(model::SessionView& view, QObject* parent)
 
 std::vector<PacketColumn> PacketModel::columns(const PacketModel& model) {
     const auto sender = [&model](const PacketFacts& facts) { return model.senderText(facts); };
-    const auto note = [&model](const PacketFacts& facts) { return packetNote(model.m_view, facts); };
+    const auto note = [&model](const PacketFacts& facts) {
+        return packetNote(model.m_view, facts, NoteFor::Eye);
+    };
     std::vector<PacketColumn> columns{
         PacketColumn::numbers(tr("No."), tr("Number in the order of arrival, from 0"),
                               [](const auto& facts) { return grouped(facts.number); }),
@@ -116,7 +121,9 @@ std::vector<PacketColumn> PacketModel::columns(const PacketModel& model) {
     columns[kSize].colour = [](const PacketFacts& facts) {
         return packetHealth(facts) == Health::Error ? QVariant(theme().error) : QVariant();
     };
-    columns[kNote].spoken = [&model](const PacketFacts& facts) { return spokenNote(model.m_view, facts); };
+    columns[kNote].spoken = [&model](const PacketFacts& facts) {
+        return packetNote(model.m_view, facts, NoteFor::Ear);
+    };
     for (const Column column : {kNumber, kTime, kSender, kCharacter, kPart}) {
         columns[column].colour = dimWhereStrange;
     }
@@ -165,7 +172,6 @@ void PacketModel::removeDropped() {
     }
     if (m_isFiltered) {
         m_matches.dropBefore(begin);
-        m_problems.dropBefore(begin);
     } else {
         m_begin = std::max(begin, m_begin);
     }
@@ -194,19 +200,12 @@ void PacketModel::startAgain(bool isFiltered) {
     m_facts.reset();
     m_isFiltered = isFiltered;
     m_matches.clear();
-    m_problems.clear();
     if (!isFiltered) {
         m_begin = m_view.accounts().digests().begin();
         m_removed = m_begin;
     }
     m_rows = rowsThere();
     endResetModel();
-}
-
-void PacketModel::addMatches(const std::vector<std::uint64_t>& numbers,
-                             const std::vector<std::uint64_t>& problems) {
-    m_matches.append(numbers);
-    m_problems.append(problems);
 }
 
 void PacketModel::setTimeMode(TimeMode mode) {
@@ -242,33 +241,6 @@ int PacketModel::rowFrom(std::uint64_t number) const {
 int PacketModel::rowOf(std::uint64_t number) const {
     const int row = rowFrom(number);
     return row < rowCount() && packetAt(row) == number ? row : -1;
-}
-
-std::optional<std::uint64_t> PacketModel::nextProblem(std::uint64_t after) const {
-    if (!m_isFiltered) {
-        return m_view.accounts().digests().nextProblem(after);
-    }
-    const std::size_t place = m_problems.placeOf(after + 1);
-    const bool isThere = place < m_problems.size() && rowOf(m_problems[place]) >= 0;
-    return isThere ? std::optional(m_problems[place]) : std::nullopt;
-}
-
-std::optional<std::uint64_t> PacketModel::previousProblem(std::uint64_t before) const {
-    if (!m_isFiltered) {
-        return m_view.accounts().digests().previousProblem(before);
-    }
-    const std::size_t place = m_problems.placeOf(before);
-    const bool isThere = place > 0 && rowOf(m_problems[place - 1]) >= 0;
-    return isThere ? std::optional(m_problems[place - 1]) : std::nullopt;
-}
-
-bool PacketModel::isOf(const model::CharacterKey& key, std::uint64_t packet) const {
-    const model::PacketDigest* digest = m_view.accounts().digests().find(packet);
-    const bool mayBe = digest != nullptr && digest->type != 0 && digest->character == key.character;
-    const auto read = mayBe ? m_view.packet(packet) : std::nullopt;
-    return read && std::ranges::any_of(m_view.roster().lineage(key), [&read](const model::Character* one) {
-               return one->key.sender == read->sender;
-           });
 }
 
 int PacketModel::rowCount(const QModelIndex& parent) const {
@@ -349,6 +321,99 @@ QVariant PacketModel::headerData(int section, Qt::Orientation orientation, int r
         return isTitle ? tr("Δ row ms") : tr("Since the row above");
     }
     return ColumnModel::headerData(section, orientation, role);
+}
+
+namespace {
+
+constexpr std::size_t kBytesInLine = 16;
+constexpr std::size_t kBytesInRow = 12; // of a C array: 72 columns
+
+QString hexByte(std::byte byte) {
+    return QStringLiteral("%1").arg(std::to_integer<unsigned>(byte), 2, 16, QLatin1Char('0'));
+}
+
+QString hexText(wire::Bytes bytes) {
+    QString text;
+    for (std::size_t begin = 0; begin < bytes.size(); begin += kBytesInLine) {
+        const wire::Bytes line = bytes.subspan(begin, std::min(kBytesInLine, bytes.size() - begin));
+        const QString digits = QString::fromLatin1(QByteArrayView(line).toByteArray().toHex(' '));
+        text += QStringLiteral("%1  %2 %3\n")
+                    .arg(begin, 4, 16, QLatin1Char('0'))
+                    .arg(digits.leftJustified(kBytesInLine * 3), readable(line));
+    }
+    return text;
+}
+
+QString cArray(wire::Bytes bytes, std::uint64_t number) {
+    QString text = QStringLiteral("const unsigned char packet%1[%2] = {").arg(number).arg(bytes.size());
+    for (std::size_t i = 0; i < bytes.size(); ++i) {
+        text += i % kBytesInRow == 0 ? QStringLiteral("\n    0x") : QStringLiteral(" 0x");
+        text += hexByte(bytes[i]) + QLatin1Char(',');
+    }
+    return text + QStringLiteral("\n};\n");
+}
+
+QString json(model::SessionView& view, const log::Packet& packet) {
+    const auto sender = view.log().senders().find(packet.sender);
+    const exporting::DatagramPlace place{packet.number, 0, view.wallOf(packet.stamp),
+                                         sender == nullptr ? std::nullopt : std::optional(sender->address)};
+    const std::string object = packet.flags.skipped ? exporting::skippedJson(place, packet.bytes.size())
+                                                    : exporting::datagramJson(place, packet.bytes);
+    return QString::fromStdString(object) + QLatin1Char('\n');
+}
+
+} // namespace
+
+QString packetBytesText(model::SessionView& view, std::uint64_t number, ByteFormat format) {
+    const auto packet = view.packet(number);
+    if (!packet) {
+        return {};
+    }
+    switch (format) {
+    case ByteFormat::Text:
+        return hexText(packet->bytes);
+    case ByteFormat::Raw:
+        return QString::fromStdString(wire::hexadecimal(packet->bytes));
+    case ByteFormat::CArray:
+        return cArray(packet->bytes, number);
+    case ByteFormat::Json:
+        return json(view, *packet);
+    }
+    return {};
+}
+
+QString packetRowsText(const PacketModel& model, std::span<const int> rows) {
+    QString text;
+    for (const int row : rows) {
+        for (int column = 0; column < model.columnCount(); ++column) {
+            text += (column == 0 ? QString() : QStringLiteral("\t")) + cellText(model.index(row, column));
+        }
+        text += QLatin1Char('\n');
+    }
+    return text;
+}
+
+QString packetRowsCsv(const PacketModel& model, std::span<const int> rows) {
+    std::vector<std::string> cells;
+    for (int column = 0; column < model.columnCount(); ++column) {
+        cells.push_back(model.headerData(column, Qt::Horizontal, Qt::DisplayRole).toString().toStdString());
+    }
+    std::string text = exporting::csvLine(cells);
+    for (const int row : rows) {
+        cells.clear();
+        for (int column = 0; column < model.columnCount(); ++column) {
+            const QModelIndex index = model.index(row, column);
+            QString content = cellText(index);
+            if (index.data(Qt::TextAlignmentRole).isValid()) {
+                content.remove(QChar(0x202f)).replace(QChar(0x2212), QLatin1Char('-'));
+                cells.push_back(content.toStdString());
+            } else {
+                cells.push_back(model::csvText(content.toStdString()));
+            }
+        }
+        text += exporting::csvLine(cells);
+    }
+    return QString::fromStdString(text);
 }
 
 } // namespace posewire::gui

@@ -3,9 +3,10 @@
 
 #include "app/gui/models/column.h"
 #include "app/gui/models/packet_facts.h"
-#include "app/gui/models/packet_numbers.h"
+#include "app/gui/models/packet_search.h"
 
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace posewire::gui {
@@ -31,10 +32,8 @@ public:
 
     /// Lists only what addMatches() gives from now on.
     void beginMatches() { startAgain(true); }
-    /// Numbers that grow and lie above those given before, and those of them that are problems; they show
-    /// with the next refresh().
-    void addMatches(const std::vector<std::uint64_t>& numbers,
-                    const std::vector<std::uint64_t>& problems = {});
+    /// Numbers that grow and lie above those given before; they show with the next refresh().
+    void addMatches(const std::vector<std::uint64_t>& numbers) { m_matches.append(numbers); }
     /// Lists all packets.
     void endMatches() { startAgain(false); }
     [[nodiscard]] bool isFiltered() const { return m_isFiltered; }
@@ -50,11 +49,6 @@ public:
     [[nodiscard]] int rowOf(std::uint64_t number) const;
     /// The first row at or after a packet; rowCount() where there is none.
     [[nodiscard]] int rowFrom(std::uint64_t number) const;
-    /// The nearest listed problem after or before a packet; nothing where there is none.
-    [[nodiscard]] std::optional<std::uint64_t> nextProblem(std::uint64_t after) const;
-    [[nodiscard]] std::optional<std::uint64_t> previousProblem(std::uint64_t before) const;
-    /// Whether what was sent for a character, under all ports that its sender had, has this packet.
-    [[nodiscard]] bool isOf(const model::CharacterKey& key, std::uint64_t packet) const;
     /// With a filter: the numbers of all rows.
     [[nodiscard]] const PacketNumbers& matches() const { return m_matches; }
 
@@ -86,7 +80,6 @@ private:
     int m_rows = 0;
     std::uint64_t m_begin = 0;   ///< without a filter: the packet of the first row
     PacketNumbers m_matches;     ///< with a filter; the first m_rows of them are rows
-    PacketNumbers m_problems;    ///< those of m_matches that are problems
     bool m_hasSenders = false;   ///< more than one
     std::uint64_t m_removed = 0; ///< rows that went at the front
     TimeMode m_timeMode = TimeMode::SinceFirst;
@@ -95,5 +88,23 @@ private:
     model::Cursor m_cursor;                     ///< likewise
     mutable std::optional<PacketFacts> m_facts; ///< of the row last asked for, until the next refresh()
 };
+
+/// How the bytes of a packet can be copied.
+enum class ByteFormat {
+    Text,   ///< offsets, sixteen bytes a line in hexadecimal, the readable ones beside them
+    Raw,    ///< hexadecimal digits and nothing else
+    CArray, ///< const unsigned char packet1204[760] = { … };
+    Json,   ///< the object that `posewire-cli decode --json` writes
+};
+
+/// Empty where the log has dropped the packet.
+[[nodiscard]] QString packetBytesText(model::SessionView& view, std::uint64_t number, ByteFormat format);
+
+/// Rows as they stand in the list, cells set apart by tabs, one line each.
+[[nodiscard]] QString packetRowsText(const PacketModel& model, std::span<const int> rows);
+
+/// With a line of titles; numbers without anything between their digits, quotes where they are needed
+/// (RFC 4180).
+[[nodiscard]] QString packetRowsCsv(const PacketModel& model, std::span<const int> rows);
 
 } // namespace posewire::gui

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/models/packet_search.h"
 
+#include "app/gui/models/display_filter.h"
+#include "app/gui/models/packet_model.h"
 #include "app/gui/theme/words.h"
 #include "core/model/session/accounts.h"
 #include "core/model/session/roster.h"
@@ -10,6 +12,8 @@
 #include <QRegularExpression>
 
 #include <algorithm>
+#include <bit>
+#include <iterator>
 #include <utility>
 
 namespace posewire::gui {
@@ -24,6 +28,60 @@ std::byte folded(std::byte byte) {
 }
 
 } // namespace
+
+void PacketNumbers::append(std::uint64_t number) {
+    if (m_blocks.empty()) {
+        m_first = number / kNumbers * kNumbers;
+    }
+    const std::uint64_t place = number - m_first;
+    while (place / kNumbers >= m_blocks.size()) {
+        m_blocks.push_back({m_end, {}});
+    }
+    m_blocks.back().bits[place % kNumbers / 64] |= std::uint64_t{1} << place % 64;
+    ++m_end;
+}
+
+void PacketNumbers::dropBefore(std::uint64_t number) {
+    m_dropped += placeOf(number);
+    while (!m_blocks.empty() && m_first + kNumbers <= number) {
+        m_blocks.pop_front();
+        m_first += kNumbers;
+    }
+}
+
+std::uint64_t PacketNumbers::operator[](std::size_t place) const {
+    const std::uint64_t wanted = m_dropped + place;
+    const auto block = std::prev(std::ranges::upper_bound(m_blocks, wanted, {}, &Block::before));
+    std::uint64_t left = wanted - block->before;
+    std::size_t word = 0;
+    for (auto count = std::popcount(block->bits[0]); left >= static_cast<std::uint64_t>(count);
+         count = std::popcount(block->bits[word])) {
+        left -= static_cast<std::uint64_t>(count);
+        ++word;
+    }
+    std::uint64_t bits = block->bits[word];
+    for (; left > 0; --left) {
+        bits &= bits - 1;
+    }
+    const auto before = static_cast<std::uint64_t>(block - m_blocks.begin()) * kNumbers + word * 64;
+    return m_first + before + static_cast<std::uint64_t>(std::countr_zero(bits));
+}
+
+std::size_t PacketNumbers::placeOf(std::uint64_t number) const {
+    const std::uint64_t place = number > m_first ? number - m_first : 0;
+    if (place / kNumbers >= m_blocks.size()) {
+        return m_blocks.empty() ? 0 : size();
+    }
+    const Block& block = m_blocks[place / kNumbers];
+    const std::size_t word = place % kNumbers / 64;
+    std::uint64_t count = block.before;
+    for (std::size_t i = 0; i < word; ++i) {
+        count += static_cast<std::uint64_t>(std::popcount(block.bits[i]));
+    }
+    count +=
+        static_cast<std::uint64_t>(std::popcount(block.bits[word] & ((std::uint64_t{1} << place % 64) - 1)));
+    return count > m_dropped ? count - m_dropped : 0;
+}
 
 tl::expected<BytePattern, QString> parsePattern(const QString& text, bool isHexadecimal) {
     if (!isHexadecimal) {
@@ -89,9 +147,9 @@ void PacketSearch::run(const std::stop_token& stop) {
         m_result.gone += packet ? 0 : 1;
         const auto offset = packet ? findPattern(m_request.pattern, packet->bytes) : std::nullopt;
         if (offset) {
-            m_result.packet = packet->number;
-            m_result.offset = *offset;
-            m_result.size = m_request.pattern.bytes.size();
+            const std::size_t end = *offset + m_request.pattern.bytes.size();
+            m_result.found = {packet->number, static_cast<std::uint32_t>(*offset),
+                              static_cast<std::uint32_t>(end)};
             m_result.isWrapped = m_request.isForward ? place < start : place >= start;
             break;
         }
@@ -99,11 +157,40 @@ void PacketSearch::run(const std::stop_token& stop) {
     m_isDone.store(true, std::memory_order_release);
 }
 
-PacketFilterRun::PacketFilterRun(const model::SessionView& view, filter::Filter filter, PositionUnits units)
+PacketMatcher::PacketMatcher(const model::SessionView& view, filter::Filter filter)
     : m_log(view.log()),
       m_filter(std::move(filter)),
       m_firstStamp(view.firstStamp()),
-      m_units(std::move(units)),
+      m_units(unitsOf(view)),
+      m_senders(m_log.senders()) {}
+
+PacketMatcher::Units PacketMatcher::unitsOf(const model::SessionView& view) const {
+    Units units;
+    if (m_filter.comparesLengths()) {
+        const model::Sender usual{log::SenderId{}};
+        for (const model::Sender& sender : view.roster().senders()) {
+            for (const wire::TypeInfo& info : wire::typeTable()) {
+                const model::LengthUnit unit = sender.positionUnit(info.type);
+                if (unit != usual.positionUnit(info.type)) {
+                    units.emplace(std::pair(sender.id, info.type), unit);
+                }
+            }
+        }
+    }
+    return units;
+}
+
+bool PacketMatcher::matches(const log::Packet& packet, const model::PacketDigest& digest) {
+    const bool isRead = !packet.flags.skipped && wire::decodeInto(packet.bytes, m_datagram).has_value();
+    const auto unit = m_units.find({packet.sender, digest.type});
+    return m_filter.matches({packet, digest, isRead ? &m_datagram : nullptr, m_senders.find(packet.sender),
+                             m_firstStamp, nullptr, m_log.timeline().setByAt(packet.stamp),
+                             unit == m_units.end() ? std::nullopt : std::optional(unit->second)});
+}
+
+PacketFilterRun::PacketFilterRun(const model::SessionView& view, filter::Filter filter)
+    : m_log(view.log()),
+      m_matcher(view, std::move(filter)),
       m_begin(view.accounts().digests().begin()),
       m_next(m_begin),
       m_end(m_begin),
@@ -111,12 +198,9 @@ PacketFilterRun::PacketFilterRun(const model::SessionView& view, filter::Filter 
     static_cast<void>(take(view));
 }
 
-std::uint64_t PacketFilterRun::endOf(const model::SessionView& view) const {
-    return m_filter.comparesJudged() ? view.accounts().settledEnd() : view.accounts().digests().end();
-}
-
-PacketFilterRun::Found PacketFilterRun::take(const model::SessionView& view) {
-    const std::uint64_t end = endOf(view);
+std::vector<std::uint64_t> PacketFilterRun::take(const model::SessionView& view) {
+    const bool isLate = m_matcher.filter().comparesJudged();
+    const std::uint64_t end = isLate ? view.accounts().settledEnd() : view.accounts().digests().end();
     const std::lock_guard lock(m_mutex);
     if (end > m_end && !isCancelled()) {
         m_excerpts.push_back(view.accounts().digests().excerpt(m_end, end));
@@ -148,30 +232,19 @@ std::optional<model::PacketDigests::Excerpt> PacketFilterRun::nextExcerpt(const 
     return excerpt;
 }
 
-void PacketFilterRun::hand(Found& found, const log::LogFollower& follower) {
+void PacketFilterRun::hand(std::vector<std::uint64_t>& found, const log::LogFollower& follower) {
     const std::lock_guard lock(m_mutex);
-    m_found.packets.insert(m_found.packets.end(), found.packets.begin(), found.packets.end());
-    m_found.problems.insert(m_found.problems.end(), found.problems.begin(), found.problems.end());
-    found.packets.clear();
-    found.problems.clear();
+    m_found.insert(m_found.end(), found.begin(), found.end());
+    found.clear();
     m_next = std::min(follower.position(), m_end);
     m_ahead = follower.position() - m_next;
     m_gone = follower.overtaken();
     m_changed.notify_all();
 }
 
-bool PacketFilterRun::isMatch(const log::Packet& packet, const model::PacketDigest& digest,
-                              log::SenderFinder& senders) {
-    const bool isRead = !packet.flags.skipped && wire::decodeInto(packet.bytes, m_datagram).has_value();
-    return m_filter.matches({packet, digest, isRead ? &m_datagram : nullptr, senders.find(packet.sender),
-                             m_firstStamp, nullptr, m_log.timeline().setByAt(packet.stamp),
-                             unitIn(m_units, packet.sender, digest.type)});
-}
-
 void PacketFilterRun::lookAt(const model::PacketDigests::Excerpt& excerpt, log::LogFollower& follower,
                              const std::stop_token& stop) {
-    Found found;
-    log::SenderFinder senders(m_log.senders());
+    std::vector<std::uint64_t> found;
     follower.refresh();
     follower.skipTo(excerpt.begin());
     for (std::uint64_t count = 1; !stop.stop_requested(); ++count) {
@@ -179,12 +252,8 @@ void PacketFilterRun::lookAt(const model::PacketDigests::Excerpt& excerpt, log::
         if (!packet) {
             break;
         }
-        const model::PacketDigest& digest = excerpt.at(packet->number);
-        if (isMatch(*packet, digest, senders)) {
-            found.packets.push_back(packet->number);
-            if (digest.isProblem()) {
-                found.problems.push_back(packet->number);
-            }
+        if (m_matcher.matches(*packet, excerpt.at(packet->number))) {
+            found.push_back(packet->number);
         }
         if (count % kPacketsAtATime == 0) {
             hand(found, follower);
@@ -201,23 +270,69 @@ void PacketFilterRun::run(const std::stop_token& stop) {
     }
 }
 
-PositionUnits unusualPositionUnits(const model::SessionView& view) {
-    const model::Sender usual{log::SenderId{}};
-    PositionUnits units;
-    for (const model::Sender& sender : view.roster().senders()) {
-        for (const wire::TypeInfo& info : wire::typeTable()) {
-            const model::LengthUnit unit = sender.positionUnit(info.type);
-            if (unit != usual.positionUnit(info.type)) {
-                units.emplace(std::pair(sender.id, info.type), unit);
-            }
-        }
+void ListFilter::followRange() {
+    const auto chosen = m_view.choices().range.fixed;
+    const auto packet = m_view.choices().selection.packet;
+    if (std::exchange(m_chosenRange, chosen) != chosen) {
+        m_range = chosen;
+    } else if (m_range && packet && packet != m_selected) {
+        const auto selected = m_view.packet(*packet);
+        const bool isInside = selected && selected->stamp >= m_range->from && selected->stamp < m_range->to;
+        m_range = isInside ? m_range : std::nullopt;
     }
-    return units;
+    m_selected = packet;
 }
 
-std::optional<model::LengthUnit> unitIn(const PositionUnits& units, log::SenderId sender, std::uint8_t type) {
-    const auto found = units.find({sender, type});
-    return found != units.end() ? std::optional(found->second) : std::nullopt;
+bool ListFilter::follow() {
+    followRange();
+    Wanted wanted{QString::fromStdString(m_view.choices().displayFilter), m_range, m_view.firstStamp()};
+    // The unit of a sender's positions turns out, or is declared, while it sends.
+    const bool isOther = wanted != m_wanted || (m_run && m_run->matcher().isOutdated(m_view));
+    if (isOther) {
+        m_wanted = std::move(wanted);
+        start();
+    }
+    m_isCatchingUp = m_run && m_done < m_backlog;
+    if (m_run) {
+        m_list.addMatches(m_run->take(m_view));
+        const auto [done, total, gone] = m_run->progress();
+        m_done = done;
+        m_missed = gone;
+    }
+    return isOther;
+}
+
+/// Leaves what is listed if the filter is wrong: its line says how.
+void ListFilter::start() {
+    const QString condition =
+        m_range ? joinedFilter(m_wanted.text, rangeFilter(m_view, *m_range), FilterJoin::And)
+                : m_wanted.text.trimmed();
+    auto compiled = filter::Filter::compile(condition.toStdString());
+    if (!compiled) {
+        return;
+    }
+    m_run.reset();
+    m_done = 0;
+    m_missed = 0;
+    if (compiled->matchesEverything()) {
+        m_list.endMatches();
+    } else {
+        m_list.beginMatches();
+        m_backlog = m_view.accounts().digests().end() - m_view.accounts().digests().begin();
+        m_run = std::make_unique<PacketFilterRun>(m_view, *std::move(compiled));
+    }
+}
+
+void ListFilter::cancel() {
+    if (m_run) {
+        m_run->cancel();
+    }
+}
+
+std::optional<double> ListFilter::progress() const {
+    const bool isBusy = m_run && !m_run->isCancelled() && m_done < m_backlog;
+    return isBusy ? std::optional(static_cast<double>(m_done) / static_cast<double>(m_backlog))
+                  : std::nullopt;
 }
 
 } // namespace posewire::gui

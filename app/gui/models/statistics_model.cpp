@@ -2,7 +2,6 @@
 #include "app/gui/models/statistics_model.h"
 
 #include "app/gui/models/shown_character.h"
-#include "app/gui/models/stream_state.h"
 #include "app/gui/models/text.h"
 #include "core/export/sheets.h"
 #include "core/model/session/roster.h"

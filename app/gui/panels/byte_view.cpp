@@ -33,7 +33,7 @@ ByteView::ByteView(QWidget* parent) : QAbstractScrollArea(parent) {
 }
 
 void ByteView::setDocument(std::shared_ptr<const FieldDocument> document) {
-    const bool isResized = document->bytes().size() != m_document->bytes().size();
+    const bool isResized = document->bytes.size() != m_document->bytes.size();
     m_document = std::move(document);
     m_current = std::min(m_current, size() == 0 ? 0 : size() - 1);
     markBytes();
@@ -51,13 +51,13 @@ void ByteView::setOther(std::shared_ptr<const FieldDocument> other) {
 void ByteView::markBytes() {
     m_health.assign(size(), Health::Unknown);
     m_isUnread.assign(size(), false);
-    for (const FieldProblem& problem : m_document->problems()) {
+    for (const FieldProblem& problem : m_document->problems) {
         const std::uint32_t end = std::min(problem.offset + problem.length, size());
         for (std::uint32_t i = problem.offset; problem.level != Health::Unknown && i < end; ++i) {
             m_health[i] = m_health[i] == Health::Error ? Health::Error : problem.level;
         }
     }
-    for (const wire::FieldNode& node : m_document->tree().nodes) {
+    for (const wire::FieldNode& node : m_document->tree.nodes) {
         for (std::uint32_t i = node.offset;
              node.kind == wire::NodeKind::Unread && i < node.offset + node.length; ++i) {
             m_isUnread[i] = true;
@@ -196,10 +196,10 @@ void ByteView::paintMarks(QPainter& painter, std::uint32_t offset, const QRectF&
 }
 
 void ByteView::paintByte(QPainter& painter, std::uint32_t offset) {
-    const std::byte byte = m_document->bytes()[offset];
+    const std::byte byte = m_document->bytes[offset];
     const unsigned value = std::to_integer<unsigned>(byte);
     const bool isDifferent =
-        m_other != nullptr && (offset >= m_other->bytes().size() || m_other->bytes()[offset] != byte);
+        m_other != nullptr && (offset >= m_other->bytes.size() || m_other->bytes[offset] != byte);
     const Health health = m_health[offset];
     const QColor colour = health != Health::Unknown && !m_isUnread[offset] ? healthColour(health)
                           : isDifferent                                    ? theme().warning
@@ -230,11 +230,6 @@ void ByteView::mousePressEvent(QMouseEvent* event) {
     }
 }
 
-void ByteView::leaveEvent(QEvent* event) {
-    QAbstractScrollArea::leaveEvent(event);
-    emit hovered(-1);
-}
-
 void ByteView::keyPressEvent(QKeyEvent* event) {
     const std::int64_t page =
         std::max<std::int64_t>(1, viewport()->height() / rowHeight() - 1) * std::int64_t{m_perRow};
@@ -262,16 +257,15 @@ void ByteView::contextMenuEvent(QContextMenuEvent* event) {
     emit menuRequested(isByKey ? viewport()->mapToGlobal(centreOf(m_current)) : event->globalPos());
 }
 
-void ByteView::resizeEvent(QResizeEvent* event) {
-    QAbstractScrollArea::resizeEvent(event);
-    fit();
-}
-
-void ByteView::changeEvent(QEvent* event) {
-    QAbstractScrollArea::changeEvent(event);
-    if (event->type() == QEvent::FontChange || event->type() == QEvent::StyleChange) {
+bool ByteView::viewportEvent(QEvent* event) {
+    const bool isTaken = QAbstractScrollArea::viewportEvent(event);
+    if (event->type() == QEvent::Leave) {
+        emit hovered(-1);
+    } else if (event->type() == QEvent::Resize || event->type() == QEvent::FontChange ||
+               event->type() == QEvent::StyleChange) {
         fit();
     }
+    return isTaken;
 }
 
 } // namespace posewire::gui

@@ -54,11 +54,9 @@ protected:
     void paintEvent(QPaintEvent* event) override;
     void mouseMoveEvent(QMouseEvent* event) override;
     void mousePressEvent(QMouseEvent* event) override;
-    void leaveEvent(QEvent* event) override;
     void keyPressEvent(QKeyEvent* event) override;
     void contextMenuEvent(QContextMenuEvent* event) override;
-    void resizeEvent(QResizeEvent* event) override;
-    void changeEvent(QEvent* event) override;
+    bool viewportEvent(QEvent* event) override;
 
 private:
     void fit();
@@ -70,9 +68,7 @@ private:
     [[nodiscard]] QRectF textCell(std::uint32_t offset) const;
     [[nodiscard]] int rowHeight() const;
     [[nodiscard]] double columnLeft(int column) const;
-    [[nodiscard]] std::uint32_t size() const {
-        return static_cast<std::uint32_t>(m_document->bytes().size());
-    }
+    [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(m_document->bytes.size()); }
 
     std::shared_ptr<const FieldDocument> m_document = std::make_shared<FieldDocument>();
     std::shared_ptr<const FieldDocument> m_other;

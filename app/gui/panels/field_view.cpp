@@ -108,7 +108,7 @@ void FieldView::setCurrentNode(std::int32_t node) {
     if (node < 0) {
         return;
     }
-    m_currentPath = m_fields.document().tree().path(node);
+    m_currentPath = m_fields.document().tree.path(node);
     const QModelIndex index = m_fields.indexOf(node);
     for (QModelIndex around = index.parent(); around.isValid(); around = around.parent()) {
         expand(around);
@@ -145,8 +145,7 @@ void FieldView::contextMenuEvent(QContextMenuEvent* event) {
     if (!isByKey && indexAt(event->pos()).isValid()) {
         setCurrentIndex(indexAt(event->pos()));
     }
-    emit menuRequested(isByKey ? viewport()->mapToGlobal(visualRect(currentIndex()).center())
-                               : event->globalPos());
+    showMenu(isByKey ? viewport()->mapToGlobal(visualRect(currentIndex()).center()) : event->globalPos());
 }
 
 bool FieldView::viewportEvent(QEvent* event) {
@@ -156,32 +155,33 @@ bool FieldView::viewportEvent(QEvent* event) {
     return TableView::viewportEvent(event);
 }
 
-void FieldView::showMenu(const QPoint& at, const QString& displayFilter) {
+void FieldView::showMenu(const QPoint& at) {
     const std::int32_t node = currentNode();
     if (node < 0) {
         return;
     }
     QMenu menu(this);
-    addFilters(menu, displayFilter);
+    addFilters(menu);
     menu.addSeparator();
     const auto addCopy = [&](const QString& text, const QString& copied) {
         menu.addAction(text, this, [copied] { copyText(copied); })->setEnabled(!copied.isEmpty());
     };
     const FieldDocument& document = m_fields.document();
     const wire::FieldNode& field = document.node(node);
-    const wire::Bytes bytes = wire::Bytes(document.bytes()).subspan(field.offset, field.length);
+    const wire::Bytes bytes = wire::Bytes(document.bytes).subspan(field.offset, field.length);
     addCopy(tr("Copy value"), convertedValue(document, node));
     addCopy(tr("Copy value on the wire"), QString::fromStdString(field.value));
-    addCopy(tr("Copy field path"), QString::fromStdString(document.tree().path(node)));
+    addCopy(tr("Copy field path"), QString::fromStdString(document.tree.path(node)));
     addCopy(tr("Copy bytes as hexadecimal"), bytesText(bytes, QString(), QStringLiteral(" ")));
     addCopy(tr("Copy bytes as C array"),
             QStringLiteral("{%1}").arg(bytesText(bytes, QStringLiteral("0x"), QStringLiteral(", "))));
     menu.exec(at);
 }
 
-void FieldView::addFilters(QMenu& menu, const QString& displayFilter) {
+void FieldView::addFilters(QMenu& menu) {
+    const QString displayFilter = QString::fromStdString(m_commands.session().choices().displayFilter);
     const QString expression =
-        QString::fromStdString(filter::expressionFor(m_fields.document().tree(), currentNode()));
+        QString::fromStdString(filter::expressionFor(m_fields.document().tree, currentNode()));
     QMenu* filters = menu.addMenu(tr("Apply as filter"));
     filters->setEnabled(!expression.isEmpty());
     constexpr qsizetype kMostToolTip = 500;

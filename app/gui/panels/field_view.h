@@ -31,12 +31,11 @@ public:
     void openFirst();
 
     /// Filters and copies of the current node; nothing without one. Returns when the menu is closed.
-    void showMenu(const QPoint& at, const QString& displayFilter);
+    void showMenu(const QPoint& at);
 
 signals:
     void nodeEntered(std::int32_t node); ///< -1 when the pointer leaves
     void nodeSelected(std::int32_t node);
-    void menuRequested(const QPoint& globalPosition);
 
 protected:
     void drawRow(QPainter* painter, const QStyleOptionViewItem& option,
@@ -45,10 +44,10 @@ protected:
     bool viewportEvent(QEvent* event) override;
 
 private:
-    void addFilters(QMenu& menu, const QString& displayFilter);
+    void addFilters(QMenu& menu);
     void restore(const QModelIndex& parent);
     [[nodiscard]] std::string pathOf(const QModelIndex& index) const {
-        return m_fields.document().tree().path(m_fields.node(index));
+        return m_fields.document().tree.path(m_fields.node(index));
     }
 
     FieldModel& m_fields;

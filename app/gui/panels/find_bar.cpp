@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/panels/find_bar.h"
 
+#include "app/gui/models/packet_model.h"
+#include "app/gui/models/text.h"
 #include "app/gui/theme/plain_text.h"
 #include "app/gui/theme/theme.h"
 #include "app/gui/theme/widgets.h"
@@ -9,6 +11,12 @@
 #include <QLineEdit>
 
 namespace posewire::gui {
+
+namespace {
+
+constexpr int kBytes = 1; ///< of the kinds
+
+} // namespace
 
 FindBar::FindBar(QWidget* parent)
     : QWidget(parent), m_kind(new ComboBox(this)), m_edit(new QLineEdit(this)), m_answer(plainLabel(this)) {
@@ -36,6 +44,8 @@ FindBar::FindBar(QWidget* parent)
     connect(hide, &QToolButton::clicked, this, &FindBar::close);
     connect(m_edit, &QLineEdit::textChanged, this, [this] { say({}, false); });
     connect(m_kind, &QComboBox::currentIndexChanged, this, &FindBar::showKind);
+    connect(&m_poll, &QTimer::timeout, this, &FindBar::takeResult);
+    m_poll.setInterval(20);
     showKind();
     QWidget::hide();
 }
@@ -51,20 +61,54 @@ void FindBar::close() {
     emit closed();
 }
 
-QString FindBar::text() const {
-    return m_edit->text();
-}
-
 void FindBar::setText(const QString& text) {
     m_edit->setText(text);
 }
 
-bool FindBar::isHexadecimal() const {
-    return m_kind->currentIndex() == 1;
+void FindBar::find(const log::PacketLog& log, const PacketModel& list, std::uint64_t from,
+                   Direction direction) {
+    auto pattern = parsePattern(m_edit->text(), m_kind->currentIndex() == kBytes);
+    if (m_edit->text().isEmpty() || !pattern) {
+        open();
+        if (!m_edit->text().isEmpty()) {
+            say(pattern.error(), true);
+        }
+        return;
+    }
+    if (list.isFiltered() && list.matches().empty()) {
+        say(tr("No packet is listed"), true);
+        return;
+    }
+    m_search = std::make_unique<PacketSearch>(
+        log, PacketSearch::Request{*std::move(pattern), from, direction == Direction::Forward,
+                                   list.isFiltered() ? list.matches() : PacketNumbers()});
+    say(tr("Searching …"), false);
+    m_poll.start();
+}
+
+void FindBar::takeResult() {
+    const auto result = m_search->result();
+    if (!result) {
+        return;
+    }
+    m_poll.stop();
+    m_search.reset();
+    if (!result->found) {
+        say(result->gone == 0 ? tr("Not found")
+                              : tr("Not found; %1 packets left memory before they were looked at")
+                                    .arg(grouped(result->gone)),
+            true);
+        return;
+    }
+    emit found(*result->found);
+    const QString place =
+        tr("in packet %1, byte %2").arg(grouped(result->found->packet)).arg(result->found->begin);
+    say(result->isWrapped ? tr("%1 (wrapped around)").arg(place) : place, false);
 }
 
 void FindBar::showKind() {
-    m_edit->setPlaceholderText(isHexadecimal() ? QStringLiteral("4d 58 54 50") : tr("text, such as a name"));
+    m_edit->setPlaceholderText(m_kind->currentIndex() == kBytes ? QStringLiteral("4d 58 54 50")
+                                                                : tr("text, such as a name"));
     say({}, false);
 }
 

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/gui/models/packet_choice.h"
+#include "app/gui/models/packet_search.h"
+
+#include <QTimer>
 #include <QWidget>
 
 class QLabel;
@@ -9,8 +13,6 @@ class QLineEdit;
 namespace posewire::gui {
 
 class ComboBox;
-
-enum class Direction { Backward, Forward };
 
 /// A line to look for bytes or text in packets; hidden until it is asked for, Escape hides it again.
 class FindBar final : public QWidget {
@@ -21,15 +23,15 @@ public:
 
     /// Shows it with the keyboard in its line.
     void open();
-    [[nodiscard]] QString text() const;
     void setText(const QString& text);
-    [[nodiscard]] bool isHexadecimal() const;
-    /// What came of it; `isProblem` makes it red.
-    void say(const QString& text, bool isProblem);
+    /// Looks for the text in packets from one on, on a thread of its own. Opens instead if there is nothing
+    /// to look for, or it is wrong.
+    void find(const log::PacketLog& log, const PacketModel& list, std::uint64_t from, Direction direction);
     [[nodiscard]] QString said() const;
 
 signals:
     void findRequested(Direction direction);
+    void found(const model::FoundBytes& bytes);
     void closed();
 
 protected:
@@ -38,10 +40,15 @@ protected:
 private:
     void close();
     void showKind();
+    void takeResult();
+    /// What came of it; `isProblem` makes it red.
+    void say(const QString& text, bool isProblem);
 
     ComboBox* m_kind;
     QLineEdit* m_edit;
     QLabel* m_answer;
+    std::unique_ptr<PacketSearch> m_search;
+    QTimer m_poll; ///< for what the search has found
 };
 
 } // namespace posewire::gui

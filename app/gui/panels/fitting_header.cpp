@@ -81,6 +81,8 @@ void shareOut(std::vector<Share>& shares, int room) {
 
 FittingHeader::FittingHeader(QAbstractItemView* table, QFont (*cellFont)(), int space, Kept kept)
     : QHeaderView(Qt::Horizontal, table), m_table(table), m_font(cellFont), m_space(space), m_kept(kept) {
+    table->installEventFilter(this);
+    table->viewport()->installEventFilter(this);
     setStretchLastSection(false);
     setMinimumSectionSize(0);
     setHighlightSections(false);
@@ -123,6 +125,15 @@ void FittingHeader::setModel(QAbstractItemModel* model) {
             });
     connect(model, &QAbstractItemModel::modelReset, this, &FittingHeader::fit);
     fit();
+}
+
+/// The width or the font of the table may be another one.
+bool FittingHeader::eventFilter(QObject* watched, QEvent* event) {
+    if (event->type() == QEvent::Resize || event->type() == QEvent::FontChange ||
+        event->type() == QEvent::StyleChange) {
+        fit();
+    }
+    return QHeaderView::eventFilter(watched, event);
 }
 
 void FittingHeader::restore(const QJsonObject& state) {

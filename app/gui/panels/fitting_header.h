@@ -61,6 +61,9 @@ public:
 signals:
     void fitted();
 
+protected:
+    bool eventFilter(QObject* watched, QEvent* event) override;
+
 private:
     [[nodiscard]] ColumnRoom room(int column) const;
     [[nodiscard]] Share share(int column) const;

@@ -2,7 +2,6 @@
 #include "app/gui/panels/inspector_panel.h"
 
 #include "app/gui/models/field_text.h"
-#include "app/gui/models/packet_choice.h"
 #include "app/gui/models/packet_facts.h"
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
@@ -36,6 +35,17 @@ void setLines(QLabel& label, const QStringList& richLines) {
     label.setText(richLines.join(QStringLiteral("<br>")));
 }
 
+/// Describes the packet as a whole.
+QStringList packetLines(const FieldDocument& document) {
+    const QStringList facts = documentLines(document);
+    QStringList lines{QStringLiteral("<b>%1</b>").arg(documentTitle(document).toHtmlEscaped()),
+                      facts.value(0).toHtmlEscaped()};
+    for (const QString& fact : facts.mid(1)) {
+        lines += coloured(theme().dim, fact);
+    }
+    return lines;
+}
+
 ByteRange rangeOf(const FieldDocument& document, std::int32_t node) {
     if (node < 0) {
         return {};
@@ -61,8 +71,29 @@ InspectorPanel::InspectorPanel(model::SessionView& view, Commands& commands, QWi
       m_detail(richLabel(this)),
       m_detailLine(new Line(this)) {
     layOut();
-    connectParts();
-    showEmpty();
+    connect(m_fields, &FieldView::nodeEntered, this, &InspectorPanel::hover);
+    connect(m_fields, &FieldView::nodeSelected, this, &InspectorPanel::select);
+    connect(m_bytes, &ByteView::hovered, this, [this](std::int64_t offset) {
+        hover(offset < 0 ? -1 : m_document->nodeAt(static_cast<std::uint32_t>(offset)));
+    });
+    connect(m_bytes, &ByteView::activated, this, &InspectorPanel::activate);
+    connect(m_bytes, &ByteView::menuRequested, m_fields, &FieldView::showMenu);
+    connect(m_problems, &QLabel::linkActivated, this, [this](const QString& link) {
+        const auto index = link.toULongLong();
+        if (index < m_document->problems.size()) {
+            goTo(m_document->problems[index].node);
+        }
+    });
+    connect(m_previous, &QToolButton::clicked, this, [this] { step(Direction::Backward); });
+    connect(m_next, &QToolButton::clicked, this, [this] { step(Direction::Forward); });
+    m_hold->setCheckable(true);
+    m_hold->setAccessibleName(tr("Hold this packet"));
+    connect(m_hold, &QToolButton::clicked, this, &InspectorPanel::toggleHold);
+    m_compare->setMenu(new QMenu(m_compare));
+    m_compare->setPopupMode(QToolButton::InstantPopup);
+    connect(m_compare->menu(), &QMenu::aboutToShow, this, &InspectorPanel::fillCompareMenu);
+    showParts();
+    describeProblems();
 }
 
 void InspectorPanel::layOut() {
@@ -80,6 +111,7 @@ void InspectorPanel::layOut() {
         label->setContentsMargins(margin, margin / 2, margin, margin / 2);
     }
     m_problems->setTextInteractionFlags(Qt::LinksAccessibleByMouse | Qt::LinksAccessibleByKeyboard);
+    m_problems->setObjectName(QStringLiteral("problems"));
     m_problems->setAccessibleName(tr("What is wrong with the packet"));
     layout->addWidget(m_problems);
     layout->addWidget(m_problemLine);
@@ -96,43 +128,14 @@ void InspectorPanel::layOut() {
     layout->addWidget(m_detail);
 }
 
-void InspectorPanel::connectParts() {
-    connect(m_fields, &FieldView::nodeEntered, this, &InspectorPanel::hover);
-    connect(m_fields, &FieldView::nodeSelected, this, &InspectorPanel::select);
-    connect(m_fields, &FieldView::menuRequested, this, &InspectorPanel::openMenu);
-    connect(m_bytes, &ByteView::hovered, this, [this](std::int64_t offset) {
-        hover(offset < 0 ? -1 : m_document->nodeAt(static_cast<std::uint32_t>(offset)));
-    });
-    connect(m_bytes, &ByteView::activated, this, &InspectorPanel::activate);
-    connect(m_bytes, &ByteView::menuRequested, this, &InspectorPanel::openMenu);
-    connect(m_problems, &QLabel::linkActivated, this, [this](const QString& link) {
-        const auto index = link.toULongLong();
-        if (index < m_document->problems().size()) {
-            goTo(m_document->problems()[index].node);
-        }
-    });
-    connect(m_previous, &QToolButton::clicked, this, [this] { step(-1); });
-    connect(m_next, &QToolButton::clicked, this, [this] { step(1); });
-    m_hold->setCheckable(true);
-    m_hold->setAccessibleName(tr("Hold this packet"));
-    connect(m_hold, &QToolButton::clicked, this, &InspectorPanel::hold);
-    m_compare->setMenu(new QMenu(m_compare));
-    m_compare->setPopupMode(QToolButton::InstantPopup);
-    connect(m_compare->menu(), &QMenu::aboutToShow, this, &InspectorPanel::fillCompareMenu);
-}
-
 void InspectorPanel::refresh() {
     const auto wanted = inspectedPacket(m_view, m_type);
     const auto packet = wanted ? m_view.packet(*wanted) : std::nullopt;
     if (!packet) {
-        if (!wanted) {
-            showEmpty();
-        }
         return;
     }
-    const bool isNew = !m_isShown || m_document->number() != packet->number ||
-                       m_document->sender() != packet->sender ||
-                       m_document->unit() != unitOf(m_view, *packet);
+    const bool isNew = !m_isShown || m_document->number != packet->number ||
+                       m_document->sender != packet->sender || m_document->unit != unitOf(m_view, *packet);
     if (isNew) {
         inspect(*packet);
     }
@@ -145,23 +148,15 @@ void InspectorPanel::refresh() {
     followSelection(isNew);
 }
 
-void InspectorPanel::showEmpty() {
+void InspectorPanel::showParts() {
     if (!m_isShown) {
         m_title->setText({}, tr("No packet"));
         m_fields->setEmptyText(tr("No packet yet.\nEvery field and byte of the selected packet, or of the "
                                   "newest one, is shown here."));
-        m_problems->hide();
-        m_problemLine->hide();
-        m_detail->clear();
     }
-    showParts();
-}
-
-/// Without a packet there is nothing but what is said about that.
-void InspectorPanel::showParts() {
-    m_bytes->setVisible(m_isShown);
-    m_detail->setVisible(m_isShown);
-    m_detailLine->setVisible(m_isShown);
+    for (QWidget* widget : std::initializer_list<QWidget*>{m_bytes, m_detail, m_detailLine}) {
+        widget->setVisible(m_isShown);
+    }
     for (QToolButton* button : {m_previous, m_next, m_hold, m_compare}) {
         button->setEnabled(m_isShown);
     }
@@ -177,17 +172,17 @@ void InspectorPanel::inspect(const log::Packet& packet) {
         showComparison();
     });
     m_bytes->setDocument(m_document);
-    const int type = m_document->hasHeader() ? m_document->type() : -1;
+    const int type = m_document->hasHeader ? m_document->type() : -1;
     if (m_openedType != type) {
         m_openedType = type;
         m_fields->openFirst();
     }
-    if (m_document->hasHeader() && m_document->kind() == model::PacketKind::Datagram) {
+    if (m_document->hasHeader && m_document->kind == model::PacketKind::Datagram) {
         m_type = m_document->type();
     }
     QString owner;
-    if (m_document->hasHeader()) {
-        const model::CharacterKey key{packet.sender, m_document->header().character};
+    if (m_document->hasHeader) {
+        const model::CharacterKey key{packet.sender, m_document->header.character};
         owner = QStringLiteral(" · ") + characterName(m_view, key);
     }
     m_title->setText(documentTitle(*m_document), owner);
@@ -201,15 +196,15 @@ void InspectorPanel::showComparison() {
     std::shared_ptr<const FieldDocument> other;
     std::optional<std::uint64_t> number;
     if (m_comparison == Comparison::Previous) {
-        number = comparableBefore(m_view, m_document->number());
+        number = comparableBefore(m_view, m_document->number);
     } else if (m_comparison == Comparison::Reference) {
         number = m_reference;
     }
     if (const auto packet = number ? m_view.packet(*number) : std::nullopt) {
         other = std::make_shared<FieldDocument>(*packet, unitOf(m_view, *packet));
     }
-    const bool isSameType = other != nullptr && other->hasHeader() && m_document->hasHeader() &&
-                            other->type() == m_document->type();
+    const bool isSameType =
+        other != nullptr && other->hasHeader && m_document->hasHeader && other->type() == m_document->type();
     if (isSameType || m_model.other() != nullptr) {
         m_model.setOther(isSameType ? other : nullptr);
     }
@@ -224,7 +219,7 @@ void InspectorPanel::compare(Comparison comparison) {
         return;
     }
     if (comparison != Comparison::None && !m_view.choices().selection.packet) {
-        m_commands.selectPacket(m_document->number());
+        m_commands.selectPacket(m_document->number);
     }
     m_fields->change([this] { showComparison(); });
     describeProblems();
@@ -232,7 +227,7 @@ void InspectorPanel::compare(Comparison comparison) {
 
 void InspectorPanel::setReference() {
     if (m_isShown) {
-        m_reference = m_document->number();
+        m_reference = m_document->number;
     }
 }
 
@@ -243,9 +238,9 @@ QString InspectorPanel::comparisonText() const {
     if (const FieldDocument* other = m_model.other()) {
         const QString count = m_model.differences() == 1 ? tr("1 field differs")
                                                          : tr("%1 fields differ").arg(m_model.differences());
-        const double apartMs = log::millisecondsOf(m_document->stamp() - other->stamp());
+        const double apartMs = log::millisecondsOf(m_document->stamp - other->stamp);
         return tr("Compared with packet %1, %2 ms apart: %3")
-            .arg(grouped(other->number()), signedFixed(apartMs, 2), count);
+            .arg(grouped(other->number), signedFixed(apartMs, 2), count);
     }
     return m_comparison == Comparison::Previous
                ? tr("No earlier packet of this stream to compare with")
@@ -255,8 +250,8 @@ QString InspectorPanel::comparisonText() const {
 
 void InspectorPanel::describeProblems() {
     QStringList lines;
-    for (std::size_t i = 0; i < m_document->problems().size(); ++i) {
-        const FieldProblem& problem = m_document->problems()[i];
+    for (std::size_t i = 0; i < m_document->problems.size(); ++i) {
+        const FieldProblem& problem = m_document->problems[i];
         if (problem.text.isEmpty()) {
             continue;
         }
@@ -277,24 +272,9 @@ void InspectorPanel::describeProblems() {
     m_problemLine->setVisible(!lines.isEmpty());
 }
 
-/// While no field is selected, its room describes the packet as a whole.
-void InspectorPanel::describePacket() {
-    if (!m_isShown) {
-        m_detail->clear();
-        return;
-    }
-    const QStringList facts = documentLines(*m_document);
-    QStringList lines{QStringLiteral("<b>%1</b>").arg(documentTitle(*m_document).toHtmlEscaped()),
-                      facts.value(0).toHtmlEscaped()};
-    for (const QString& fact : facts.mid(1)) {
-        lines += coloured(theme().dim, fact);
-    }
-    setLines(*m_detail, lines);
-}
-
 void InspectorPanel::describe(std::int32_t node) {
     if (node < 0 || node >= m_document->count()) {
-        describePacket();
+        setLines(*m_detail, m_isShown ? packetLines(*m_document) : QStringList());
         return;
     }
     const std::int32_t item = m_document->itemOf(node);
@@ -331,11 +311,15 @@ void InspectorPanel::followSelection(bool isNewPacket) {
                          (isNewPacket || selection.found != m_followed.found);
     m_followed = selection;
     if (isFound) {
-        showFound(*selection.found);
+        // The field that they begin in, and all of them.
+        const ByteRange found{selection.found->begin, selection.found->end};
+        goTo(m_document->nodeAt(found.begin));
+        m_bytes->setSelected(found);
+        m_bytes->scrollTo(found.begin);
         return;
     }
     if (isOtherPacket && isNewPacket) {
-        const auto& problems = m_document->problems();
+        const auto& problems = m_document->problems;
         const auto first = std::ranges::find_if(problems, [](const FieldProblem& problem) {
             return problem.node >= 0 && problem.level != Health::Unknown;
         });
@@ -350,15 +334,6 @@ void InspectorPanel::followSelection(bool isNewPacket) {
     }
 }
 
-/// The field that the found bytes begin in, and all of them.
-void InspectorPanel::showFound(const model::FoundBytes& found) {
-    if (const std::int32_t node = m_document->nodeAt(found.begin); node >= 0) {
-        showField(node);
-    }
-    m_bytes->setSelected({found.begin, found.end});
-    m_bytes->scrollTo(found.begin);
-}
-
 void InspectorPanel::hover(std::int32_t node) {
     m_bytes->setHovered(rangeOf(*m_document, node));
     m_fields->setHovered(node);
@@ -371,10 +346,10 @@ void InspectorPanel::select(std::int32_t node) {
     m_bytes->scrollTo(range.begin);
     describe(node);
     const int segment = m_document->segmentOf(node);
-    if (segment >= 0 && m_document->hasHeader() && segment != m_view.choices().selection.segment) {
+    if (segment >= 0 && m_document->hasHeader && segment != m_view.choices().selection.segment) {
         model::Selection selection = m_view.choices().selection;
-        selection.sender = m_document->sender();
-        selection.character = model::CharacterKey{m_document->sender(), m_document->header().character};
+        selection.sender = m_document->sender;
+        selection.character = model::CharacterKey{m_document->sender, m_document->header.character};
         selection.segment = segment;
         m_followed = selection;
         m_commands.select(selection);
@@ -390,41 +365,32 @@ void InspectorPanel::activate(std::int64_t offset) {
 }
 
 void InspectorPanel::goTo(std::int32_t node) {
-    if (node >= 0) {
-        showField(node);
-        m_bytes->scrollTo(rangeOf(*m_document, node).begin);
+    if (node < 0) {
+        return;
     }
-}
-
-void InspectorPanel::showField(std::int32_t node) {
     m_fields->setCurrentNode(node);
-    // Not shown where only differences are, and it has none: its bytes are there all the same.
+    // Not shown if only differences are, and it has none: its bytes are there all the same.
     if (const QModelIndex index = m_model.indexOf(node); index.isValid()) {
         m_fields->expand(index);
         m_fields->scrollTo(index, m_document->itemOf(node) == node ? QAbstractItemView::PositionAtTop
                                                                    : QAbstractItemView::PositionAtCenter);
     }
     describeCurrent();
+    m_bytes->scrollTo(rangeOf(*m_document, node).begin);
 }
 
-void InspectorPanel::openMenu(const QPoint& at) {
-    m_fields->showMenu(at, QString::fromStdString(m_view.choices().displayFilter));
-}
-
-void InspectorPanel::step(int direction) {
+void InspectorPanel::step(Direction direction) {
     if (const auto found =
-            m_isShown ? neighbourInStream(m_view, m_document->number(), direction) : std::nullopt) {
+            m_isShown ? neighbourInStream(m_view, m_document->number, direction) : std::nullopt) {
         m_commands.selectPacket(*found);
     }
 }
 
-void InspectorPanel::hold(bool isHeld) {
-    if (isHeld && m_isShown) {
-        m_commands.selectPacket(m_document->number());
-    } else {
-        model::Selection selection = m_view.choices().selection;
-        selection.packet.reset();
-        m_commands.select(selection);
+void InspectorPanel::toggleHold() {
+    if (isHeld()) {
+        m_commands.unselectPacket();
+    } else if (m_isShown) {
+        m_commands.selectPacket(m_document->number);
     }
 }
 
@@ -432,7 +398,7 @@ QString InspectorPanel::summary() const {
     if (!m_isShown) {
         return {};
     }
-    const QString number = tr("packet %1").arg(grouped(m_document->number()));
+    const QString number = tr("packet %1").arg(grouped(m_document->number));
     return m_view.choices().selection.packet ? number : tr("following · %1").arg(number);
 }
 
@@ -448,6 +414,70 @@ void InspectorPanel::changeEvent(QEvent* event) {
         describeProblems();
         describeCurrent();
     }
+}
+
+/// A part of the panel, so that its entries reach what is private there.
+struct InspectorPanel::Actions {
+    using Do = ActionsOf<InspectorPanel>;
+
+    static constexpr const char* kGoMenu = "&Go";
+    static constexpr const char* kComparePacket = QT_TRANSLATE_NOOP("Action", "&Edit/Compar&e packet");
+
+    static constexpr ActionInfo kTable[] = {
+        {"holdPacket", kGoMenu, QT_TRANSLATE_NOOP("Action", "&Hold this packet"), "",
+         Do::call<&InspectorPanel::toggleHold>, Do::is<&InspectorPanel::isHeld>},
+        {"compareNot", kComparePacket, QT_TRANSLATE_NOOP("Action", "Do &not compare"), "",
+         Do::call<&InspectorPanel::compare, Comparison::None>,
+         Do::is<&InspectorPanel::comparison, Comparison::None>},
+        {"comparePrevious", kComparePacket,
+         QT_TRANSLATE_NOOP("Action", "With the &previous packet of its stream"), "",
+         Do::call<&InspectorPanel::compare, Comparison::Previous>,
+         Do::is<&InspectorPanel::comparison, Comparison::Previous>},
+        {"compareReference", kComparePacket, QT_TRANSLATE_NOOP("Action", "With the &reference"), "",
+         Do::call<&InspectorPanel::compare, Comparison::Reference>,
+         Do::is<&InspectorPanel::comparison, Comparison::Reference>},
+        lineIn(kComparePacket),
+        {"setReference", kComparePacket, QT_TRANSLATE_NOOP("Action", "&Set this packet as reference"), "",
+         Do::call<&InspectorPanel::setReference>},
+        {"onlyDifferences", kComparePacket, QT_TRANSLATE_NOOP("Action", "Only &differences"), "",
+         Do::call<&InspectorPanel::toggleOnlyDifferences>,
+         Do::isIn<&InspectorPanel::m_model, &FieldModel::isOnlyDifferences>},
+    };
+};
+
+std::span<const ActionInfo> InspectorPanel::actionTable() {
+    return Actions::kTable;
+}
+
+void InspectorPanel::fillCompareMenu() {
+    QMenu* menu = m_compare->menu();
+    menu->clear();
+    const auto add = [&](const QString& text, Comparison comparison) {
+        QAction* action = menu->addAction(text, this, [this, comparison] { compare(comparison); });
+        action->setCheckable(true);
+        action->setChecked(m_comparison == comparison);
+        return action;
+    };
+    add(tr("Do not compare"), Comparison::None);
+    add(tr("With the previous packet of its stream"), Comparison::Previous);
+    add(m_reference ? tr("With the reference, packet %1").arg(grouped(*m_reference))
+                    : tr("With the reference"),
+        Comparison::Reference)
+        ->setEnabled(m_reference.has_value());
+    menu->addSeparator();
+    menu->addAction(tr("Set this packet as reference"), this, &InspectorPanel::setReference);
+    QAction* only = menu->addAction(tr("Only differences"));
+    only->setCheckable(true);
+    only->setChecked(m_model.isOnlyDifferences());
+    connect(only, &QAction::triggered, this, &InspectorPanel::toggleOnlyDifferences);
+}
+
+void InspectorPanel::toggleOnlyDifferences() {
+    m_fields->change([this] { m_model.setOnlyDifferences(!m_model.isOnlyDifferences()); });
+}
+
+bool InspectorPanel::isHeld() const {
+    return m_view.choices().selection.packet.has_value();
 }
 
 } // namespace posewire::gui

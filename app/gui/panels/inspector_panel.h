@@ -3,6 +3,7 @@
 
 #include "app/gui/base/panel.h"
 #include "app/gui/models/field_model.h"
+#include "app/gui/models/packet_choice.h"
 #include "app/gui/panels/byte_view.h"
 #include "app/gui/panels/field_view.h"
 #include "app/gui/theme/widgets.h"
@@ -27,15 +28,10 @@ public:
     void refresh() override;
     [[nodiscard]] QString summary() const override;
 
-    /// What is said to be wrong with the packet, as rich text; empty where nothing is.
-    [[nodiscard]] QString problems() const { return m_problems->text(); }
-
     enum class Comparison { None, Previous, Reference };
     void compare(Comparison comparison);
     [[nodiscard]] Comparison comparison() const { return m_comparison; }
     void setReference();
-    void toggleOnlyDifferences();
-    [[nodiscard]] bool isOnlyDifferences() const { return m_model.isOnlyDifferences(); }
     /// Keeps showing the packet that is shown, or follows the stream again.
     void toggleHold();
     [[nodiscard]] bool isHeld() const;
@@ -45,31 +41,27 @@ protected:
     void changeEvent(QEvent* event) override;
 
 private:
+    struct Actions;
+
     void layOut();
-    void connectParts();
     void fillCompareMenu();
 
     void inspect(const log::Packet& packet);
     void showComparison();
     [[nodiscard]] QString comparisonText() const;
-    void showEmpty();
     void describeProblems();
     void describe(std::int32_t node);
-    void describePacket();
     void describeCurrent();
-    void showFound(const model::FoundBytes& found);
     void followSelection(bool isNewPacket);
+    /// Without a packet there is nothing but what is said about that.
     void showParts();
+    void toggleOnlyDifferences();
 
     void hover(std::int32_t node);
     void select(std::int32_t node);
     void activate(std::int64_t offset);
     void goTo(std::int32_t node);
-    /// The same without its bytes.
-    void showField(std::int32_t node);
-    void openMenu(const QPoint& at);
-    void step(int direction);
-    void hold(bool isHeld);
+    void step(Direction direction);
 
     FieldModel m_model;
     std::shared_ptr<const FieldDocument> m_document = std::make_shared<FieldDocument>();

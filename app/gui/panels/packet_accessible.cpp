@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/panels/packet_view.h"
-
 #include "app/gui/models/column.h"
 #include "app/gui/panels/fitting_header.h"
+#include "app/gui/panels/packet_view.h"
 
 #include <QAccessible>
 #include <QAccessibleWidget>
@@ -26,11 +25,12 @@ std::vector<int> shownColumns(const PacketView& view) {
     return columns;
 }
 
-/// What is at a place in sight; invalid where that is empty by now.
-QModelIndex indexAt(const PacketView& view, int row, int column) {
+/// The cell at a place in sight; invalid if that is empty by now.
+QModelIndex cellIn(const PacketView& view, int row, int column) {
     const std::vector<int> columns = shownColumns(view);
-    return row >= 0 && row < view.rowsInSight() && column >= 0 && column < static_cast<int>(columns.size())
-               ? view.model()->index(view.firstInSight() + row, columns[static_cast<std::size_t>(column)])
+    const bool isPlace = row >= 0 && row < view.wholeRows() && column >= 0 && column < std::ssize(columns);
+    return isPlace && view.model() != nullptr
+               ? view.model()->index(view.topRow() + row, columns[static_cast<std::size_t>(column)])
                : QModelIndex();
 }
 
@@ -50,12 +50,11 @@ public:
     [[nodiscard]] int indexOfChild(const QAccessibleInterface*) const override { return -1; }
     [[nodiscard]] QAccessible::Role role() const override { return QAccessible::Cell; }
     [[nodiscard]] QString text(QAccessible::Text text) const override {
-        const QModelIndex at = m_view == nullptr ? QModelIndex() : index();
-        if (text != QAccessible::Name || !at.isValid()) {
+        if (text != QAccessible::Name || !isValid()) {
             return {};
         }
-        const QString spoken = at.data(Qt::AccessibleTextRole).toString();
-        return spoken.isEmpty() ? cellText(at) : spoken;
+        const QString spoken = index().data(Qt::AccessibleTextRole).toString();
+        return spoken.isEmpty() ? cellText(index()) : spoken;
     }
     void setText(QAccessible::Text, const QString&) override {}
     [[nodiscard]] QRect rect() const override {
@@ -65,7 +64,7 @@ public:
     [[nodiscard]] QAccessible::State state() const override {
         QAccessible::State state;
         state.invalid = !isValid();
-        if (!state.invalid) {
+        if (isValid()) {
             state.selectable = true;
             state.focusable = true;
             state.selected = isSelected();
@@ -88,13 +87,14 @@ public:
     [[nodiscard]] bool isSelected() const override { return m_view->selectionModel()->isSelected(index()); }
 
 private:
-    [[nodiscard]] QModelIndex index() const { return indexAt(*m_view, m_row, m_column); }
+    [[nodiscard]] QModelIndex index() const { return cellIn(*m_view, m_row, m_column); }
 
     QPointer<PacketView> m_view;
     int m_row;
     int m_column;
 };
 
+/// Its columns cannot be selected.
 class PacketTable final : public QAccessibleWidget, public QAccessibleTableInterface {
 public:
     explicit PacketTable(PacketView* view) : QAccessibleWidget(view, QAccessible::Table), m_view(view) {}
@@ -112,16 +112,14 @@ public:
     }
     [[nodiscard]] int childCount() const override { return rowCount() * columnCount(); }
     [[nodiscard]] QAccessibleInterface* child(int place) const override {
-        const int columns = columnCount();
-        return columns == 0 || place < 0 ? nullptr : cellAt(place / columns, place % columns);
+        return place < 0 || place >= childCount() ? nullptr
+                                                  : cellAt(place / columnCount(), place % columnCount());
     }
     [[nodiscard]] QAccessibleInterface* childAt(int x, int y) const override {
         const QModelIndex at = m_view->indexAt(m_view->viewport()->mapFromGlobal(QPoint(x, y)));
         const std::vector<int> columns = shownColumns(*m_view);
         const auto column = std::ranges::find(columns, at.column());
-        return at.isValid() && column != columns.end()
-                   ? cellAt(at.row() - m_view->firstInSight(), static_cast<int>(column - columns.begin()))
-                   : nullptr;
+        return cellAt(at.row() - m_view->topRow(), static_cast<int>(column - columns.begin()));
     }
     [[nodiscard]] int indexOfChild(const QAccessibleInterface* child) const override {
         const auto* cell = dynamic_cast<const PacketCell*>(child);
@@ -129,7 +127,7 @@ public:
     }
 
     [[nodiscard]] QAccessibleInterface* cellAt(int row, int column) const override {
-        if (!gui::indexAt(*m_view, row, column).isValid()) {
+        if (!cellIn(*m_view, row, column).isValid()) {
             return nullptr;
         }
         const auto [place, isNew] = m_cells.try_emplace({row, column}, 0);
@@ -139,18 +137,18 @@ public:
         return QAccessible::accessibleInterface(place->second);
     }
     [[nodiscard]] QString columnDescription(int column) const override {
-        const std::vector<int> columns = shownColumns(*m_view);
-        return column >= 0 && column < static_cast<int>(columns.size())
-                   ? m_view->model()
-                         ->headerData(columns[static_cast<std::size_t>(column)], Qt::Horizontal)
-                         .toString()
-                   : QString();
+        const QModelIndex cell = cellIn(*m_view, 0, column);
+        return cell.isValid() ? m_view->model()->headerData(cell.column(), Qt::Horizontal).toString()
+                              : QString();
     }
     [[nodiscard]] QString rowDescription(int) const override { return {}; }
     [[nodiscard]] QAccessibleInterface* caption() const override { return nullptr; }
     [[nodiscard]] QAccessibleInterface* summary() const override { return nullptr; }
     [[nodiscard]] int columnCount() const override { return static_cast<int>(shownColumns(*m_view).size()); }
-    [[nodiscard]] int rowCount() const override { return m_view->rowsInSight(); }
+    [[nodiscard]] int rowCount() const override {
+        const int rows = m_view->model() == nullptr ? 0 : m_view->model()->rowCount();
+        return std::clamp(rows - m_view->topRow(), 0, m_view->wholeRows());
+    }
 
     [[nodiscard]] int selectedRowCount() const override { return static_cast<int>(selectedRows().size()); }
     [[nodiscard]] QList<int> selectedRows() const override {
@@ -163,8 +161,7 @@ public:
         return rows;
     }
     [[nodiscard]] bool isRowSelected(int row) const override {
-        const QModelIndex at = gui::indexAt(*m_view, row, 0);
-        return at.isValid() && m_view->selectionModel()->isSelected(at);
+        return m_view->selectionModel()->isSelected(cellIn(*m_view, row, 0));
     }
     [[nodiscard]] int selectedCellCount() const override { return selectedRowCount() * columnCount(); }
     [[nodiscard]] QList<QAccessibleInterface*> selectedCells() const override {
@@ -177,7 +174,7 @@ public:
         return cells;
     }
     bool selectRow(int row) override {
-        const QModelIndex at = gui::indexAt(*m_view, row, 0);
+        const QModelIndex at = cellIn(*m_view, row, 0);
         if (at.isValid()) {
             m_view->showRow(at.row());
         }
@@ -205,10 +202,7 @@ QAccessibleInterface* makePacketTable(const QString& /*className*/, QObject* obj
 } // namespace
 
 void installPacketAccessible() {
-    static const bool isInstalled = [] {
-        QAccessible::installFactory(makePacketTable);
-        return true;
-    }();
+    static const bool isInstalled = (QAccessible::installFactory(makePacketTable), true);
     static_cast<void>(isInstalled);
 }
 

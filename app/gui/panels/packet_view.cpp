@@ -6,10 +6,11 @@
 #include "app/gui/models/text.h"
 #include "app/gui/panels/cell_delegate.h"
 #include "app/gui/panels/fitting_header.h"
+#include "app/gui/panels/table_view.h"
 #include "app/gui/theme/theme.h"
 
 #include <QContextMenuEvent>
-#include <QKeyEvent>
+#include <QPainter>
 #include <QPushButton>
 #include <QScopedValueRollback>
 #include <QScrollBar>
@@ -20,8 +21,35 @@ namespace posewire::gui {
 
 namespace {
 
-bool wantsNewest(const QKeyEvent& event) {
-    return event.key() == Qt::Key_End && event.modifiers() == Qt::ControlModifier;
+/// Measuring takes longer than drawing: only what may be too long is measured.
+QString fitting(const QFontMetrics& metrics, const QString& text, int width) {
+    const bool isShort = text.size() * metrics.maxWidth() <= width;
+    return isShort ? text : metrics.elidedText(text, Qt::ElideRight, width);
+}
+
+/// Not the delegate's way, which measures every text: ten times slower.
+void paintPacketCell(QPainter& painter, const QModelIndex& index, QRect rect, bool isSelected) {
+    const QString text = index.data(Qt::DisplayRole).toString();
+    if (text.isEmpty()) {
+        return;
+    }
+    const QFontMetrics metrics = painter.fontMetrics();
+    if (const QVariant dot = index.data(kDotRole); dot.isValid()) {
+        const int side = std::max(7, metrics.ascent() * 2 / 3);
+        rect.setLeft(rect.left() +
+                     CellDelegate::paintBefore(painter, rect, side, dot.value<CharacterMark>()));
+    }
+    const QVariant colour = index.data(Qt::ForegroundRole);
+    const QColor pen = colour.isValid() ? colour.value<QColor>() : theme().text;
+    painter.setPen(isSelected ? onSelection(pen) : pen);
+    const QString shown = fitting(metrics, text, rect.width());
+    painter.drawText(
+        rect, (CellDelegate::isNumber(index) ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignVCenter, shown);
+    if (const QString suffix = index.data(kSuffixRole).toString(); !suffix.isEmpty()) {
+        rect.setLeft(rect.left() + metrics.horizontalAdvance(shown + QLatin1Char(' ')));
+        painter.setPen(isSelected ? onSelection(theme().dim) : theme().dim);
+        painter.drawText(rect, Qt::AlignLeft | Qt::AlignVCenter, fitting(metrics, suffix, rect.width()));
+    }
 }
 
 } // namespace
@@ -48,22 +76,19 @@ PacketView::PacketView(const QString& name, QWidget* parent)
     setHorizontalScrollMode(ScrollPerPixel);
     setCornerWidget(new QWidget(this));
     m_newest->setObjectName(QStringLiteral("newestPacket"));
+    m_newest->setToolTip(tr("Go to the newest packet and follow (Ctrl+End)"));
     m_newest->setFocusPolicy(Qt::NoFocus); // Ctrl+End does the same
     m_newest->hide();
     connect(m_newest, &QPushButton::clicked, this, &PacketView::newestRequested);
-    const auto placeAll = [this] {
-        updateGeometries();
-        viewport()->update();
-    };
-    connect(m_header, &QHeaderView::sectionResized, this, [this, placeAll] {
+    connect(m_header, &QHeaderView::sectionResized, this, [this] {
         if (!m_header->isFitting()) { // scroll bars would come and go, and take width meanwhile
-            placeAll();
+            updateGeometries();
         }
     });
-    connect(m_header, &FittingHeader::fitted, this, placeAll);
+    connect(m_header, &FittingHeader::fitted, this, &PacketView::updateGeometries);
     connect(verticalScrollBar(), &QScrollBar::valueChanged, this, [this](int value) {
         if (!m_isAdjusting) {
-            noteFollowing(value >= verticalScrollBar()->maximum());
+            setFollowing(value >= verticalScrollBar()->maximum());
         }
     });
 }
@@ -71,34 +96,28 @@ PacketView::PacketView(const QString& name, QWidget* parent)
 void PacketView::setModel(QAbstractItemModel* model) {
     QAbstractItemView::setModel(model);
     m_header->setModel(model);
-    connect(model, &QAbstractItemModel::rowsInserted, this,
-            [this](const QModelIndex&, int first, int last) { onRowsInserted(last - first + 1); });
-    connect(model, &QAbstractItemModel::rowsRemoved, this,
-            [this](const QModelIndex&, int first, int last) { onRowsRemoved(first, last - first + 1); });
-    connect(model, &QAbstractItemModel::modelReset, this, &PacketView::onReset);
+    connect(model, &QAbstractItemModel::rowsInserted, this, [this](const QModelIndex&, int first, int last) {
+        m_missed += m_isFollowing || m_isCatchingUp ? 0 : static_cast<std::uint64_t>(last - first + 1);
+        layOut();
+    });
+    connect(model, &QAbstractItemModel::rowsRemoved, this, [this](const QModelIndex&, int first, int last) {
+        if (first == 0 && !m_isFollowing) {
+            const QScopedValueRollback guard(m_isAdjusting, true);
+            verticalScrollBar()->setValue(topRow() - (last - first + 1));
+        }
+        layOut();
+    });
+    connect(model, &QAbstractItemModel::modelReset, this, [this] {
+        m_missed = 0;
+        layOut();
+    });
 }
 
 void PacketView::setEmptyText(const QString& text) {
     if (text != m_emptyText) {
         m_emptyText = text;
-        describe();
-        viewport()->update();
+        layOut();
     }
-}
-
-/// Only while it is empty it is said what to do.
-void PacketView::describe() {
-    const bool isEmpty = model() == nullptr || model()->rowCount() == 0;
-    setAccessibleDescription(isEmpty ? m_emptyText : QString());
-}
-
-int PacketView::rowsInSight() const {
-    const int rows = model() == nullptr ? 0 : model()->rowCount();
-    return std::clamp(rows - topRow(), 0, wholeRows());
-}
-
-int PacketView::rowHeight() const {
-    return CellDelegate::rowHeight(fontMetrics());
 }
 
 int PacketView::topRow() const {
@@ -106,140 +125,74 @@ int PacketView::topRow() const {
 }
 
 int PacketView::wholeRows() const {
-    return std::max(1, viewport()->height() / rowHeight());
+    return std::max(1, viewport()->height() / m_rowHeight);
+}
+
+/// After a change of the rows.
+void PacketView::layOut() {
+    if (rowCount() > 0) {
+        m_header->keepWhole(model()->index(rowCount() - 1, 0)); // the newest row has the longest figures
+    }
+    if (const QString text = rowCount() == 0 ? m_emptyText : QString(); text != accessibleDescription()) {
+        setAccessibleDescription(text);
+    }
+    updateGeometries();
 }
 
 void PacketView::updateGeometries() {
-    const int height = rowHeight() + 1;
-    setViewportMargins(0, height, 0, 0);
-    m_header->setGeometry(viewport()->x(), viewport()->y() - height, viewport()->width(), height);
-    fitScrollBars();
-    placeButton();
-    QAbstractItemView::updateGeometries();
-}
-
-void PacketView::fitScrollBars() {
+    m_rowHeight = CellDelegate::rowHeight(fontMetrics());
+    setViewportMargins(0, m_rowHeight + 1, 0, 0);
+    m_header->setGeometry(viewport()->x(), viewport()->y() - m_rowHeight - 1, viewport()->width(),
+                          m_rowHeight + 1);
     const QScopedValueRollback guard(m_isAdjusting, true);
-    const int rows = model() == nullptr ? 0 : model()->rowCount();
     verticalScrollBar()->setSingleStep(1);
     verticalScrollBar()->setPageStep(wholeRows());
-    verticalScrollBar()->setRange(0, std::max(0, rows - wholeRows()));
+    verticalScrollBar()->setRange(0, std::max(0, rowCount() - wholeRows()));
     horizontalScrollBar()->setSingleStep(fontMetrics().averageCharWidth() * 4);
     horizontalScrollBar()->setPageStep(viewport()->width());
     horizontalScrollBar()->setRange(0, std::max(0, m_header->length() - viewport()->width()));
     if (m_isFollowing) {
         verticalScrollBar()->setValue(verticalScrollBar()->maximum());
     }
-}
-
-/// Rows that nobody sees are not looked at: there may be millions.
-void PacketView::dataChanged(const QModelIndex& topLeft, const QModelIndex& bottomRight,
-                             const QList<int>& roles) {
-    const int first = std::max(topLeft.row(), topRow());
-    const int last = std::min(bottomRight.row(), topRow() + wholeRows());
-    if (topLeft.isValid() && bottomRight.isValid() && first <= last) {
-        QAbstractItemView::dataChanged(topLeft.siblingAtRow(first), bottomRight.siblingAtRow(last), roles);
+    m_newest->setVisible(!m_isFollowing && rowCount() > 0);
+    const QString count = grouped(m_missed);
+    const QStringList words = m_missed == 0 ? QStringList{tr("↓ Follow"), tr("↓")}
+                                            : QStringList{tr("↓ %1 new").arg(count), tr("↓ %1").arg(count)};
+    // In the line of column titles it covers no row; if it would cover a title even in few words, it lies on
+    // the last row.
+    if (!m_newest->isHidden() && !m_header->seat(*m_newest, words)) {
+        m_newest->move(m_newest->x(), viewport()->geometry().bottom() - m_newest->height());
     }
-}
-
-void PacketView::onRowsInserted(int count) {
-    m_missed += m_isFollowing || m_isCatchingUp ? 0 : static_cast<std::uint64_t>(count);
-    keepFigures();
-    fitScrollBars();
-    placeButton();
-    describe();
+    QAbstractItemView::updateGeometries();
     viewport()->update();
-}
-
-void PacketView::onRowsRemoved(int first, int count) {
-    const QScopedValueRollback guard(m_isAdjusting, true);
-    if (first == 0 && !m_isFollowing) {
-        verticalScrollBar()->setValue(topRow() - count);
-    }
-    fitScrollBars();
-    describe();
-    viewport()->update();
-}
-
-/// The newest row has the longest ones.
-void PacketView::keepFigures() {
-    m_header->keepWhole(model()->index(model()->rowCount() - 1, 0));
-}
-
-void PacketView::onReset() {
-    m_missed = 0;
-    keepFigures();
-    describe();
-    fitScrollBars();
-    placeButton();
-    viewport()->update();
-}
-
-void PacketView::noteFollowing(bool isFollowing) {
-    if (isFollowing != m_isFollowing) {
-        m_isFollowing = isFollowing;
-        m_missed = 0;
-        placeButton();
-    }
 }
 
 void PacketView::setFollowing(bool isFollowing) {
-    noteFollowing(isFollowing);
-    fitScrollBars();
-}
-
-void PacketView::placeButton() {
-    const bool isShown = !m_isFollowing && model() != nullptr && model()->rowCount() > 0;
-    m_newest->setVisible(isShown);
-    if (!isShown) {
-        return;
-    }
-    m_newest->setToolTip(tr("Go to the newest packet and follow (Ctrl+End)"));
-    // In the line of column titles it covers no row; where it would cover a title even in few words, it lies
-    // on the last row.
-    const QString count = grouped(m_missed);
-    if (!m_header->seat(*m_newest, m_missed == 0
-                                       ? QStringList{tr("↓ Follow"), tr("↓")}
-                                       : QStringList{tr("↓ %1 new").arg(count), tr("↓ %1").arg(count)})) {
-        m_newest->move(m_newest->x(), viewport()->geometry().bottom() - m_newest->height());
-    }
+    m_missed = isFollowing == m_isFollowing ? m_missed : 0;
+    m_isFollowing = isFollowing;
+    updateGeometries();
 }
 
 void PacketView::showRow(int row) {
     const QModelIndex shown = model()->index(row, std::max(0, currentIndex().column()));
-    if (!shown.isValid()) {
-        return;
+    if (shown.isValid()) {
+        setFollowing(false);
+        selectionModel()->setCurrentIndex(shown,
+                                          QItemSelectionModel::ClearAndSelect | QItemSelectionModel::Rows);
+        scrollTo(shown);
     }
-    setFollowing(false);
-    selectionModel()->setCurrentIndex(shown, QItemSelectionModel::ClearAndSelect | QItemSelectionModel::Rows);
-    scrollTo(shown);
-}
-
-std::vector<int> PacketView::selectedRows(std::size_t most) const {
-    std::vector<std::pair<int, int>> ranges;
-    for (const QItemSelectionRange& range : selectionModel()->selection()) {
-        ranges.emplace_back(range.top(), range.bottom());
-    }
-    std::ranges::sort(ranges);
-    std::vector<int> rows;
-    for (const auto& [first, last] : ranges) {
-        for (int row = first; row <= last && rows.size() < most; ++row) {
-            rows.push_back(row);
-        }
-    }
-    return rows;
 }
 
 QRect PacketView::visualRect(const QModelIndex& index) const {
     if (!index.isValid()) {
         return {};
     }
-    const std::int64_t top = (std::int64_t{index.row()} - topRow()) * rowHeight();
+    const std::int64_t top = (std::int64_t{index.row()} - topRow()) * m_rowHeight;
     // Rows far outside would not fit into the coordinates of a widget.
     const auto y =
-        static_cast<int>(std::clamp<std::int64_t>(top, -rowHeight() - 1, viewport()->height() + 1));
+        static_cast<int>(std::clamp<std::int64_t>(top, -m_rowHeight - 1, viewport()->height() + 1));
     return {m_header->sectionViewportPosition(index.column()), y, m_header->sectionSize(index.column()),
-            rowHeight()};
+            m_rowHeight};
 }
 
 bool PacketView::isShown(const QModelIndex& index) const {
@@ -247,53 +200,22 @@ bool PacketView::isShown(const QModelIndex& index) const {
 }
 
 void PacketView::scrollTo(const QModelIndex& index, ScrollHint hint) {
-    if (!index.isValid()) {
+    if (!index.isValid() || (isShown(index) && hint == EnsureVisible)) {
         return;
     }
     const int row = index.row();
-    if (isShown(index) && hint == EnsureVisible) {
-        return;
-    }
     // A row next to the shown ones scrolls by little; one from elsewhere is shown among its neighbours.
     const bool isNear = row >= topRow() - wholeRows() && row < topRow() + 2 * wholeRows();
-    int top = row - wholeRows() / 2;
-    if (hint == PositionAtTop || (isNear && row < topRow())) {
-        top = row;
-    } else if (hint == PositionAtBottom || isNear) {
-        top = row - wholeRows() + 1;
-    }
-    verticalScrollBar()->setValue(top);
+    const bool isToTop = hint == PositionAtTop || (isNear && row < topRow());
+    const bool isToBottom = hint == PositionAtBottom || isNear;
+    verticalScrollBar()->setValue(isToTop ? row : isToBottom ? row - wholeRows() + 1 : row - wholeRows() / 2);
 }
 
 QModelIndex PacketView::indexAt(const QPoint& point) const {
-    if (model() == nullptr || point.y() < 0) {
-        return {};
-    }
-    const int column = m_header->logicalIndexAt(point.x());
-    return model()->index(topRow() + point.y() / rowHeight(), std::max(0, column));
-}
-
-bool PacketView::event(QEvent* event) {
-    // End alone is the window's everywhere: back to live.
-    if (event->type() == QEvent::ShortcutOverride &&
-        (wantsNewest(*static_cast<QKeyEvent*>(event)) ||
-         static_cast<QKeyEvent*>(event)->matches(QKeySequence::Copy))) {
-        event->accept();
-        return true;
-    }
-    return QAbstractItemView::event(event);
-}
-
-void PacketView::keyPressEvent(QKeyEvent* event) {
-    if (event->matches(QKeySequence::Copy)) {
-        emit copyRequested();
-        event->accept();
-    } else if (wantsNewest(*event)) {
-        emit newestRequested();
-        event->accept();
-    } else {
-        QAbstractItemView::keyPressEvent(event);
-    }
+    return rowCount() == 0 || point.y() < 0
+               ? QModelIndex()
+               : model()->index(topRow() + point.y() / m_rowHeight,
+                                std::max(0, m_header->logicalIndexAt(point.x())));
 }
 
 /// By keyboard the menu belongs to the current row, not to where the pointer happens to be.
@@ -304,12 +226,12 @@ void PacketView::contextMenuEvent(QContextMenuEvent* event) {
     }
     scrollTo(currentIndex());
     const QRect cell = visualRect(currentIndex());
-    const int x = std::clamp(cell.left(), 0, std::max(0, viewport()->width() - rowHeight()));
+    const int x = std::clamp(cell.left(), 0, std::max(0, viewport()->width() - m_rowHeight));
     emit menuRequested(viewport()->mapToGlobal(cell.isNull() ? QPoint(0, 0) : QPoint(x, cell.bottom())));
 }
 
 QModelIndex PacketView::moveCursor(CursorAction action, Qt::KeyboardModifiers /*modifiers*/) {
-    const int rows = model() == nullptr ? 0 : model()->rowCount();
+    const int rows = rowCount();
     if (rows == 0) {
         return {};
     }
@@ -334,34 +256,15 @@ int PacketView::horizontalOffset() const {
 }
 
 void PacketView::setSelection(const QRect& rect, QItemSelectionModel::SelectionFlags flags) {
-    const int rows = model() == nullptr ? 0 : model()->rowCount();
-    if (rows == 0) {
-        return;
+    const int last = rowCount() - 1;
+    const auto rowAt = [&](int y) { return topRow() + (y < 0 ? -1 : y / m_rowHeight); };
+    QItemSelection selection;
+    if (rowAt(rect.top()) <= last) {
+        selection.select(
+            model()->index(std::max(0, rowAt(rect.top())), 0),
+            model()->index(std::clamp(rowAt(rect.bottom()), 0, last), model()->columnCount() - 1));
     }
-    const auto rowAt = [&](int y) {
-        return std::clamp(topRow() + (y < 0 ? -1 : y / rowHeight()), 0, rows - 1);
-    };
-    const bool isBelow = rect.top() / rowHeight() + topRow() >= rows;
-    if (isBelow) {
-        selectionModel()->select(QItemSelection(), flags);
-        return;
-    }
-    selectionModel()->select(QItemSelection(model()->index(rowAt(rect.top()), 0),
-                                            model()->index(rowAt(rect.bottom()), model()->columnCount() - 1)),
-                             flags);
-}
-
-QRegion PacketView::visualRegionForSelection(const QItemSelection& selection) const {
-    QRegion region;
-    for (const QItemSelectionRange& range : selection) {
-        const int first = std::max(range.top(), topRow());
-        const int last = std::min(range.bottom(), topRow() + wholeRows());
-        if (first <= last) {
-            region += QRect(0, (first - topRow()) * rowHeight(), viewport()->width(),
-                            (last - first + 1) * rowHeight());
-        }
-    }
-    return region;
+    selectionModel()->select(selection, flags);
 }
 
 void PacketView::scrollContentsBy(int dx, int /*dy*/) {
@@ -371,17 +274,50 @@ void PacketView::scrollContentsBy(int dx, int /*dy*/) {
     viewport()->update();
 }
 
-void PacketView::resizeEvent(QResizeEvent* event) {
-    QAbstractItemView::resizeEvent(event);
-    m_header->fit();
-    updateGeometries();
+void PacketView::paintEvent(QPaintEvent* event) {
+    if (rowCount() == 0) {
+        drawEmptyText(*viewport(), m_emptyText);
+        return;
+    }
+    QPainter painter(viewport());
+    painter.setFont(packetFont());
+    const int last = std::min(topRow() + event->rect().bottom() / m_rowHeight, rowCount() - 1);
+    for (int row = topRow() + event->rect().top() / m_rowHeight; row <= last; ++row) {
+        paintRow(painter, row);
+    }
 }
 
-void PacketView::changeEvent(QEvent* event) {
-    QAbstractItemView::changeEvent(event);
-    if (event->type() == QEvent::FontChange || event->type() == QEvent::StyleChange) {
-        m_header->fit();
-        updateGeometries();
+void PacketView::paintRow(QPainter& painter, int row) const {
+    const QModelIndex begin = model()->index(row, 0);
+    const QRect rect(0, (row - topRow()) * m_rowHeight, viewport()->width(), m_rowHeight);
+    const bool isSelected = selectionModel()->isSelected(begin);
+    if (isSelected) {
+        painter.fillRect(rect, theme().selection);
+    } else if (begin.data(kStripeRole).toBool()) {
+        painter.fillRect(rect, palette().brush(QPalette::AlternateBase));
+    }
+    for (int column = 0; column < model()->columnCount(); ++column) {
+        const QModelIndex cell = begin.siblingAtColumn(column);
+        QRect room = visualRect(cell);
+        // Words run on over empty cells beside them.
+        for (int beside = column, next = m_header->columnBeside(column, 1);
+             next != beside && !room.isEmpty() && !CellDelegate::isNumber(cell) &&
+             cell.siblingAtColumn(next).data().toString().isEmpty();
+             beside = next, next = m_header->columnBeside(next, 1)) {
+            room.setRight(room.right() + m_header->sectionSize(next));
+        }
+        if (room.intersects(rect)) {
+            const int margin = CellDelegate::margin(fontMetrics());
+            paintPacketCell(painter, cell, room.adjusted(margin, 0, -margin, 0), isSelected);
+        }
+    }
+    if (hasFocus() && currentIndex().row() == row) {
+        painter.setPen(theme().accent);
+        painter.setBrush(Qt::NoBrush);
+        painter.drawRect(visualRect(currentIndex()).adjusted(0, 0, -1, -1));
+    }
+    if (begin.data(kPausedHereRole).toBool()) {
+        painter.fillRect(QRect(rect.left(), rect.bottom() - 1, rect.width(), 2), theme().accent);
     }
 }
 

@@ -3,8 +3,6 @@
 
 #include <QAbstractItemView>
 
-#include <vector>
-
 class QPushButton;
 
 namespace posewire::gui {
@@ -14,8 +12,8 @@ class FittingHeader;
 /// Of the rows: of equal width, and a little smaller than the window's.
 [[nodiscard]] QFont packetFont();
 
-/// A table for tens of millions of rows that all have one height: what it does does not grow with the number
-/// of rows. Follows the last row until it is scrolled away, and then shows how many have come since.
+/// A table for tens of millions of rows that all have one height: its cost does not grow with the number of
+/// rows. Follows the last row until it is scrolled away, and then shows how many have come since.
 class PacketView : public QAbstractItemView {
     Q_OBJECT
 
@@ -23,7 +21,7 @@ public:
     /// `name` is what screen readers call the table.
     explicit PacketView(const QString& name, QWidget* parent = nullptr);
 
-    /// What to do where the table is empty: its description for screen readers, shown while it has no rows.
+    /// What to do if the table is empty: its description for screen readers, shown while it has no rows.
     void setEmptyText(const QString& text);
 
     [[nodiscard]] bool isFollowing() const { return m_isFollowing; }
@@ -35,13 +33,10 @@ public:
     void showRow(int row);
     /// Whether the whole row is in sight.
     [[nodiscard]] bool isShown(const QModelIndex& index) const;
-    [[nodiscard]] int rowHeight() const;
-    /// The rows of which all is in sight: the first one, and how many.
-    [[nodiscard]] int firstInSight() const { return topRow(); }
-    [[nodiscard]] int rowsInSight() const;
+    [[nodiscard]] int topRow() const;
+    /// How many rows there is room for in full.
+    [[nodiscard]] int wholeRows() const;
     [[nodiscard]] FittingHeader& header() const { return *m_header; }
-    /// Rows that are selected, in order, at most `most`.
-    [[nodiscard]] std::vector<int> selectedRows(std::size_t most) const;
 
     void setModel(QAbstractItemModel* model) override;
     [[nodiscard]] QRect visualRect(const QModelIndex& index) const override;
@@ -51,18 +46,12 @@ public:
     void keyboardSearch(const QString& /*search*/) override {}
 
 signals:
-    /// The operator asks for the newest packet: by the button or the End key.
     void newestRequested();
-    void copyRequested();
     void menuRequested(const QPoint& globalPosition);
 
 protected:
     void paintEvent(QPaintEvent* event) override;
-    void resizeEvent(QResizeEvent* event) override;
-    void changeEvent(QEvent* event) override;
-    void keyPressEvent(QKeyEvent* event) override;
     void contextMenuEvent(QContextMenuEvent* event) override;
-    bool event(QEvent* event) override;
     void scrollContentsBy(int dx, int dy) override;
     void updateGeometries() override;
     [[nodiscard]] QModelIndex moveCursor(CursorAction action, Qt::KeyboardModifiers modifiers) override;
@@ -70,28 +59,24 @@ protected:
     [[nodiscard]] int verticalOffset() const override { return 0; }
     [[nodiscard]] bool isIndexHidden(const QModelIndex& /*index*/) const override { return false; }
     void setSelection(const QRect& rect, QItemSelectionModel::SelectionFlags flags) override;
-    void dataChanged(const QModelIndex& topLeft, const QModelIndex& bottomRight,
-                     const QList<int>& roles = {}) override;
-    [[nodiscard]] QRegion visualRegionForSelection(const QItemSelection& selection) const override;
+    /// The base would look at each row that changed, which may be millions.
+    void dataChanged(const QModelIndex& /*topLeft*/, const QModelIndex& /*bottomRight*/,
+                     const QList<int>& /*roles*/ = {}) override {
+        viewport()->update();
+    }
+    [[nodiscard]] QRegion visualRegionForSelection(const QItemSelection& /*selection*/) const override {
+        return viewport()->rect();
+    }
 
 private:
-    void onRowsInserted(int count);
-    void onRowsRemoved(int first, int count);
-    void onReset();
-    void keepFigures();
-    void describe();
-    void fitScrollBars();
-    void placeButton();
-    void noteFollowing(bool isFollowing);
-    [[nodiscard]] int topRow() const;
-    [[nodiscard]] int wholeRows() const;
-    void paintRow(QPainter& painter, int row, const QRect& rect) const;
-    [[nodiscard]] QRect roomOf(const QModelIndex& index) const;
-    void paintCell(QPainter& painter, const QModelIndex& index, QRect rect, bool isSelected) const;
+    [[nodiscard]] int rowCount() const { return model() == nullptr ? 0 : model()->rowCount(); }
+    void layOut();
+    void paintRow(QPainter& painter, int row) const;
 
     FittingHeader* m_header;
     QString m_emptyText;
     QPushButton* m_newest;
+    int m_rowHeight = 1;
     bool m_isFollowing = true;
     bool m_isAdjusting = false; ///< the scroll bar moves because rows come or go, not because anybody scrolls
     bool m_isCatchingUp = false;

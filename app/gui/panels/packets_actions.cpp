@@ -7,7 +7,6 @@
 #include "app/gui/models/text.h"
 #include "app/gui/panels/filter_bar.h"
 #include "app/gui/panels/packets_panel.h"
-#include "core/model/session/accounts.h"
 
 #include <QMenu>
 
@@ -19,6 +18,21 @@ namespace {
 
 /// More would fill the clipboard of the desktop for minutes.
 constexpr std::size_t kMostCopied = 100'000;
+
+std::vector<int> selectedRowsOf(const QItemSelectionModel& selection) {
+    std::vector<std::pair<int, int>> ranges;
+    for (const QItemSelectionRange& range : selection.selection()) {
+        ranges.emplace_back(range.top(), range.bottom());
+    }
+    std::ranges::sort(ranges);
+    std::vector<int> rows;
+    for (const auto& [first, last] : ranges) {
+        for (int row = first; row <= last && rows.size() < kMostCopied; ++row) {
+            rows.push_back(row);
+        }
+    }
+    return rows;
+}
 
 constexpr const char* kEdit = QT_TRANSLATE_NOOP("Action", "&Edit");
 constexpr const char* kCopy = QT_TRANSLATE_NOOP("Action", "&Edit/Co&py packets");
@@ -45,10 +59,11 @@ struct PacketsPanel::Actions {
          Do::call<&PacketsPanel::editComment>},
         lineIn(kEdit),
         {"copyRows", kCopy, QT_TRANSLATE_NOOP("Action", "&Rows as text"), "",
-         Do::call<&PacketsPanel::copyRows, RowFormat::Text>},
+         Do::call<&PacketsPanel::copy, Copied::Rows>},
         {"copyCsv", kCopy, QT_TRANSLATE_NOOP("Action", "Rows as C&SV"), "",
-         Do::call<&PacketsPanel::copyRows, RowFormat::Csv>},
-        {"copyCell", kCopy, QT_TRANSLATE_NOOP("Action", "Ce&ll"), "", Do::call<&PacketsPanel::copyCell>},
+         Do::call<&PacketsPanel::copy, Copied::Csv>},
+        {"copyCell", kCopy, QT_TRANSLATE_NOOP("Action", "Ce&ll"), "",
+         Do::call<&PacketsPanel::copy, Copied::Cell>},
         lineIn(kCopy),
         {"copyBytesText", kCopy, QT_TRANSLATE_NOOP("Action", "Bytes as &hexadecimal text"), "Ctrl+Shift+C",
          Do::call<&PacketsPanel::copyBytes, ByteFormat::Text>},
@@ -60,10 +75,10 @@ struct PacketsPanel::Actions {
          Do::call<&PacketsPanel::copyBytes, ByteFormat::Json>},
         lineIn(kEdit),
         {"filter", kEdit, QT_TRANSLATE_NOOP("Action", "&Filter packets"), "Ctrl+L",
-         Do::callIn<&PacketsPanel::m_filter, &FilterBar::focusLine>},
-        listIn(kSavedFiltersMenu, Do::listOf<&PacketsPanel::m_filter, &FilterBar::listSaved>),
+         Do::callIn<&PacketsPanel::m_filterBar, &FilterBar::focusLine>},
+        listIn(kSavedFiltersMenu, Do::listOf<&PacketsPanel::m_filterBar, &FilterBar::listSaved>),
         {"saveFilter", kEdit, QT_TRANSLATE_NOOP("Action", "&Save filter as a button…"), "",
-         Do::callIn<&PacketsPanel::m_filter, &FilterBar::saveCurrent>},
+         Do::callIn<&PacketsPanel::m_filterBar, &FilterBar::saveCurrent>},
         {"filterByCell", kCell, QT_TRANSLATE_NOOP("Action", "&Only this"), "Ctrl+Shift+L",
          Do::call<&PacketsPanel::applyCell, FilterJoin::Replace>},
         {"filterAndCell", kCell, QT_TRANSLATE_NOOP("Action", "… &and"), "",
@@ -76,22 +91,22 @@ struct PacketsPanel::Actions {
         {"find", kEdit, QT_TRANSLATE_NOOP("Action", "Find &bytes or text…"), "Ctrl+F",
          Do::callIn<&PacketsPanel::m_find, &FindBar::open>},
         {"findNext", kEdit, QT_TRANSLATE_NOOP("Action", "Find ne&xt"), "F3",
-         Do::call<&PacketsPanel::search, kForward>},
+         Do::call<&PacketsPanel::find, kForward>},
         {"findPrevious", kEdit, QT_TRANSLATE_NOOP("Action", "Find pre&vious"), "Shift+F3",
-         Do::call<&PacketsPanel::search, kBackward>},
+         Do::call<&PacketsPanel::find, kBackward>},
 
         {"timeSinceFirst", kTimes, QT_TRANSLATE_NOOP("Action", "Since the &first packet"), "",
-         Do::call<&PacketsPanel::setTimeMode, Time::SinceFirst>,
-         Do::is<&PacketsPanel::timeMode, Time::SinceFirst>},
+         Do::callIn<&PacketsPanel::m_packets, &PacketModel::setTimeMode, Time::SinceFirst>,
+         Do::isIn<&PacketsPanel::m_packets, &PacketModel::timeMode, Time::SinceFirst>},
         {"timeOfDay", kTimes, QT_TRANSLATE_NOOP("Action", "Date and time of &day"), "",
-         Do::call<&PacketsPanel::setTimeMode, Time::TimeOfDay>,
-         Do::is<&PacketsPanel::timeMode, Time::TimeOfDay>},
+         Do::callIn<&PacketsPanel::m_packets, &PacketModel::setTimeMode, Time::TimeOfDay>,
+         Do::isIn<&PacketsPanel::m_packets, &PacketModel::timeMode, Time::TimeOfDay>},
         {"deltaInStream", kTimes, QT_TRANSLATE_NOOP("Action", "Δ to the packet before in its &stream"), "",
          Do::callIn<&PacketsPanel::m_packets, &PacketModel::setDeltaMode, Delta::Stream>,
-         Do::is<&PacketsPanel::deltaMode, Delta::Stream>},
+         Do::isIn<&PacketsPanel::m_packets, &PacketModel::deltaMode, Delta::Stream>},
         {"deltaToRowAbove", kTimes, QT_TRANSLATE_NOOP("Action", "Δ to the row &above"), "",
          Do::callIn<&PacketsPanel::m_packets, &PacketModel::setDeltaMode, Delta::RowAbove>,
-         Do::is<&PacketsPanel::deltaMode, Delta::RowAbove>},
+         Do::isIn<&PacketsPanel::m_packets, &PacketModel::deltaMode, Delta::RowAbove>},
 
         {"goToPacket", kGo, QT_TRANSLATE_NOOP("Action", "&Go to packet…"), "G",
          Do::call<&PacketsPanel::askForPacket>},
@@ -99,26 +114,26 @@ struct PacketsPanel::Actions {
          Do::call<&PacketsPanel::goBack>},
         lineIn(kGo),
         {"nextProblem", kGo, QT_TRANSLATE_NOOP("Action", "&Next problem of the selected character"), "N",
-         Do::call<&PacketsPanel::goToProblem, kForward, ProblemsOf::Selected>},
+         Do::call<&PacketsPanel::go, Landmark::ProblemOfSelected, kForward>},
         {"previousProblem", kGo, QT_TRANSLATE_NOOP("Action", "&Previous problem of the selected character"),
-         "Shift+N", Do::call<&PacketsPanel::goToProblem, kBackward, ProblemsOf::Selected>},
+         "Shift+N", Do::call<&PacketsPanel::go, Landmark::ProblemOfSelected, kBackward>},
         {"nextProblemOfAny", kGo, QT_TRANSLATE_NOOP("Action", "Next problem of anybo&dy"), "Alt+N",
-         Do::call<&PacketsPanel::goToProblem, kForward, ProblemsOf::Anybody>},
+         Do::call<&PacketsPanel::go, Landmark::Problem, kForward>},
         {"previousProblemOfAny", kGo, QT_TRANSLATE_NOOP("Action", "Previous problem of an&ybody"),
-         "Alt+Shift+N", Do::call<&PacketsPanel::goToProblem, kBackward, ProblemsOf::Anybody>},
+         "Alt+Shift+N", Do::call<&PacketsPanel::go, Landmark::Problem, kBackward>},
         lineIn(kGo),
         {"nextOfStream", kGo, QT_TRANSLATE_NOOP("Action", "Next packet of the &stream"), "Ctrl+.",
-         Do::call<&PacketsPanel::goToSameStream, kForward>},
+         Do::call<&PacketsPanel::go, Landmark::SameStream, kForward>},
         {"previousOfStream", kGo, QT_TRANSLATE_NOOP("Action", "Previous packet of the s&tream"), "Ctrl+,",
-         Do::call<&PacketsPanel::goToSameStream, kBackward>},
+         Do::call<&PacketsPanel::go, Landmark::SameStream, kBackward>},
         lineIn(kGo),
         {"nextMark", kGo, QT_TRANSLATE_NOOP("Action", "Next &mark"), "Ctrl+Shift+N",
-         Do::call<&PacketsPanel::goToMark, kForward>},
+         Do::call<&PacketsPanel::go, Landmark::Mark, kForward>},
         {"previousMark", kGo, QT_TRANSLATE_NOOP("Action", "Previous m&ark"), "Ctrl+Shift+B",
-         Do::call<&PacketsPanel::goToMark, kBackward>},
+         Do::call<&PacketsPanel::go, Landmark::Mark, kBackward>},
         lineIn(kGo),
         {"firstPacket", kGo, QT_TRANSLATE_NOOP("Action", "&First packet"), "Ctrl+Home",
-         Do::call<&PacketsPanel::goToFirst>},
+         Do::call<&PacketsPanel::go, Landmark::First, kBackward>},
         {"newestPacket", kGo, QT_TRANSLATE_NOOP("Action", "Ne&west packet, and follow"), "Ctrl+End",
          Do::call<&PacketsPanel::goToNewest>},
     };
@@ -146,7 +161,7 @@ void PacketsPanel::showMenu(const QPoint& globalPlace) {
             ->setEnabled(!condition.isEmpty());
     }
     menu.addSeparator();
-    const bool hasPacket = !selectedPackets().empty();
+    const bool hasPacket = !meantPackets(Meant::Selected).empty();
     QMenu* copy = menu.addMenu(tr("&Copy"));
     addEntries(*copy, actionTable(), kCopy, *this);
     const auto add = [&](const QString& text, auto carryOut) {
@@ -156,8 +171,8 @@ void PacketsPanel::showMenu(const QPoint& globalPlace) {
     add(areMarked() ? tr("Un&mark") : tr("&Mark"), &PacketsPanel::toggleMark);
     add(tr("C&omment…"), &PacketsPanel::editComment);
     menu.addSeparator();
-    add(tr("&Next of this stream"), [this] { goToSameStream(Direction::Forward); });
-    add(tr("&Previous of this stream"), [this] { goToSameStream(Direction::Backward); });
+    add(tr("&Next of this stream"), [this] { go(Landmark::SameStream, Direction::Forward); });
+    add(tr("&Previous of this stream"), [this] { go(Landmark::SameStream, Direction::Backward); });
     addEntries(*menu.addMenu(tr("&Times")), actionTable(), kTimes, *this);
     menu.exec(globalPlace);
 }
@@ -191,206 +206,77 @@ void PacketsPanel::askForPacket() {
         [this](const QString& text) { return goTo(text); }, window()));
 }
 
-void PacketsPanel::goToFirst() {
-    if (m_packets.rowCount() > 0) {
-        showPacket(m_packets.packetAt(0));
-    }
-}
-
 void PacketsPanel::goToNewest() {
-    model::Selection selection = m_view.choices().selection;
-    selection.packet.reset();
-    m_commands.select(selection);
+    m_commands.unselectPacket();
     m_list->setFollowing(true);
     refresh();
 }
 
-void PacketsPanel::goToProblem(Direction direction, ProblemsOf of) {
-    const bool isForward = direction == Direction::Forward;
-    const auto& selected = m_view.choices().selection.character;
-    const bool isOfOne = of == ProblemsOf::Selected && selected && !m_packets.isFiltered();
-    const auto isWanted = [&](std::uint64_t packet) { return !isOfOne || m_packets.isOf(*selected, packet); };
-    const auto step = [&](std::uint64_t from) {
-        return isForward ? m_packets.nextProblem(from) : m_packets.previousProblem(from);
-    };
-    const model::PacketDigests& digests = m_view.accounts().digests();
-    const auto from = m_view.choices().selection.packet;
-    const model::PacketDigest* first = from || !isForward ? nullptr : digests.find(digests.begin());
-    const bool isAtBegin = first != nullptr && first->isProblem() && m_packets.rowOf(digests.begin()) >= 0;
-    std::optional<std::uint64_t> found =
-        isAtBegin ? digests.begin() : step(from.value_or(isForward ? digests.begin() : digests.end()));
-    for (WalkBounds bounds; found && !isWanted(*found);) {
-        found = bounds.look() ? step(*found) : std::nullopt;
-    }
-    if (found) {
+void PacketsPanel::go(Landmark landmark, Direction direction) {
+    if (const auto found = nearestListed(m_view, m_packets, landmark, direction)) {
         showPacket(*found);
-        return;
+    } else {
+        say(found.error());
     }
-    const QString whose = isOfOne ? tr(" of %1").arg(characterName(m_view, *selected)) : QString();
-    say(isForward ? tr("No problem%1 after this packet.").arg(whose)
-                  : tr("No problem%1 before this packet.").arg(whose));
 }
 
-void PacketsPanel::goToSameStream(Direction direction) {
-    const bool isForward = direction == Direction::Forward;
-    const auto from = m_view.choices().selection.packet;
-    const std::uint64_t number = from.value_or(m_view.end() - 1);
-    const auto packet = m_view.packet(number);
-    const model::PacketDigest* wanted = m_view.accounts().digests().find(number);
-    if (!packet || wanted == nullptr) {
-        say(tr("No packet is selected."));
-        return;
-    }
-    const auto mayBe = [&](std::uint64_t other) {
-        const model::PacketDigest* candidate = m_view.accounts().digests().find(other);
-        return other != number && candidate != nullptr && candidate->type == wanted->type &&
-               candidate->character == wanted->character;
-    };
-    WalkBounds bounds;
-    const int rows = m_packets.rowCount();
-    int row = isForward ? (from ? m_packets.rowFrom(number + 1) : 0)
-                        : (from ? m_packets.rowFrom(number) : rows) - 1;
-    for (; row >= 0 && row < rows; row += isForward ? 1 : -1) {
-        const std::uint64_t other = m_packets.packetAt(row);
-        const bool isAlike = mayBe(other);
-        if (!bounds.look() || (isAlike && !bounds.read())) {
-            say(isForward ? tr("No later packet of this stream is near this one.")
-                          : tr("No earlier packet of this stream is near this one."));
-            return;
-        }
-        const auto found = isAlike ? m_view.packet(other) : std::nullopt;
-        if (found && found->sender == packet->sender) {
-            showPacket(other);
-            return;
-        }
-    }
-    say(isForward ? tr("No later packet of this stream.") : tr("No earlier packet of this stream."));
+void PacketsPanel::find(Direction direction) {
+    m_find->find(m_view.log(), m_packets, m_view.choices().selection.packet.value_or(m_view.end()),
+                 direction);
 }
 
-void PacketsPanel::goToMark(Direction direction) {
-    const bool isForward = direction == Direction::Forward;
-    std::vector<std::uint64_t> listed;
-    std::ranges::copy_if(m_view.choices().annotations.marks, std::back_inserter(listed),
-                         [&](std::uint64_t number) { return m_packets.rowOf(number) >= 0; });
-    const auto selected = m_view.choices().selection.packet;
-    const std::uint64_t from = selected.value_or(isForward ? 0 : m_view.end());
-    const auto after = selected && isForward ? std::ranges::upper_bound(listed, from)
-                                             : std::ranges::lower_bound(listed, from);
-    if (isForward ? after == listed.end() : after == listed.begin()) {
-        say(isForward ? tr("No mark after this packet.") : tr("No mark before this packet."));
-        return;
-    }
-    showPacket(isForward ? *after : *(after - 1));
-}
-
-void PacketsPanel::search(Direction direction) {
-    if (m_find->text().isEmpty()) {
-        m_find->open();
-        return;
-    }
-    auto pattern = parsePattern(m_find->text(), m_find->isHexadecimal());
-    if (!pattern) {
-        m_find->open();
-        m_find->say(pattern.error(), true);
-        return;
-    }
-    PacketSearch::Request request{*std::move(pattern),
-                                  m_view.choices().selection.packet.value_or(m_view.end()),
-                                  direction == Direction::Forward,
-                                  {}};
-    if (m_packets.isFiltered()) {
-        request.among = m_packets.matches();
-        if (request.among.empty()) {
-            m_find->say(tr("No packet is listed"), true);
-            return;
-        }
-    }
-    m_search = std::make_unique<PacketSearch>(m_view.log(), std::move(request));
-    m_find->say(tr("Searching …"), false);
-    m_poll.start();
-}
-
-void PacketsPanel::takeFound() {
-    const auto result = m_search ? m_search->result() : std::nullopt;
-    if (!result) {
-        return;
-    }
-    m_poll.stop();
-    m_search.reset();
-    if (!result->packet) {
-        m_find->say(result->gone == 0 ? tr("Not found")
-                                      : tr("Not found; %1 packets left memory before they were looked at")
-                                            .arg(grouped(result->gone)),
-                    true);
-        return;
-    }
-    showPacket(*result->packet);
-    model::Selection selection = m_view.choices().selection;
-    selection.found = {*result->packet, static_cast<std::uint32_t>(result->offset),
-                       static_cast<std::uint32_t>(result->offset + result->size)};
-    m_commands.select(selection);
-    const QString place = tr("in packet %1, byte %2").arg(grouped(*result->packet)).arg(result->offset);
-    m_find->say(result->isWrapped ? tr("%1 (wrapped around)").arg(place) : place, false);
-}
-
-std::vector<std::uint64_t> PacketsPanel::selectedPackets() const {
+std::vector<std::uint64_t> PacketsPanel::meantPackets(Meant meant) const {
     std::vector<std::uint64_t> numbers;
-    for (const int row : m_list->selectedRows(kMostCopied)) {
+    for (const int row : selectedRowsOf(*m_list->selectionModel())) {
         numbers.push_back(m_packets.packetAt(row));
     }
     if (const auto packet = m_view.choices().selection.packet; numbers.empty() && packet) {
         numbers.push_back(*packet);
     }
+    if (numbers.empty() && meant == Meant::OrNewest && m_view.end() != m_view.begin()) {
+        numbers.push_back(newestVisiblePacket(m_view));
+    }
     return numbers;
 }
 
-void PacketsPanel::copyRows(RowFormat format) {
-    const std::vector<int> rows = m_list->selectedRows(kMostCopied);
-    const bool isCsv = format == RowFormat::Csv;
-    copyText(isCsv ? packetRowsCsv(m_packets, rows) : packetRowsText(m_packets, rows));
-    const QString said = isCsv ? tr("Rows copied as CSV: %1") : tr("Rows copied: %1");
-    say(rows.empty() ? tr("No packet is selected.") : said.arg(grouped(rows.size())));
-}
-
-void PacketsPanel::copyCell() {
+void PacketsPanel::copy(Copied what) {
     const QModelIndex cell = m_list->currentIndex();
-    if (!cell.isValid()) {
+    const std::vector<int> rows = selectedRowsOf(*m_list->selectionModel());
+    if (what == Copied::Cell ? !cell.isValid() : rows.empty()) {
         say(tr("No packet is selected."));
         return;
     }
-    copyText(cell.data(Qt::DisplayRole).toString());
-    say(tr("Cell copied"));
+    copyText(what == Copied::Cell   ? cell.data().toString()
+             : what == Copied::Rows ? packetRowsText(m_packets, rows)
+                                    : packetRowsCsv(m_packets, rows));
+    say(what == Copied::Cell ? tr("Cell copied")
+                             : (what == Copied::Csv ? tr("Rows copied as CSV: %1") : tr("Rows copied: %1"))
+                                   .arg(grouped(rows.size())));
 }
 
 void PacketsPanel::copyBytes(ByteFormat format) {
-    QString text;
-    const std::vector<std::uint64_t> packets = selectedPackets();
+    const std::vector<std::uint64_t> packets = meantPackets(Meant::Selected);
+    if (packets.empty()) {
+        say(tr("No packet is selected."));
+        return;
+    }
+    QStringList texts;
     for (const std::uint64_t number : packets) {
-        const bool isSpaced = format != ByteFormat::Json && !text.isEmpty();
-        text += (isSpaced ? QStringLiteral("\n") : QString()) + packetBytesText(m_view, number, format);
+        texts += packetBytesText(m_view, number, format);
     }
-    copyText(text);
-    say(packets.empty() ? tr("No packet is selected.")
-                        : tr("Packets copied: %1").arg(grouped(packets.size())));
-}
-
-std::vector<std::uint64_t> PacketsPanel::meantPackets() const {
-    std::vector<std::uint64_t> packets = selectedPackets();
-    if (packets.empty() && m_view.end() != m_view.begin()) {
-        packets.push_back(newestVisiblePacket(m_view));
-    }
-    return packets;
+    copyText(texts.join(format == ByteFormat::Json ? QString() : QStringLiteral("\n")));
+    say(tr("Packets copied: %1").arg(grouped(packets.size())));
 }
 
 bool PacketsPanel::areMarked() const {
-    const auto packets = meantPackets();
+    const auto packets = meantPackets(Meant::OrNewest);
     const auto& marks = m_view.choices().annotations.marks;
     return !packets.empty() &&
            std::ranges::all_of(packets, [&](std::uint64_t number) { return marks.contains(number); });
 }
 
 void PacketsPanel::toggleMark() {
-    const auto packets = meantPackets();
+    const auto packets = meantPackets(Meant::OrNewest);
     if (packets.empty()) {
         say(tr("No packet is selected."));
         return;
@@ -399,7 +285,7 @@ void PacketsPanel::toggleMark() {
     for (const std::uint64_t number : packets) {
         m_commands.setMarked(number, isMarked);
     }
-    if (selectedPackets().empty()) {
+    if (meantPackets(Meant::Selected).empty()) {
         const QString number = grouped(packets.front());
         say(isMarked ? tr("Packet %1 is marked.").arg(number)
                      : tr("Packet %1 is not marked any more.").arg(number));
@@ -408,7 +294,7 @@ void PacketsPanel::toggleMark() {
 }
 
 void PacketsPanel::editComment() {
-    const std::vector<std::uint64_t> meant = meantPackets();
+    const std::vector<std::uint64_t> meant = meantPackets(Meant::OrNewest);
     if (meant.empty()) {
         say(tr("No packet is selected."));
         return;

@@ -1,35 +1,29 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/panels/packets_panel.h"
 
-#include "app/gui/models/display_filter.h"
 #include "app/gui/models/text.h"
 #include "app/gui/panels/filter_bar.h"
 #include "app/gui/panels/fitting_header.h"
-#include "core/model/session/accounts.h"
 
 #include <QPushButton>
 #include <QScopedValueRollback>
+#include <QShortcut>
 
 #include <utility>
 
 namespace posewire::gui {
 
-namespace {
-
-constexpr int kPollMs = 20;
-
-} // namespace
-
 PacketsPanel::PacketsPanel(model::SessionView& view, Commands& commands, QWidget* parent)
     : Panel(view, commands, parent),
       m_packets(view),
-      m_filter(new FilterBar(this)),
+      m_filter(view, m_packets),
+      m_filterBar(new FilterBar(this)),
       m_find(new FindBar(this)),
       m_list(new PacketView(tr("Packets"), this)),
       m_clear(new QPushButton(tr("Clear the filter"), m_list)),
       m_message(footMessage(this)) {
     auto* column = tightColumn(this);
-    column->addWidget(m_filter);
+    column->addWidget(m_filterBar);
     column->addWidget(m_find);
     column->addWidget(new Line(this));
     column->addWidget(m_list, 1);
@@ -38,39 +32,54 @@ PacketsPanel::PacketsPanel(model::SessionView& view, Commands& commands, QWidget
     m_clear->setObjectName(QStringLiteral("clearFilter"));
     m_clear->hide();
     m_message->setObjectName(QStringLiteral("message"));
-    connectParts();
-    showEmptyState();
-}
-
-PacketsPanel::~PacketsPanel() = default;
-
-void PacketsPanel::connectParts() {
     connect(m_list->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
             &PacketsPanel::selectRow);
     connect(m_list, &PacketView::newestRequested, this, &PacketsPanel::goToNewest);
-    connect(m_list, &PacketView::copyRequested, this, [this] { copyRows(RowFormat::Text); });
+    new QShortcut(
+        QKeySequence::Copy, m_list, this, [this] { copy(Copied::Rows); }, Qt::WidgetShortcut);
     connect(m_list, &PacketView::menuRequested, this, &PacketsPanel::showMenu);
-    connect(m_filter, &FilterBar::applied, this, [this](const QString& text) {
+    connect(&m_filterBar->line(), &FilterLine::applied, this, [this](const QString& text) {
         m_commands.setDisplayFilter(text);
         refresh();
     });
-    connect(m_filter, &FilterBar::cancelRequested, this, &PacketsPanel::cancelFilter);
-    connect(m_filter, &FilterBar::backRequested, this, &PacketsPanel::goBack);
-    connect(m_filter, &FilterBar::left, this, &PacketsPanel::focusList);
-    connect(m_clear, &QPushButton::clicked, this, &PacketsPanel::clearFilter);
-    connect(m_find, &FindBar::findRequested, this, &PacketsPanel::search);
+    connect(m_filterBar, &FilterBar::cancelRequested, this, [this] {
+        m_filter.cancel();
+        say(tr("Filtering was cancelled: the list holds what was found until then."));
+        refresh();
+    });
+    connect(m_filterBar, &FilterBar::backRequested, this, &PacketsPanel::goBack);
+    connect(&m_filterBar->line(), &FilterLine::left, this, &PacketsPanel::focusList);
+    connect(m_clear, &QPushButton::clicked, this, [this] {
+        m_commands.setDisplayFilter({});
+        refresh();
+        focusList();
+    });
+    connect(m_find, &FindBar::findRequested, this, &PacketsPanel::find);
+    connect(m_find, &FindBar::found, this, [this](const model::FoundBytes& bytes) {
+        showPacket(bytes.packet);
+        model::Selection selection = m_view.choices().selection;
+        selection.found = bytes;
+        m_commands.select(selection);
+    });
     connect(m_find, &FindBar::closed, this, &PacketsPanel::focusList);
-    m_poll.setInterval(kPollMs);
-    connect(&m_poll, &QTimer::timeout, this, &PacketsPanel::takeFound);
+    showEmptyState();
 }
 
 void PacketsPanel::refresh() {
     const QScopedValueRollback guard(m_isFollowing, true);
-    followFilter();
-    m_list->setCatchingUp(m_run && m_filtered < m_backlog);
-    if (m_run) {
-        takeMatches();
+    const model::Jump* jump = m_view.choices().filterJump();
+    m_filterBar->setJump(jump == nullptr ? std::nullopt
+                                         : std::optional(QString::fromStdString(jump->filterBefore)));
+    const bool wasLate = m_filter.missed() != 0;
+    if (m_filter.follow()) {
+        m_filterBar->line().setApplied(m_filter.text());
+        m_filterBar->setProgress(std::nullopt);
     }
+    m_filterBar->setProgress(m_filter.progress());
+    if (!wasLate && m_filter.missed() != 0) {
+        say(tr("Packets left memory before the filter looked at them; the title says how many."));
+    }
+    m_list->setCatchingUp(m_filter.isCatchingUp());
     m_packets.refresh();
     followSelection();
     followCursor();
@@ -80,20 +89,6 @@ void PacketsPanel::refresh() {
         m_list->setFollowing(true); // all is live again
     }
     showEmptyState();
-}
-
-void PacketsPanel::takeMatches() {
-    const PacketFilterRun::Found found = m_run->take(m_view);
-    m_packets.addMatches(found.packets, found.problems);
-    const auto [done, total, gone] = m_run->progress();
-    m_filtered = done;
-    const bool isBusy = !m_run->isCancelled() && done < m_backlog;
-    m_filter->setProgress(isBusy ? std::optional(static_cast<double>(done) / static_cast<double>(m_backlog))
-                                 : std::nullopt);
-    if (m_unfiltered == 0 && gone != 0) {
-        say(tr("Packets left memory before the filter looked at them; the title says how many."));
-    }
-    m_unfiltered = gone;
 }
 
 /// Where the operator stops in the past, the list shows what was received by then.
@@ -111,73 +106,6 @@ void PacketsPanel::followCursor() {
         m_list->setFollowing(false);
         m_list->scrollTo(index, QAbstractItemView::PositionAtCenter);
     }
-}
-
-void PacketsPanel::followRange() {
-    const auto chosen = m_view.choices().range.fixed;
-    const auto packet = m_view.choices().selection.packet;
-    if (std::exchange(m_chosenRange, chosen) != chosen) {
-        m_range = chosen;
-    } else if (m_range && packet && packet != m_selectedPacket) {
-        const auto selected = m_view.packet(*packet);
-        const bool isInside = selected && selected->stamp >= m_range->from && selected->stamp < m_range->to;
-        m_range = isInside ? m_range : std::nullopt;
-    }
-    m_selectedPacket = packet;
-}
-
-/// The session's filter may have been set by another dock.
-void PacketsPanel::followFilter() {
-    const model::Jump* jump = m_view.choices().filterJump();
-    m_filter->setJump(jump == nullptr ? std::nullopt
-                                      : std::optional(QString::fromStdString(jump->filterBefore)));
-    const QString text = QString::fromStdString(m_view.choices().displayFilter);
-    // What a sender's positions come in turns out, or is declared, while it sends.
-    const auto units = m_comparesLengths ? unusualPositionUnits(m_view) : PositionUnits();
-    const log::Stamp first = m_view.firstStamp(); // from which times count: of the first packet, once there
-    followRange();
-    if (text == m_filterText && units == m_filterUnits && first == m_filterFirst &&
-        m_range == m_filterRange) {
-        return;
-    }
-    m_filterText = text;
-    m_filterRange = m_range;
-    m_filterFirst = first;
-    m_filter->setApplied(text);
-    const QString condition =
-        m_range ? joinedFilter(text, rangeFilter(m_view, *m_range), FilterJoin::And) : text.trimmed();
-    auto compiled = filter::Filter::compile(condition.toStdString());
-    if (!compiled) {
-        return; // the line says what is wrong; what is listed stays
-    }
-    m_run.reset();
-    m_filter->setProgress(std::nullopt);
-    m_comparesLengths = compiled->comparesLengths();
-    m_filterUnits = m_comparesLengths ? unusualPositionUnits(m_view) : PositionUnits();
-    if (compiled->matchesEverything()) {
-        m_packets.endMatches();
-    } else {
-        m_packets.beginMatches();
-        m_filtered = 0;
-        m_unfiltered = 0;
-        m_backlog = m_view.accounts().digests().end() - m_view.accounts().digests().begin();
-        m_run = std::make_unique<PacketFilterRun>(m_view, *std::move(compiled), m_filterUnits);
-    }
-}
-
-void PacketsPanel::cancelFilter() {
-    if (m_run) {
-        m_run->cancel();
-        m_filter->setProgress(std::nullopt);
-        say(tr("Filtering was cancelled: the list holds what was found until then."));
-        refresh();
-    }
-}
-
-void PacketsPanel::clearFilter() {
-    m_commands.setDisplayFilter({});
-    refresh();
-    focusList();
 }
 
 /// A list that gets the focus takes a row, which nobody chose.
@@ -222,13 +150,13 @@ void PacketsPanel::selectRow(const QModelIndex& index) {
 void PacketsPanel::showEmptyState() {
     const bool isEmpty = m_packets.rowCount() == 0;
     const bool isFilteredOut = isEmpty && m_packets.isFiltered() && m_view.end() != m_view.begin();
-    const bool isCleared = m_filterText.trimmed().isEmpty();
+    const bool isCleared = m_filter.text().trimmed().isEmpty();
     m_list->setEmptyText(
         !isFilteredOut ? tr("No packets yet. Every packet that arrives is listed here, readable or not.")
-        : m_filter->isBusy() ? tr("Filtering …")
-        : isCleared          ? tr("No packet is in the selected range")
-                             : tr("No packet matches the filter\n\n"));
-    m_clear->setVisible(isFilteredOut && !m_filter->isBusy() && !isCleared);
+        : m_filter.progress() ? tr("Filtering …")
+        : isCleared           ? tr("No packet is in the selected range")
+                              : tr("No packet matches the filter\n\n"));
+    m_clear->setVisible(isFilteredOut && !m_filter.progress() && !isCleared);
     if (m_clear->isVisible()) {
         m_clear->resize(m_clear->sizeHint());
         const QRect area = m_list->viewport()->geometry();
@@ -245,11 +173,11 @@ QString PacketsPanel::summary() const {
     const auto rows = static_cast<std::uint64_t>(m_packets.rowCount());
     QString count =
         m_packets.isFiltered() ? tr("%1 of %2 shown").arg(grouped(rows), grouped(all)) : grouped(rows);
-    if (m_filterRange) {
+    if (m_filter.hasRange()) {
         count += tr(", of the selected range");
     }
-    if (m_packets.isFiltered() && m_unfiltered != 0) {
-        count += tr(" · %1 not looked at in time").arg(grouped(m_unfiltered));
+    if (m_filter.missed() != 0) {
+        count += tr(" · %1 not looked at in time").arg(grouped(m_filter.missed()));
     }
     return m_list->isFollowing() ? tr("following · %1").arg(count) : count;
 }
@@ -264,7 +192,7 @@ void PacketsPanel::say(const QString& text) {
 }
 
 QJsonObject PacketsPanel::state() const {
-    QJsonObject state = m_filter->state();
+    QJsonObject state = m_filterBar->state();
     if (m_packets.timeMode() == PacketModel::TimeMode::TimeOfDay) {
         state["time"] = QStringLiteral("day");
     }
@@ -276,10 +204,11 @@ QJsonObject PacketsPanel::state() const {
 }
 
 void PacketsPanel::restoreState(const QJsonObject& state) {
-    m_filter->restoreState(state);
+    m_filterBar->restoreState(state);
     m_list->header().restore(state);
-    setTimeMode(state["time"].toString() == QLatin1String("day") ? PacketModel::TimeMode::TimeOfDay
-                                                                 : PacketModel::TimeMode::SinceFirst);
+    m_packets.setTimeMode(state["time"].toString() == QLatin1String("day")
+                              ? PacketModel::TimeMode::TimeOfDay
+                              : PacketModel::TimeMode::SinceFirst);
     m_packets.setDeltaMode(state["delta"].toString() == QLatin1String("row")
                                ? PacketModel::DeltaMode::RowAbove
                                : PacketModel::DeltaMode::Stream);

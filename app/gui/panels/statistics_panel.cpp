@@ -3,7 +3,6 @@
 
 #include "app/gui/base/saving.h"
 #include "app/gui/models/computer_facts.h"
-#include "app/gui/models/display_filter.h"
 #include "app/gui/models/shown_character.h"
 #include "core/model/session/roster.h"
 

@@ -4,7 +4,7 @@
 #include "app/gui/base/panel.h"
 #include "app/gui/base/program_state.h"
 #include "app/gui/models/column.h"
-#include "app/gui/models/packet_jump.h"
+#include "app/gui/models/display_filter.h"
 #include "app/gui/models/statistics_model.h"
 #include "app/gui/panels/range_bar.h"
 #include "app/gui/panels/table_view.h"

@@ -196,13 +196,7 @@ void TableView::changeEvent(QEvent* event) {
     QTreeView::changeEvent(event);
     if (event->type() == QEvent::FontChange || event->type() == QEvent::StyleChange) {
         setIndentation(fontMetrics().height() * 4 / 5);
-        m_columns->fit();
     }
-}
-
-void TableView::resizeEvent(QResizeEvent* event) {
-    QTreeView::resizeEvent(event);
-    m_columns->fit();
 }
 
 } // namespace posewire::gui

@@ -2,7 +2,7 @@
 #include "app/gui/viewport/captions.h"
 
 #include "app/gui/models/receiving_models.h"
-#include "app/gui/models/stream_state.h"
+#include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
 #include "app/gui/theme/words.h"
 #include "app/net/connection_help.h"

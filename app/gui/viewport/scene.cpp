@@ -2,7 +2,6 @@
 #include "app/gui/viewport/scene.h"
 
 #include "app/gui/models/shown_character.h"
-#include "app/gui/models/stream_state.h"
 #include "app/gui/models/text.h"
 #include "app/gui/theme/theme.h"
 #include "app/gui/viewport/captions.h"

@@ -4,7 +4,6 @@
 #include "app/gui/models/character_model.h"
 #include "app/gui/models/incident_words.h"
 #include "app/gui/models/shown_character.h"
-#include "app/gui/models/stream_state.h"
 #include "app/gui/models/text.h"
 #include "app/gui/panels/table_view.h"
 #include "app/gui/theme/help_link.h"

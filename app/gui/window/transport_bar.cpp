@@ -3,7 +3,6 @@
 
 #include "app/gui/models/receiving_models.h"
 #include "app/gui/models/shown_character.h"
-#include "app/gui/models/stream_state.h"
 #include "app/gui/models/text.h"
 #include "app/gui/theme/event_watch.h"
 #include "app/gui/theme/icons.h"

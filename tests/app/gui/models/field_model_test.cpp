@@ -109,9 +109,9 @@ TEST(FieldDocument, ExplainsADatagramThatEndsTooEarly) {
     Bytes bytes = encoded(nullPose(0));
     bytes.resize(24 + 4 + 100);
     const auto document = documentOf(bytes);
-    EXPECT_EQ(document->kind(), model::PacketKind::Malformed);
-    ASSERT_GE(document->problems().size(), 1U);
-    const FieldProblem& fault = document->problems().front();
+    EXPECT_EQ(document->kind, model::PacketKind::Malformed);
+    ASSERT_GE(document->problems.size(), 1U);
+    const FieldProblem& fault = document->problems.front();
     EXPECT_EQ(fault.level, Health::Error);
     const QString text = fault.text;
     EXPECT_TRUE(text.contains("ends at byte 128")) << text.toStdString();
@@ -128,21 +128,21 @@ TEST(FieldDocument, MarksTheValueThatANoticeIsAbout) {
     pose.segments.push_back({1, {0, 0, 1}, {1, 0, 0, 0}});
     pose.segments.push_back({2, {0, 0, 1}, {2, 0, 0, 0}});
     const auto document = documentOf(encoded(pose));
-    ASSERT_EQ(document->problems().size(), 1U);
-    EXPECT_EQ(document->problems()[0].node, nodeOf(*document, "segments[1].orientation"));
-    EXPECT_EQ(document->problems()[0].offset, 24U + 32 + 16);
-    EXPECT_EQ(document->problems()[0].length, 16U);
+    ASSERT_EQ(document->problems.size(), 1U);
+    EXPECT_EQ(document->problems[0].node, nodeOf(*document, "segments[1].orientation"));
+    EXPECT_EQ(document->problems[0].offset, 24U + 32 + 16);
+    EXPECT_EQ(document->problems[0].length, 16U);
 }
 
 TEST(FieldDocument, SaysWhatForeignAndSkippedBytesAre) {
     const Bytes bytes(20, std::byte{'x'});
     const auto foreign = documentOf(bytes);
-    EXPECT_EQ(foreign->kind(), model::PacketKind::Foreign);
-    ASSERT_EQ(foreign->problems().size(), 1U);
-    EXPECT_TRUE(foreign->problems()[0].text.startsWith("foreign"));
+    EXPECT_EQ(foreign->kind, model::PacketKind::Foreign);
+    ASSERT_EQ(foreign->problems.size(), 1U);
+    EXPECT_TRUE(foreign->problems[0].text.startsWith("foreign"));
     const FieldDocument skipped(log::Packet{1, {}, {}, 0, {.skipped = true}, bytes},
                                 model::LengthUnit::Metre);
-    EXPECT_TRUE(skipped.problems().at(0).text.startsWith("skipped"));
+    EXPECT_TRUE(skipped.problems.at(0).text.startsWith("skipped"));
     EXPECT_EQ(skipped.count(), 1);
 }
 
@@ -289,7 +289,7 @@ TEST(ComparableBefore, IsTheSamePartOfAnEarlierSample) {
     EXPECT_EQ(comparableBefore(stage.session, 5), 3U);
     EXPECT_EQ(comparableBefore(stage.session, 4), 2U);
     EXPECT_EQ(comparableBefore(stage.session, 1), std::nullopt);
-    EXPECT_EQ(neighbourInStream(stage.session, 5, -1), 4U);
+    EXPECT_EQ(neighbourInStream(stage.session, 5, Direction::Backward), 4U);
 }
 
 TEST(InspectedPacket, IsTheSelectedOrTheNewestOfTheShownCharacter) {
@@ -314,10 +314,10 @@ TEST(InspectedPacket, StepsWithinItsStream) {
     stage.sendMetadata("name:A\n", Stage::kStart + 1ns);
     stage.send(smallPose(), 2, 0, Stage::kStart + 2ns);
     stage.follow();
-    EXPECT_EQ(neighbourInStream(stage.session, 0, 1), 2U);
-    EXPECT_EQ(neighbourInStream(stage.session, 2, -1), 0U);
-    EXPECT_FALSE(neighbourInStream(stage.session, 2, 1));
-    EXPECT_FALSE(neighbourInStream(stage.session, 1, -1));
+    EXPECT_EQ(neighbourInStream(stage.session, 0, Direction::Forward), 2U);
+    EXPECT_EQ(neighbourInStream(stage.session, 2, Direction::Backward), 0U);
+    EXPECT_FALSE(neighbourInStream(stage.session, 2, Direction::Forward));
+    EXPECT_FALSE(neighbourInStream(stage.session, 1, Direction::Backward));
 }
 
 /// Printed, not judged: machines differ.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/models/packet_numbers.h"
+#include "app/gui/models/packet_search.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Ways to copy, to go to and to find packets.
 #include "app/gui/models/display_filter.h"
-#include "app/gui/models/packet_text.h"
+#include "app/gui/models/packet_model.h"
 
 #include "app/gui/models/packet_choice.h"
 #include "app/gui/models/packet_model.h"
@@ -101,13 +101,13 @@ TEST_F(PacketTextTest, FindsTextAndBytesInBothDirectionsAndAround) {
     const auto find = [&](const QString& text, bool isHexadecimal, std::uint64_t from, bool isForward) {
         return PacketSearch(m_stage.log, {*parsePattern(text, isHexadecimal), from, isForward, {}}).wait();
     };
-    EXPECT_EQ(find("mira lind", false, 0, true).packet, 100U);
+    EXPECT_EQ(find("mira lind", false, 0, true).found->packet, 100U);
     EXPECT_FALSE(find("mira lind", false, 0, true).isWrapped);
     EXPECT_TRUE(find("mira lind", false, 100, true).isWrapped);
-    EXPECT_EQ(find("MXTP02", false, 10, false).packet, 9U);
-    EXPECT_EQ(find("MXTP02", false, 0, false).packet, 99U);
-    EXPECT_EQ(find("4d58 54,50 0x31 32", true, 3, true).packet, 100U);
-    EXPECT_EQ(find("Ana", false, 0, true).packet, std::nullopt);
+    EXPECT_EQ(find("MXTP02", false, 10, false).found->packet, 9U);
+    EXPECT_EQ(find("MXTP02", false, 0, false).found->packet, 99U);
+    EXPECT_EQ(find("4d58 54,50 0x31 32", true, 3, true).found->packet, 100U);
+    EXPECT_EQ(find("Ana", false, 0, true).found, std::nullopt);
     EXPECT_FALSE(parsePattern("4d 5", true).has_value());
     EXPECT_FALSE(parsePattern("no bytes", true).has_value());
 }

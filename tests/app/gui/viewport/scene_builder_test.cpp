@@ -2,7 +2,7 @@
 #include "app/gui/base/comparison.h"
 #include "app/gui/viewport/scene.h"
 
-#include "app/gui/models/stream_state.h"
+#include "app/gui/models/shown_character.h"
 #include "app/gui/viewport/camera_motion.h"
 #include "app/gui/viewport/labels.h"
 #include "app/gui/viewport/picking.h"

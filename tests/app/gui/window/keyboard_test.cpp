@@ -206,7 +206,7 @@ TEST_F(KeyboardTest, EverySavedFilterIsACommandThatShowsThePackets) {
     ASSERT_NE(problems, commands.end());
     EXPECT_EQ(problems->menu, "Edit › Saved filters");
     problems->action->trigger();
-    EXPECT_FALSE(m_window.findChild<FilterBar*>()->text().isEmpty());
+    EXPECT_FALSE(m_window.findChild<FilterBar*>()->line().filter().isEmpty());
     EXPECT_FALSE(m_window.findChild<QDockWidget*>("packets")->isHidden());
 }
 

@@ -144,10 +144,10 @@ TEST_F(PagesTest, TheHistoryOfFiltersGoesAlongOnceAndDefaultsComeBack) {
     live->restoreState({{"history", QJsonArray{"type == 02", "size > 100"}}});
     live->setSaved({{"poses", "type == 02"}});
     openFile();
-    EXPECT_EQ(shownPart<FilterBar>("packets")->history(), (QStringList{"type == 02", "size > 100"}));
+    EXPECT_EQ(shownPart<FilterBar>("packets")->line().history(), (QStringList{"type == 02", "size > 100"}));
     shownPart<FilterBar>("packets")->setSaved(defaultFilters());
     m_driver.commands().showLive();
-    EXPECT_EQ(live->history(), (QStringList{"type == 02", "size > 100"}));
+    EXPECT_EQ(live->line().history(), (QStringList{"type == 02", "size > 100"}));
     EXPECT_EQ(live->saved(), defaultFilters());
 }
 

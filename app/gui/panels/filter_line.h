@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/filter/filter.h"
+
+#include <QLineEdit>
+
+#include <optional>
+
+class QCompleter;
+class QLabel;
+class QStandardItemModel;
+
+namespace posewire::gui {
+
+/// The line of the display filter: shows while it is written whether it is right, and where it is not; offers
+/// what may follow, and what was used before (Alt and arrow down).
+class FilterLine final : public QLineEdit {
+    Q_OBJECT
+
+public:
+    /// Says in `problem` what is wrong once the line is left or applied: what is still being written is not
+    /// wrong yet.
+    FilterLine(QLabel* problem, QWidget* parent);
+
+    [[nodiscard]] QString filter() const { return text().trimmed(); }
+    /// Shows a filter that is in use, also one set elsewhere.
+    void setApplied(const QString& filter);
+    /// Applies what is written, if it is right.
+    void apply();
+    /// Whether what is written is right; says what is wrong.
+    bool check();
+    /// What is wrong with the text in the line; empty if it is right.
+    [[nodiscard]] const std::optional<filter::FilterError>& error() const { return m_error; }
+
+    /// Filters used before, the newest first.
+    [[nodiscard]] const QStringList& history() const { return m_history; }
+    void setHistory(const QStringList& history);
+
+signals:
+    /// Only ever with a text that is right.
+    void applied(const QString& text);
+    /// The keyboard is wanted in the list.
+    void left();
+
+protected:
+    bool eventFilter(QObject* watched, QEvent* event) override;
+    void keyPressEvent(QKeyEvent* event) override;
+    void focusOutEvent(QFocusEvent* event) override;
+    void changeEvent(QEvent* event) override;
+
+private:
+    void compile();
+    void showError();
+    void underline();
+    void restyle();
+    void applyAndLeave();
+    void offerCompletions();
+    void offerHistory();
+    void addOffer(const QString& text, const QString& about, std::size_t offset, std::size_t length);
+    void offer();
+    void insertOffer(const QModelIndex& offer);
+
+    QLabel* m_problem;
+    QStandardItemModel* m_offers;
+    QCompleter* m_completer;
+    bool m_hasChosen = false; ///< one of the offers, by the arrows
+    QStringList m_history;
+    QString m_applied;
+    std::optional<filter::FilterError> m_error;
+};
+
+} // namespace posewire::gui
