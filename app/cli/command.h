@@ -5,7 +5,6 @@
 #include "app/usage/command_line.h"
 #include "core/log/file_contents.h"
 
-#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -23,7 +22,6 @@ enum class ExitStatus : int {
     Unusable = 2, ///< wrong usage, or the input or output could not be opened
 };
 
-/// The worse of the two.
 [[nodiscard]] constexpr ExitStatus worse(ExitStatus a, ExitStatus b) {
     return a < b ? b : a;
 }
@@ -33,7 +31,6 @@ struct Console {
     Output& out;
     std::function<void(const std::string&)> complain; ///< one line: what, where, what to do
 
-    /// Complains about what ends the command.
     [[nodiscard]] ExitStatus unusable(const std::string& complaint) const {
         complain(complaint);
         return ExitStatus::Unusable;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/command.h"
-#include "app/cli/live_table.h"
+#include "app/cli/table_writer.h"
 #include "core/export/json.h"
 #include "core/filter/filter.h"
 #include "core/log/recording_file.h"
@@ -120,7 +120,6 @@ struct DecodeOptions {
     std::string filter;
 };
 
-/// Writes one file's records and counts their faults.
 class RecordWriter {
 public:
     /// Without a filter everything is written.

@@ -2,8 +2,13 @@
 #include "app/cli/command.h"
 #include "app/system/interruption.h"
 #include "core/export/json.h"
+#include "core/export/protocol_reference.h"
+#include "core/filter/filter.h"
+
+#include <memory>
 
 namespace posewire::cli {
+
 namespace {
 
 struct EncodeOptions {
@@ -93,6 +98,17 @@ Command addEncodeCommand(CommandLine& program) {
         .showDefault();
     arguments.force(options->replaces);
     return {"encode", [options](Console& console) { return encode(*options, console); }};
+}
+
+Command addReferenceCommand(CommandLine& program) {
+    Arguments arguments = program.addCommand("reference", "Print the protocol reference in Markdown");
+    auto isFilterWanted = std::make_shared<bool>(false);
+    arguments.flag("--filter", *isFilterWanted, "print the language of decode --filter instead");
+    return {"reference", [isFilterWanted](Console& console) {
+                console.out.write(*isFilterWanted ? filter::filterReference()
+                                                  : exporting::protocolReference());
+                return ExitStatus::Fine;
+            }};
 }
 
 } // namespace posewire::cli

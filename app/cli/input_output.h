@@ -44,7 +44,6 @@ private:
 /// Why standard output could not be written, by its errno, as one line for the user.
 [[nodiscard]] std::string standardOutputFailure(int error);
 
-/// Reads a byte source line by line.
 class LineReader {
 public:
     /// No datagram needs a longer line; reading ends there with an error, so that memory stays bounded.

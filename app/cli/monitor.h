@@ -41,7 +41,6 @@ inline constexpr std::array<Limit, 3> kLimits{
 /// The most that a stream may have of each of kLimits; nothing: anything.
 using Limits = std::array<std::optional<double>, kLimits.size()>;
 
-/// What `monitor` was asked for, as typed.
 struct MonitorOptions {
     std::string file; ///< empty: the network
     std::vector<std::string> udp;
@@ -63,7 +62,6 @@ struct MonitorOptions {
     Limits limits;
 };
 
-/// Where to listen.
 struct Places {
     std::vector<net::UdpInput> udp;
     std::vector<net::Endpoint> tcpListen;
@@ -122,7 +120,6 @@ public:
 
 private:
     void takeIn(log::Stamp now);
-    [[nodiscard]] std::string packetsText() const;
     void tellSenders();
     ExitStatus writeReport(const exporting::MonitorFacts& facts);
     void showLine(log::Stamp now);

@@ -4,7 +4,6 @@
 #include "app/usage/usage.h"
 #include "core/export/html.h"
 #include "core/export/reports.h"
-#include "core/export/session_reading.h"
 #include "core/log/file_names.h"
 #include "core/log/log_reader.h"
 #include "core/model/incidents/thresholds.h"
@@ -18,14 +17,15 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <filesystem>
 #include <iterator>
 #include <utility>
 
 namespace posewire::cli {
 namespace {
 
-/// How long a report waits for somebody to read the pipe that it goes to.
+std::string packetsText(std::uint64_t packets) {
+    return std::to_string(packets) + (packets == 1 ? " packet" : " packets");
+}
 
 std::string applicationName() {
     return "Posewire " + std::string(usage::version());
@@ -50,7 +50,6 @@ std::string placeOf(const model::SessionView& session, const log::StreamKey& key
            wire::typeTitle(key.type);
 }
 
-/// Says by how much a stream is above a limit.
 std::string excessOf(const model::SessionView& session, const log::StreamKey& stream, const Limit& limit,
                      double value, double most, bool lasts = false) {
     return placeOf(session, stream) + ": " + std::string(limit.name) + ' ' + exporting::fixed(value, 3) +
@@ -236,8 +235,7 @@ log::Reception MonitorRun::receptionOf(const exporting::MonitorFacts& facts) con
 }
 
 void MonitorRun::tellRecorded(const log::RecordingFigures& recorded, bool hasFailed) {
-    const std::string packets =
-        std::to_string(recorded.packets) + (recorded.packets == 1 ? " packet" : " packets");
+    const std::string packets = packetsText(recorded.packets);
     const std::string file = m_options.record == "-" ? "standard output" : m_options.record;
     if (hasFailed) {
         m_console.complain("at most " + packets + " of " + std::to_string(log::LogReader(m_log).end()) +
@@ -254,12 +252,8 @@ void MonitorRun::tellRecorded(const log::RecordingFigures& recorded, bool hasFai
 
 void MonitorRun::tellInterrupted() {
     m_isInterrupted = true;
-    m_console.complain(m_options.file + ": interrupted; this is about its first " + packetsText() + " only");
-}
-
-std::string MonitorRun::packetsText() const {
-    const std::uint64_t packets = log::LogReader(m_log).end();
-    return std::to_string(packets) + (packets == 1 ? " packet" : " packets");
+    m_console.complain(m_options.file + ": interrupted; this is about its first " +
+                       packetsText(log::LogReader(m_log).end()) + " only");
 }
 
 ExitStatus MonitorRun::conclude(exporting::MonitorFacts facts, ExitStatus status,
@@ -302,7 +296,8 @@ ExitStatus MonitorRun::writeReport(const exporting::MonitorFacts& facts) {
     options.settings.emplace_back(m_options.file.empty() ? "Source" : "File",
                                   m_options.file.empty() ? "network" : m_options.file);
     if (m_isInterrupted) {
-        options.settings.emplace_back("Not read to its end", "interrupted after " + packetsText());
+        options.settings.emplace_back("Not read to its end",
+                                      "interrupted after " + packetsText(log::LogReader(m_log).end()));
     }
     log::OutputRules rules = rulesOf(m_options);
     if (!m_options.record.empty() && m_options.record != "-") {

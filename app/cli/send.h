@@ -10,7 +10,6 @@
 
 #include <tl/expected.hpp>
 
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -39,7 +38,6 @@ public:
     [[nodiscard]] const performer::Faults& faults() const { return m_faults; }
     /// To all targets.
     net::NetResult<void> send(const performer::Sending& sending);
-    /// Waits until everything has been handed to the network.
     net::NetResult<void> finish();
 
     [[nodiscard]] const std::vector<Sender>& senders() const { return m_senders; }
@@ -81,7 +79,6 @@ private:
     std::vector<Leaving> m_leaving;
 };
 
-/// What `send` was asked for, as typed.
 struct SendOptions {
     std::vector<std::string> to{"127.0.0.1:9763"};
     bool overTcp = false;

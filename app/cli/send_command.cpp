@@ -34,7 +34,6 @@ tl::expected<std::vector<SendLine>, Complaint> linesOf(const SendOptions& option
     return lines;
 }
 
-/// Reports what was sent, and writes the truth.
 ExitStatus conclude(const SendOptions& options, std::vector<SendLine>& lines, Console& console) {
     std::uint64_t sent = 0;
     std::uint64_t refused = 0;

@@ -4,10 +4,13 @@
 #include "app/gui/base/saving.h"
 #include "app/gui/plots/time_plot.h"
 #include "app/gui/theme/event_watch.h"
-#include "app/gui/theme/icons.h"
+#include "app/gui/theme/theme.h"
 #include "app/gui/viewport/own_characters.h"
 #include "app/gui/viewport/presenter.h"
+#include "app/gui/window/docks.h"
+#include "app/gui/window/guide.h"
 #include "app/gui/window/main_window.h"
+#include "app/gui/window/opening.h"
 #include "app/system/interruption.h"
 #include "app/system/process_figures.h"
 #include "app/system/standard_streams.h"
@@ -70,7 +73,7 @@ void openComparison(MainWindow& window, const Options& options, const Settings& 
         return;
     }
     if (!isToRestore(options)) {
-        window.compareWith(file);
+        window.opening().compareWith(file);
     } else if (QFileInfo(file).isFile()) {
         window.driver().files().comparing().open(file); // docks are as they were
     } else {
@@ -98,7 +101,7 @@ void openInputs(MainWindow& window, const Options& options, const Settings& sett
     }
     const QString file = fileToOpen(options, settings);
     if (!file.isEmpty()) {
-        window.openPath(file);
+        window.opening().open(file);
         if (OpenedFile* opened = driver.files().file(); isToRestore(options) && opened != nullptr) {
             opened->session().setDisplayFilter(settings.fileFilter.toStdString());
         }
@@ -120,7 +123,8 @@ void openInputs(MainWindow& window, const Options& options, const Settings& sett
 }
 
 void saveScreenshot(MainWindow& window, const Options& options) {
-    QWidget* part = options.screenshotPart.isEmpty() ? &window : window.showPart(options.screenshotPart);
+    QWidget* part =
+        options.screenshotPart.isEmpty() ? &window : window.docks().showPart(options.screenshotPart);
     const QString problem =
         part == nullptr
             ? QStringLiteral("--part: there is no '%1' in the window.").arg(options.screenshotPart)
@@ -158,14 +162,16 @@ void begin(MainWindow& window, const Options& options, const Settings& settings)
     window.viewport().pictures().start();
     window.driver().start();
     if (options.screenshotFile.isEmpty()) {
-        window.offerRecovered();
-        if (!options.skipsTour && window.driver().history().lost().empty()) {
-            window.offerFirstSteps();
+        if (!window.driver().history().lost().empty()) {
+            window.menus().action("recovered")->trigger();
+        } else if (!options.skipsTour) {
+            window.guide().offerFirstSteps();
         }
     } else {
         constexpr int kAttempts = 100;
         if (!options.screenshotPart.isEmpty()) {
-            static_cast<void>(window.showPart(options.screenshotPart)); // what it shows comes in meanwhile
+            static_cast<void>(
+                window.docks().showPart(options.screenshotPart)); // what it shows comes in meanwhile
         }
         QTimer::singleShot(static_cast<int>(options.screenshotAfterSeconds * 1000), &window,
                            [&window, options] { takeScreenshot(window, options, kAttempts); });

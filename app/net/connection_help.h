@@ -24,14 +24,12 @@ struct Firewall {
 /// if none was found, which is no proof that there is none.
 [[nodiscard]] std::optional<Firewall> findFirewall(const std::string& root = "/");
 
-/// Datagrams of one sender that are not MXTP.
 struct ForeignSender {
     std::string address;
     std::uint64_t count = 0;
     std::vector<std::byte> firstBytes; ///< of the newest datagram, as far as they are kept
 };
 
-/// An input that could not be opened.
 struct FailedInput {
     InputKind kind = InputKind::Udp;
     Endpoint endpoint;
@@ -50,7 +48,6 @@ struct ConnectionFacts {
     log::Stamp now{};
 };
 
-/// Something that is, or may be, wrong.
 struct Finding {
     enum class Kind : std::uint8_t {
         NoInput,

@@ -14,7 +14,6 @@ class QNetworkInterface;
 /// Where sockets are, in words and as addresses, and why one cannot be there.
 namespace posewire::net {
 
-/// Why a network operation failed.
 struct NetError {
     enum class Kind : std::uint8_t {
         PortInUse,
@@ -70,7 +69,6 @@ struct Endpoint {
 /// none or one that is.
 [[nodiscard]] std::string problemWithZone(const QHostAddress& address);
 
-/// An address that this computer has.
 struct LocalAddress {
     std::string address;   ///< "192.168.1.20", "fe80::1%eth0"
     std::string interface; ///< as the system calls it: "eth0", "Ethernet 2"

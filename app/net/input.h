@@ -8,13 +8,11 @@
 #include <cstdint>
 #include <mutex>
 #include <string>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
 namespace posewire::net {
 
-/// Identifies one input of a Receiver; never reused.
 enum class InputId : std::uint32_t {};
 
 enum class InputKind : std::uint8_t { Udp, TcpListener, TcpConnection };
@@ -53,7 +51,6 @@ struct InputCounters {
     std::atomic<std::uint64_t> closedPeers = 0;       ///< TCP: closed because others wanted in
 };
 
-/// The other end of a TCP connection.
 struct Peer {
     std::string address; ///< "10.0.0.5:50123"
     log::Stamp connected{};
@@ -62,7 +59,6 @@ struct Peer {
     std::uint64_t skippedBytes = 0;
 };
 
-/// A snapshot of an input.
 struct InputStatus {
     InputId id{};
     InputKind kind = InputKind::Udp;

@@ -10,11 +10,8 @@
 #include <net/if.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
-#include <cstring>
 #include <ctime>
-#include <string>
 #include <system_error>
 
 namespace posewire::net {

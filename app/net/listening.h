@@ -8,7 +8,6 @@
 #include <QUdpSocket>
 
 #include <memory>
-#include <optional>
 #include <vector>
 
 /// Opening sockets that listen. Why one cannot is said in the same words for UDP and TCP.

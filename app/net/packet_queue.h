@@ -2,12 +2,10 @@
 #pragma once
 
 #include "core/log/packet_log.h"
-#include "core/log/time.h"
 
 #include <atomic>
 #include <condition_variable>
 #include <cstddef>
-#include <cstdint>
 #include <functional>
 #include <memory>
 #include <mutex>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/net/listening.h"
 #include "app/net/receive_loop.h"
-#include "app/net/thread_events.h"
+#include "app/net/tcp_thread.h"
 
 #include <QNetworkInterface>
 #include <QTimer>

@@ -35,7 +35,6 @@ inline void listenOnOwn(GroupMemberships& groups, const Input& input) {
     }
 }
 
-/// What an input of the receiving thread says about itself.
 inline void tellGroups(Input& input, const GroupMemberships& groups) {
     input.setState(InputState::Listening, groups.text());
     input.setProblem(groups.problem());

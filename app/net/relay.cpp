@@ -5,7 +5,6 @@
 #include <QUdpSocket>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <functional>
 #include <string_view>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/net/tcp_peer.h"
+#include "app/net/tcp_room.h"
 #include "app/net/tcp_thread.h"
 
 #include <QHostAddress>

@@ -1,14 +1,81 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/net/tcp_peer.h"
+#include "app/net/tcp_thread.h"
+#include "core/log/tcp_framer.h"
 
+#include <QTcpSocket>
+
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace posewire::net {
+
+/// Of a connection, besides what its framer keeps.
+inline constexpr qint64 kReadBuffer = qint64{128} << 10;
+/// How often an input shows its peers' counters.
+inline constexpr log::Duration kPublish = std::chrono::milliseconds(100);
+
+/// One TCP connection: splits its bytes into datagrams and passes them on.
+class TcpPeer {
+public:
+    /// How much a connection has a claim to its place, least first. Bytes alone are no claim: who trickles
+    /// them would never give way. A whole datagram is.
+    enum class Claim : std::uint8_t {
+        HalfOpen, ///< no whole datagram, though it has been connected for kHalfOpen
+        Idle,     ///< no whole datagram for kIdle
+        New,      ///< no whole datagram so far
+        Quiet,    ///< no whole datagram for kQuiet: one was sent to hold the place
+        Active,
+    };
+    static constexpr log::Duration kQuiet = std::chrono::seconds(5);
+    static constexpr log::Duration kHalfOpen = std::chrono::seconds(10);
+    static constexpr log::Duration kIdle = std::chrono::seconds(30);
+
+    /// `socket` is connected. `localPort` is recorded as the port that the sender's data arrived at.
+    TcpPeer(const TcpContext& context, std::shared_ptr<Input> input, std::unique_ptr<QTcpSocket> socket,
+            std::uint16_t localPort);
+
+    /// Reads a bounded amount, so that others get a turn; true if there is more. Blocks while the queue is
+    /// full.
+    bool read();
+
+    /// The other end closed or was lost, and everything it sent has been read.
+    [[nodiscard]] bool hasEnded() const {
+        return m_socket->state() == QAbstractSocket::UnconnectedState && m_socket->bytesAvailable() == 0;
+    }
+
+    /// Reads what has arrived, in the system's buffers too, without waiting for more. For closing from this
+    /// side: an unfinished datagram is then nobody's fault and is not reported.
+    void drain();
+
+    /// Passes on the rest of a connection that ended inside a datagram. After hasEnded() or drain().
+    void finish();
+
+    [[nodiscard]] const Peer& status() const { return m_status; }
+    [[nodiscard]] Claim claimAt(log::Moment now) const;
+    /// When its last whole datagram came, else when it connected.
+    [[nodiscard]] log::Moment lastDatagram() const { return m_lastDatagram; }
+    /// When its last byte came, else when it connected.
+    [[nodiscard]] log::Moment lastByte() const { return m_lastByte; }
+    [[nodiscard]] bool isAllowed() const { return m_context.allowed.allows(m_socket->peerAddress()); }
+
+private:
+    void take(const log::TcpFramer::Piece& piece);
+
+    const TcpContext& m_context;
+    std::shared_ptr<Input> m_input;
+    std::unique_ptr<QTcpSocket> m_socket;
+    log::SenderInfo m_sender;
+    log::TcpFramer m_framer;
+    log::Stamp m_stamp{}; ///< of the bytes being read
+    log::Moment m_lastByte;
+    log::Moment m_lastDatagram;
+    Peer m_status;
+};
 
 /// The connections of one listener, Receiver::kMostPeers at most: who is let in, who gives way, and what is
 /// told of it. Of one thread, as TcpInput.
@@ -27,7 +94,6 @@ public:
     void drain();
     void heedAllowed();
 
-    /// Shows the connections in the input's status.
     void publish();
 
 private:

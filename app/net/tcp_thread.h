@@ -5,13 +5,15 @@
 #include "app/net/command_queue.h"
 #include "app/net/input.h"
 #include "app/net/packet_queue.h"
-#include "app/net/thread_events.h"
 #include "core/log/clock.h"
 #include "core/log/time.h"
 #include "core/log/timeline.h"
 
+#include <QEventLoop>
+
 #include <atomic>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <thread>
 #include <vector>
@@ -19,6 +21,35 @@
 class QTimer;
 
 namespace posewire::net {
+
+/// Qt's event dispatcher of a std::thread, which its sockets need. Only wake() may be called from others.
+class ThreadEvents {
+public:
+    /// Again and again if need be.
+    void begin() {
+        const std::lock_guard lock(m_mutex);
+        if (!m_eventLoop) {
+            m_eventLoop = std::make_unique<QEventLoop>();
+        }
+    }
+    void process(QEventLoop::ProcessEventsFlag flag) { m_eventLoop->processEvents(flag); }
+    void end() {
+        const std::lock_guard lock(m_mutex);
+        m_eventLoop.reset();
+    }
+
+    /// Ends a wait for events; without effect before begin() and after end().
+    void wake() {
+        const std::lock_guard lock(m_mutex);
+        if (m_eventLoop) {
+            m_eventLoop->wakeUp();
+        }
+    }
+
+private:
+    std::mutex m_mutex; ///< guards m_eventLoop against a wake() before or after its life
+    std::unique_ptr<QEventLoop> m_eventLoop;
+};
 
 /// What a TCP connection works with; must outlive it.
 struct TcpContext {
@@ -59,7 +90,6 @@ protected:
     std::shared_ptr<Input> m_input;
 };
 
-/// Lets senders connect, as MVN does.
 [[nodiscard]] NetResult<std::unique_ptr<TcpInput>> makeTcpListener(const TcpContext& context,
                                                                    const std::shared_ptr<Input>& input);
 

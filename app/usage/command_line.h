@@ -47,7 +47,6 @@ private:
 /// Keeps one text that was typed; returns in one line what is wrong with it, or nothing.
 using Reading = std::function<std::string(const std::string& text)>;
 
-/// The arguments of a program or of one of its commands.
 class Arguments {
 public:
     explicit Arguments(CLI::App& parser) : m_parser(&parser) {}
@@ -76,7 +75,6 @@ private:
     CLI::App* m_parser;
 };
 
-/// What ends a program before it begins.
 struct EarlyExit {
     int status = 0;   ///< 0 for help and version, 2 for a mistake
     std::string text; ///< for standard output; one line about the mistake, for standard error

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/window/texts.h"
+#include "app/gui/window/guide.h"
 #include "packaging/help/help_html.h"
 
 #include <QDir>

@@ -4,7 +4,7 @@
 // 52,000 points by a rigid motion, a millisecond where the limit was set.
 //   scene_bench [--check] [--brief]
 #include "app/gui/viewport/camera_motion.h"
-#include "app/gui/viewport/labels.h"
+#include "app/gui/viewport/picking.h"
 #include "app/gui/viewport/scene.h"
 #include "tests/app/gui/models/stage.h"
 

@@ -71,14 +71,14 @@ PLAIN_TEXT = [
     (r"\bQToolTip::showText\((?![^;]*\btoolTipText\()", "a tooltip comes through toolTipText()"),
     (r"\bset(WhatsThis|StatusTip)\(", "nothing is shown there"),
 ]
-PLAIN_TEXT_PLACES = ("app/gui/theme/widgets.cpp", "app/gui/theme/plain_text.cpp", "app/gui/theme/note.cpp")
+PLAIN_TEXT_PLACES = ("app/gui/theme/widgets.cpp", "app/gui/theme/theme.cpp")
 # HTML and Markdown of ours, with the names in it escaped.
 MARKUP = re.compile(r"\b(setHtml|setMarkdown|insertHtml|appendHtml)\(|\brichLabel\(")
 MARKUP_PLACES = PLAIN_TEXT_PLACES + ("app/gui/theme/widgets.h", "app/gui/panels/inspector_panel.cpp",
                                      "app/gui/panels/nullpose_panel.cpp", "app/gui/inputs/inputs_dialog.cpp",
                                      "app/gui/viewport/pose_banner.cpp", "app/gui/viewport/segment_card.cpp",
                                      # Texts of the program itself: the guide and the reference.
-                                     "app/gui/help/help_pages.cpp", "app/gui/help/markdown_view.cpp")
+                                     "app/gui/help/help_pages.cpp", "app/gui/help/help_window.cpp")
 PANEL_HEADER = re.compile(r'"app/gui/panels/(\w+_panel)\.h"')
 MAY_INCLUDE_PANELS = ("app/gui/panels/panels.cpp", "app/gui/window/main_window.cpp", "tests/")
 LIMITS = [("tests/", 600), (".h", 300), (".cpp", 500)]

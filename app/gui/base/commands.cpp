@@ -23,21 +23,21 @@ std::optional<model::Selection> selectionOf(const model::SessionView& session, s
     return selection;
 }
 
+void stopPlaying(model::Session& session) {
+    model::Cursor cursor = session.choices().cursor;
+    cursor.speed = 0;
+    session.setCursor(cursor);
+}
+
 } // namespace
 
 void Commands::show(model::Session& session) {
     if (m_shown != &session) {
-        stopPlaying();
+        stopPlaying(*m_shown);
         m_shown = &session;
         emit changed();
         emit switched();
     }
-}
-
-void Commands::stopPlaying() {
-    model::Cursor cursor = m_shown->choices().cursor;
-    cursor.speed = 0;
-    playTo(cursor);
 }
 
 void Commands::selectPacket(std::uint64_t number) {
@@ -60,13 +60,13 @@ void Commands::unselectPacket() {
 }
 
 void Commands::jump(std::uint64_t packet, const QString& filter) {
-    stopPlaying();
+    stopPlaying(*m_shown);
     change(&model::Session::jump, selectionOf(*m_shown, packet).value_or(m_shown->choices().selection),
            filter.toStdString());
 }
 
 void Commands::goBack() {
-    stopPlaying();
+    stopPlaying(*m_shown);
     change(&model::Session::goBack);
     emit wentBack();
 }

@@ -20,7 +20,6 @@ public:
 
     /// The session that is shown.
     [[nodiscard]] model::SessionView& session() const { return *m_shown; }
-    /// The live session, whichever is shown.
     [[nodiscard]] model::SessionView& live() const { return m_live; }
     [[nodiscard]] bool isFileShown() const { return m_shown != &m_live; }
     void showLive() { show(m_live); }
@@ -34,7 +33,6 @@ public:
     /// Selects a packet with its sender and character; a display that is stopped moves there. Ignored if
     /// there is no such packet.
     void selectPacket(std::uint64_t number);
-    /// Lets go of the packet that is selected: the newest one of the moment is inspected.
     void unselectPacket();
     /// Chooses the time range of the statistics.
     void selectRange(const model::RangeChoice& range) { change(&model::Session::setRange, range); }
@@ -74,11 +72,9 @@ public:
     // On the live session, whichever is shown:
     /// A new span counts for the take: counts, incidents and verdict from now on.
     void resetForTake();
-    /// Sets the limits that streams are held to from now on.
     void setThresholds(const model::Thresholds& thresholds);
 
 signals:
-    /// A command was carried out.
     void changed();
     /// Another session is shown.
     void switched();
@@ -86,7 +82,6 @@ signals:
     void wentBack();
 
     // Requests that the window carries out.
-    /// Points the camera at a character.
     void frameCharacter(const model::CharacterKey& key);
     /// Brings a dock before the others, by its object name.
     void showDock(const QString& dock);
@@ -97,7 +92,6 @@ private:
         (m_shown->*setter)(arguments...);
         emit changed();
     }
-    void stopPlaying();
 
     model::Session& m_live;
     model::Session* m_shown;

@@ -25,7 +25,6 @@ struct ComparisonChoice {
     friend bool operator==(const ComparisonChoice&, const ComparisonChoice&) = default;
 };
 
-/// What is known of a comparison now.
 struct ComparisonState {
     bool isOpen = false;
     QString name;                         ///< of the second recording's file
@@ -35,7 +34,7 @@ struct ComparisonState {
     std::optional<exporting::Alignment> alignment; ///< in force; nothing before it is known
     double step = 1;                               ///< of its offset, for one sample
     std::optional<model::PoseDifference> atCursor; ///< nothing where there is no partner
-    /// Of what was chosen for figures; nothing before it was worked out.
+    /// Differences over the range of the figures; null before they are worked out.
     std::shared_ptr<const exporting::MotionComparison> range;
     bool isWorking = false;
     double share = 0;       ///< of that work, from 0 to 1

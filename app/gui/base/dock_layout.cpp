@@ -2,7 +2,6 @@
 #include "app/gui/base/dock_layout.h"
 
 #include "app/gui/base/saving.h"
-#include "app/gui/base/small_json.h"
 #include "app/gui/theme/words.h"
 
 #include <QDockWidget>
@@ -11,7 +10,6 @@
 
 #include <algorithm>
 #include <array>
-#include <functional>
 #include <iterator>
 #include <numeric>
 #include <utility>
@@ -20,7 +18,7 @@ namespace posewire::gui {
 
 namespace {
 
-/// Of the files, raised when the meaning of something in them changes.
+/// Raised when the meaning of something in the files changes.
 constexpr int kLayoutSchema = 1;
 constexpr int kLeastCharacters = 54;
 constexpr int kLeastLines = 13; ///< a title, tabs, a bar, column titles and some rows

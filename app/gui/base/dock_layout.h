@@ -29,7 +29,6 @@ struct DockLayout {
     std::map<Qt::DockWidgetArea, Area> areas; ///< those with places
 };
 
-/// The names of the layouts that ship.
 [[nodiscard]] QStringList layoutNames();
 
 /// From JSON as in resources/layouts; the error says what is wrong with it.

@@ -11,7 +11,6 @@
 /// own names.
 namespace posewire::gui {
 
-/// What can be asked about.
 enum class HelpTopic : std::uint8_t {
     CannotListen,
     NoInput,

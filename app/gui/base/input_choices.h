@@ -17,7 +17,6 @@ namespace posewire::gui {
 
 using net::kDefaultPort;
 
-/// Where datagrams come from, as the operator enters it.
 struct InputAddress {
     using Kind = net::InputKind;
     QString address; ///< of this computer, empty for all of them; where to connect, that of the sender
@@ -27,7 +26,6 @@ struct InputAddress {
     friend bool operator==(const InputAddress&, const InputAddress&) = default;
 };
 
-/// A host that is to get a copy of every datagram.
 struct RelayChoice {
     QString host;
     std::uint16_t port = kDefaultPort;
@@ -50,7 +48,7 @@ parseInputAddress(const QString& text, InputAddress::Kind kind = InputAddress::K
 /// "udp", "tcp-listen", "tcp": the option of the command line, and the protocol in files.
 [[nodiscard]] QString kindName(InputAddress::Kind kind);
 
-/// What the operator chose to hear and to forward: kept from one run to the next.
+/// Inputs and relays of the operator, kept from one run to the next.
 struct InputChoices {
     std::optional<std::vector<InputAddress>> inputs{}; ///< nothing where nobody has chosen yet
     std::vector<RelayChoice> relays{};

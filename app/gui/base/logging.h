@@ -5,7 +5,7 @@
 
 namespace posewire::gui {
 
-/// What --verbose tells on standard error. Without it QT_LOGGING_RULES can ask for some of them, such as
+/// --verbose prints these on standard error. Without it QT_LOGGING_RULES can enable some of them, such as
 /// "posewire.inputs.info=true". What a sender wrote is never told.
 Q_DECLARE_LOGGING_CATEGORY(inputsLog)   // posewire.inputs: ports, connections, who is listened to
 Q_DECLARE_LOGGING_CATEGORY(filesLog)    // posewire.files: files opened, takes, the history on disk

@@ -95,7 +95,6 @@ usage::Reading into(QSize& size) {
     };
 }
 
-/// The command line as it is declared, and what was typed.
 struct Declared {
     usage::CommandLine line;
     Options options;

@@ -18,7 +18,6 @@
 
 namespace posewire::gui {
 
-/// What the command line asks for.
 struct Options {
     QString file;
     QString comparedFile;

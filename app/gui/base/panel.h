@@ -25,7 +25,6 @@ struct ActionInfo {
     void (*list)(QWidget& owner, QMenu& menu) = nullptr; ///< instead: fills the menu each time that it opens
 };
 
-/// A line between the entries of a menu.
 constexpr ActionInfo lineIn(const char* menu) {
     return {"", menu, "", ""};
 }
@@ -49,7 +48,6 @@ struct ActionsOf {
     static void callIn(QWidget& owner) {
         std::invoke(function, std::invoke(part, static_cast<Owner&>(owner)), arguments...);
     }
-    /// Calls a member function that takes the menu to fill.
     template <auto function>
     static void list(QWidget& owner, QMenu& menu) {
         std::invoke(function, static_cast<Owner&>(owner), menu);
@@ -74,7 +72,6 @@ struct ActionsOf {
 /// Adds the entries of a table that belong to the menu at the path `from`, as they are now.
 void addEntries(QMenu& menu, std::span<const ActionInfo> table, const char* from, QWidget& owner);
 
-/// The content of one dock.
 class Panel : public QWidget {
     Q_OBJECT
 
@@ -82,7 +79,7 @@ public:
     Panel(model::SessionView& view, Commands& commands, QWidget* parent)
         : QWidget(parent), m_view(view), m_commands(commands) {}
 
-    /// What the menus of the window do here; a panel that has entries there hides this by a table of its own.
+    /// Entries of the window's menus that act here; a panel that has some hides this by a table of its own.
     [[nodiscard]] static std::span<const ActionInfo> actionTable() { return {}; }
 
     /// The view has moved; called at most once per display tick (at most ten times a second for tables), and
@@ -94,7 +91,7 @@ public:
     /// Shown at the right of the dock's title, such as "2 of 2 live"; empty for nothing.
     [[nodiscard]] virtual QString summary() const { return {}; }
 
-    /// What the operator set here and wants to find again in the next run; empty for nothing.
+    /// Settings of the operator that the next run restores; empty for none.
     [[nodiscard]] virtual QJsonObject state() const { return {}; }
     /// Takes such a state; ignores what it does not understand.
     virtual void restoreState(const QJsonObject& /*state*/) {}

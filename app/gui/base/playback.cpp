@@ -48,16 +48,25 @@ std::optional<log::StreamKey> steppedStream(const model::SessionView& session,
     return std::nullopt;
 }
 
+/// The newest packet of the moment is inspected then.
+void unselectPacket(Commands& commands) {
+    model::Selection selection = commands.session().choices().selection;
+    if (selection.packet) {
+        selection.packet.reset();
+        commands.select(selection);
+    }
+}
+
 } // namespace
 
 void Playback::stopAt(std::uint64_t packet) {
-    m_commands.unselectPacket();
+    unselectPacket(m_commands);
     m_commands.setCursor(stoppedAt(packet));
 }
 
 void Playback::goLive() {
     m_commands.showLive();
-    m_commands.unselectPacket();
+    unselectPacket(m_commands);
     m_commands.setCursor({});
 }
 
@@ -126,7 +135,7 @@ void Playback::begin(double speed) {
     if (isAtEnd) { // it was played to its end: once more
         from = session.firstStamp();
     }
-    m_commands.unselectPacket();
+    unselectPacket(m_commands);
     m_playing.emplace(from, m_clock.monotonic(), speed, loop);
     model::Cursor cursor = stoppedAt(shownPacket(session));
     cursor.speed = m_playing->speed();

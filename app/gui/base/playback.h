@@ -9,20 +9,19 @@
 
 namespace posewire::gui {
 
-/// Moves the moment that is shown: followed, stopped, stepped or played. Receiving goes on, whatever it is.
+/// Moves the moment that is shown: follows, stops, steps or plays. Receiving goes on meanwhile.
 class Playback {
 public:
     /// Both must outlive it.
     Playback(Commands& commands, const log::Clock& clock) : m_commands(commands), m_clock(clock) {}
 
-    /// What is received, as it comes; lets go of a packet that is selected.
+    /// Follows the stream again; lets go of a packet that is selected.
     void goLive();
     /// Stops the display where it is, or follows the stream again. A file is played instead.
     void setPaused(bool isPaused);
     [[nodiscard]] bool isPaused() const;
     /// Stops the display this many seconds after the first packet there was.
     void seek(double seconds);
-    /// Stops the display at a moment.
     void showMoment(log::Stamp moment);
     /// Stops the display, and moves it by samples of a character, by packets or by time.
     void stepSamples(const model::CharacterKey& of, int steps);
@@ -33,7 +32,7 @@ public:
     /// plays that way already.
     void play(Direction direction);
     [[nodiscard]] bool isPlaying(Direction direction) const;
-    /// Times as fast as it was, above 0; also of what plays.
+    /// Sets how many times as fast as received it plays, above 0; also while it plays.
     void setSpeed(double speed);
     [[nodiscard]] double speed() const { return m_speed; }
     /// Plays the range that is selected, or all, again and again.

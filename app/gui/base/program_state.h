@@ -16,7 +16,6 @@
 
 namespace posewire::gui {
 
-/// One input that the operator wants to hear.
 struct PortState {
     InputAddress port;
     QString problem; ///< why nothing can come from it now, and what to do; empty where it can
@@ -25,7 +24,6 @@ struct PortState {
     double datagramsPerSecond = 0;
 };
 
-/// One host that everything is to be forwarded to.
 struct RelayState {
     enum class Stage : std::uint8_t { Off, LookingUp, Forwarding, Refused };
     RelayChoice target;
@@ -37,7 +35,6 @@ struct RelayState {
     std::uint64_t behind = 0;  ///< packets that wait to be forwarded
 };
 
-/// What there is to say about receiving.
 struct ReceivingState {
     std::vector<PortState> ports;
     std::uint64_t kernelDropped = 0;     ///< in this computer, by the kernel or by the queue of the receiver
@@ -52,7 +49,6 @@ struct ReceivingState {
     std::vector<net::LocalAddress> addresses{}; ///< of this computer, to type into a sender, the best first
 };
 
-/// How the viewport's pictures are drawn, in words.
 struct PictureHealth {
     QString state{}; ///< empty before there was one
     QString why{};

@@ -3,7 +3,6 @@
 
 #include "app/gui/theme/widgets.h"
 #include "app/gui/theme/words.h"
-#include "core/log/output_file.h"
 
 #include <QBuffer>
 #include <QClipboard>
@@ -11,6 +10,8 @@
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QGuiApplication>
+#include <QJsonArray>
+#include <QJsonDocument>
 #include <QPixmap>
 #include <QRegularExpression>
 
@@ -18,6 +19,7 @@
 #include <span>
 
 namespace posewire::gui {
+
 namespace {
 
 std::vector<std::string>& filesInUse() {
@@ -121,6 +123,52 @@ tl::expected<QByteArray, QString> readSmallFile(const QString& path) {
         return tl::unexpected(tr("it is larger than 4 MiB, the most that is read"));
     }
     return content;
+}
+
+namespace {
+
+QJsonValue small(const QJsonValue& value, int depth);
+
+QJsonObject small(const QJsonObject& object, int depth) {
+    QJsonObject result;
+    for (auto entry = object.begin(); entry != object.end() && result.size() < kMostJsonEntries; ++entry) {
+        if (entry.key().size() <= kLongestJsonText) {
+            result.insert(entry.key(), small(entry.value(), depth + 1));
+        }
+    }
+    return result;
+}
+
+QJsonArray small(const QJsonArray& array, int depth) {
+    QJsonArray result;
+    for (auto entry = array.begin(); entry != array.end() && result.size() < kMostJsonEntries; ++entry) {
+        result.append(small(*entry, depth + 1));
+    }
+    return result;
+}
+
+QJsonValue small(const QJsonValue& value, int depth) {
+    const bool isText = value.isString();
+    if (depth > kDeepestJson || (isText && value.toString().size() > kLongestJsonText)) {
+        return {};
+    }
+    return value.isObject()  ? QJsonValue(small(value.toObject(), depth))
+           : value.isArray() ? QJsonValue(small(value.toArray(), depth))
+                             : value;
+}
+
+} // namespace
+
+tl::expected<QJsonObject, QString> parseSmallObject(const QByteArray& json) {
+    QJsonParseError error;
+    const QJsonDocument document = QJsonDocument::fromJson(json, &error);
+    if (error.error != QJsonParseError::NoError) {
+        return tl::unexpected(tr("%1 at byte %2").arg(error.errorString()).arg(error.offset));
+    }
+    if (!document.isObject()) {
+        return tl::unexpected(tr("it does not begin with {"));
+    }
+    return small(document.object(), 0);
 }
 
 } // namespace posewire::gui

@@ -4,8 +4,11 @@
 #include "core/export/formats.h"
 #include "core/log/output_file.h"
 
+#include <QByteArray>
 #include <QByteArrayView>
 #include <QCoreApplication>
+#include <QJsonObject>
+#include <QString>
 #include <QStringList>
 
 #include <tl/expected.hpp>
@@ -25,7 +28,6 @@ namespace posewire::gui {
 /// a file that is asked about too. Empty where it was cancelled.
 [[nodiscard]] QString askWhereToSave(QWidget* parent, const QString& title, const QString& name,
                                      const QString& filters);
-/// Asks whether a file that is there is to be replaced.
 [[nodiscard]] bool wantsToReplace(QWidget* parent, const QString& title, const QString& path);
 /// For what the operator was asked about: files may be replaced, but none that is open as an input.
 [[nodiscard]] log::OutputRules replacing();
@@ -38,13 +40,12 @@ namespace posewire::gui {
 /// operator, empty for nothing.
 [[nodiscard]] QString saveFile(const QString& path, QByteArrayView content);
 
-/// The same with what another file holds, on a thread of its own.
+/// Copies a file likewise, on a thread of its own.
 [[nodiscard]] std::future<QString> saveCopy(const QString& from, const QString& to);
 
-/// To the clipboard.
 void copyText(const QString& text);
 
-/// The same as saveFile() for a picture, in the format that its ending says.
+/// Saves a picture likewise, in the format that its ending says.
 [[nodiscard]] QString savePicture(const QPixmap& picture, const QString& path);
 
 /// The file is open as an input for as long as this is there: saveFile() does not write over it, whatever
@@ -80,5 +81,15 @@ template <class Subject>
     }
     return filters.join(QStringLiteral(";;"));
 }
+
+/// No text of a file of ours is longer, no list or object has more entries, and none lies deeper.
+inline constexpr int kLongestJsonText = 16'384;
+inline constexpr int kMostJsonEntries = 256;
+inline constexpr int kDeepestJson = 16;
+
+/// An object of the program's own kind, such as settings or a layout, that anyone may have written since:
+/// what is larger than ours ever is has been left out, so that whoever reads a value of it need not fear its
+/// size. The error says what is wrong, and where.
+[[nodiscard]] tl::expected<QJsonObject, QString> parseSmallObject(const QByteArray& json);
 
 } // namespace posewire::gui

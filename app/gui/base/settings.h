@@ -2,11 +2,11 @@
 #pragma once
 
 #include "app/gui/base/input_choices.h"
-#include "app/gui/base/recording_choice.h"
 #include "app/gui/theme/theme.h"
 #include "core/model/incidents/thresholds.h"
 
 #include <QByteArray>
+#include <QDateTime>
 #include <QJsonObject>
 #include <QRect>
 #include <QString>
@@ -15,6 +15,33 @@
 #include <tl/expected.hpp>
 
 namespace posewire::gui {
+
+struct RecordingChoice {
+    QString folder{};          ///< empty for "Posewire" in the user's documents
+    QString pattern{};         ///< of the names of files; empty for kDefaultPattern
+    int preRollSeconds = 0;    ///< of what was received before, kept too
+    int fileMegabytes = 0;     ///< of one file; 0 for any
+    int fileMinutes = 0;       ///< of one file; 0 for any
+    int freeMegabytes = 1'000; ///< a recording ends before its disk has less
+
+    static constexpr int kMostPreRoll = 3'600;
+    static constexpr int kMostMegabytes = 1'000'000;
+    static constexpr int kMostMinutes = 1'440;
+    /// {take} is the first number of which there is no file, {date} and {time} are when it begins.
+    static constexpr const char* kDefaultPattern = "Take {take} {date} {time}";
+
+    friend bool operator==(const RecordingChoice&, const RecordingChoice&) = default;
+};
+
+/// Entries that are missing or out of bounds are as by default.
+[[nodiscard]] RecordingChoice recordingChoiceOf(const QJsonObject& object);
+[[nodiscard]] QJsonObject jsonOf(const RecordingChoice& choice);
+
+[[nodiscard]] QString recordingFolder(const RecordingChoice& choice);
+/// The path of the next take, whose name is free.
+[[nodiscard]] QString nextTakePath(const RecordingChoice& choice, const QDateTime& begin);
+/// Says why a pattern cannot be used; empty if it can.
+[[nodiscard]] QString patternProblem(const QString& pattern);
 
 /// When the operator wants to be alerted, and how: kept from one run to the next.
 struct AlertChoices {
@@ -37,7 +64,6 @@ struct HistoryChoice {
     friend bool operator==(const HistoryChoice&, const HistoryChoice&) = default;
 };
 
-/// What is kept from one run to the next.
 struct Settings {
     ThemeChoice theme = ThemeChoice::System;
     QString layout = QStringLiteral("Debug"); ///< the layout last chosen; docks may have been moved since
@@ -66,7 +92,6 @@ struct Settings {
 [[nodiscard]] tl::expected<Settings, QString> parseSettings(const QByteArray& json);
 [[nodiscard]] QByteArray jsonOf(const Settings& settings);
 
-/// Reads and writes settings as JSON with the number of their schema.
 class SettingsFile {
 public:
     /// An empty path means the user's own file.

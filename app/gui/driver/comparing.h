@@ -4,16 +4,46 @@
 #include "app/gui/base/background.h"
 #include "app/gui/base/commands.h"
 #include "app/gui/base/comparison.h"
-#include "app/gui/driver/comparison_work.h"
 #include "app/gui/driver/opened_file.h"
+#include "core/export/comparison/comparison_csv.h"
 
 #include <QObject>
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace posewire::gui {
+
+/// What a thread compares, by value but for the logs, which outlive it.
+struct ComparisonOrder {
+    feed::PoseSource first;      ///< all of it
+    feed::PoseSource firstRange; ///< what is compared of it
+    feed::PoseSource second;
+    /// As far as they are known from before; null if they are to be made.
+    std::shared_ptr<const exporting::Timetable> firstTable;
+    std::shared_ptr<const exporting::Timetable> secondTable;
+    std::optional<exporting::AlignBy> by;
+    double offset = 0;
+    model::DifferenceFrame frame = model::DifferenceFrame::World;
+};
+
+struct ComparisonOutcome {
+    std::shared_ptr<const exporting::Timetable> firstTable; ///< null if it was cancelled
+    std::shared_ptr<const exporting::Timetable> secondTable;
+    std::shared_ptr<const exporting::Partners> partners;
+    std::shared_ptr<const exporting::MotionComparison> comparison;
+};
+
+[[nodiscard]] ComparisonOutcome compared(const ComparisonOrder& order,
+                                         const exporting::ExportProgress& progress);
+
+/// Writes the differences of a range to a file. Returns what went wrong, empty for nothing.
+[[nodiscard]] std::string writeDifferences(const ComparisonOrder& order,
+                                           const std::vector<exporting::SegmentFigures>& segments,
+                                           const std::string& path,
+                                           const exporting::ExportProgress& progress);
 
 /// Compares what is shown with a second recording: keeps that at the same moment, and has a thread work out
 /// the range that figures are of. Neither ever waits for that thread, except if a log goes that it reads.
@@ -64,7 +94,6 @@ private:
         model::DifferenceFrame frame = model::DifferenceFrame::World;
         friend bool operator==(const Subject&, const Subject&) = default;
     };
-    /// How far that was there.
     struct Reach {
         std::optional<model::TimeRange> range;
         std::uint64_t end = 0;

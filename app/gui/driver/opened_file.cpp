@@ -1,12 +1,230 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/driver/opened_file.h"
 
+#include "core/log/raw_pace.h"
+
 #include <QFile>
 #include <QFileInfo>
 
-#include <utility>
+#include <algorithm>
+#include <chrono>
 
 namespace posewire::gui {
+
+namespace {
+
+/// Read before all of it must have been looked at: much less than the smallest log holds.
+constexpr std::uint64_t kPacketsInStep = 8'192;
+constexpr std::uint64_t kBytesAtOnce = std::uint64_t{4} << 20;
+
+/// Time within a raw file, from 0.
+class RawTime {
+public:
+    log::Duration next(const log::FileRecord& record) {
+        constexpr log::RawPace::Nanoseconds longest{1e18}; // 31 years: more may not fit into a duration
+        if (!record.flags.skipped) {
+            m_time = std::min(m_time + m_pace.step(record.bytes), longest);
+        }
+        return std::chrono::duration_cast<log::Duration>(m_time);
+    }
+
+private:
+    log::RawPace m_pace;
+    log::RawPace::Nanoseconds m_time{};
+};
+
+/// Reads a file from its beginning to its end, or as far as it is not cut off or damaged: then the
+/// result says so.
+ImportResult visitFile(const QString& path, const log::FileVisitor& visit,
+                       const log::IsCancelled& isCancelled, const log::NotesVisitor& visitNotes = {},
+                       log::FileContents* contents = nullptr) {
+    const auto source = log::openFile(QFile::encodeName(path).toStdString(), isCancelled);
+    if (!source) {
+        return tl::unexpected(QString::fromStdString(source.error().text));
+    }
+    const auto read = log::readFile(**source, visit, visitNotes, contents);
+    const QString text = read ? QString() : QString::fromStdString(read.error().text);
+    const bool isRead = read || read.error().leavesABeginning();
+    return isRead ? ImportResult(text) : tl::unexpected(text);
+}
+
+} // namespace
+
+ImportResult importRawFile(const QString& path, const PacketTaker& take, log::Stamp end,
+                           log::Timeline& timeline, const std::function<bool()>& isCancelled,
+                           const log::NotesVisitor& visitNotes) {
+    if (const QFileInfo info(path); info.exists() && !info.isFile() && !info.isDir()) {
+        return tl::unexpected(
+            QCoreApplication::translate(
+                "FileImport", "%1 is a pipe or a device, which may have no end; posewire-cli reads it")
+                .arg(path));
+    }
+    // A raw file is read twice over: how long it lasts is known at its end, and it may be larger than memory.
+    RawTime measuring;
+    log::Duration length{};
+    std::uint64_t count = 0;
+    bool hasTimes = false;
+    log::FileContents contents;
+    const auto measured = visitFile(
+        path,
+        [&](const log::FileRecord& record) {
+            hasTimes = hasTimes || record.time;
+            length = measuring.next(record);
+            ++count;
+        },
+        [&] { return hasTimes || (isCancelled && isCancelled()); }, {}, &contents);
+    if (!measured && !hasTimes) {
+        return measured;
+    }
+    if (count == 0) {
+        return tl::unexpected(
+            measured->isEmpty()
+                ? QStringLiteral("%1: %2").arg(path, QString::fromStdString(log::otherContents(contents)))
+                : *measured);
+    }
+    const log::SenderInfo file{QFileInfo(path).fileName().toStdString(), log::Transport::File, 0};
+    RawTime places;
+    log::RecordedClock clock(timeline);
+    std::optional<log::Stamp> last; // of those that say their time: the others came with them
+    ImportResult result = visitFile(
+        path,
+        [&](const log::FileRecord& record) {
+            const log::Duration place = places.next(record);
+            last = record.time ? clock.stampOf(*record.time, record.setBy) : last;
+            const log::Stamp stamp = last.value_or(end - length + place);
+            take(record, record.sender.value_or(file), log::arrivalOf(record, {}, stamp));
+        },
+        isCancelled, visitNotes);
+    clock.end();
+    return result;
+}
+
+FileImport::FileImport(log::PacketLog& log, QString path, log::Stamp end)
+    : m_log(log),
+      m_path(std::move(path)),
+      m_size(QFileInfo(m_path).size()),
+      m_thread([this, end](const std::stop_token& stop) { run(stop, end); }) {}
+
+void FileImport::run(const std::stop_token& stop, log::Stamp end) {
+    if (const auto store = log::openStore(QFile::encodeName(m_path).toStdString());
+        store && m_log.scratch()->hasFile()) {
+        m_past.emplace(m_log.past(), m_log.senders(), *store);
+    }
+    std::uint64_t bytesInStep = 0;
+    const PacketTaker taker = [&](const log::FileRecord& record, const log::SenderInfo& sender,
+                                  const log::Arrival& arrival) {
+        log::Arrival whole = arrival;
+        whole.sender = m_log.senders().intern(sender);
+        take(record, whole);
+        if (m_packetsRead % kPacketsInStep == 0 || m_bytesRead - bytesInStep >= kBytesAtOnce) {
+            bytesInStep = m_bytesRead;
+            keepStep(stop);
+        }
+    };
+    ImportResult result = importRawFile(
+        m_path, taker, end, m_log.timeline(), [&stop] { return stop.stop_requested(); },
+        [this](std::span<const std::string_view> notes) { keepNotes(notes); });
+    keepStep(stop);
+    m_log.writer().publish(); // also if it was stopped
+    if (m_past) {
+        m_past->finish();
+    }
+    const std::lock_guard lock(m_mutex);
+    m_result = std::move(result);
+}
+
+void FileImport::take(const log::FileRecord& record, log::Arrival arrival) {
+    m_log.writer().append(record.bytes, arrival);
+    keepComments(record);
+    if (m_past && !m_log.scratch()->hasFile()) { // full: from here on memory has to do
+        m_past.reset();
+        m_log.past().dropBefore(UINT64_MAX);
+    }
+    if (m_past && record.isInOnePiece) {
+        m_past->add(m_packetsRead, arrival, record.offset, record.bytes.size());
+    } else if (m_past) {
+        m_past->keep(m_packetsRead, arrival, record.bytes);
+    }
+    if (m_past && m_past->isFull()) {
+        m_past->finish();
+    }
+    ++m_packetsRead;
+    m_bytesRead += record.bytes.size();
+}
+
+void FileImport::keepComments(const log::FileRecord& record) {
+    if (record.comments.empty() || m_commentCount == kMostComments) {
+        return;
+    }
+    std::string text;
+    for (const std::string& comment : record.comments) {
+        text += (text.empty() ? "" : "\n") + comment;
+    }
+    text.resize(std::min(text.size(), kLongestComment));
+    ++m_commentCount;
+    const std::lock_guard lock(m_mutex);
+    m_comments.emplace_back(m_packetsRead, std::move(text));
+}
+
+/// A note says whatever its writer wanted: only of packets that are there.
+void FileImport::keepNotes(std::span<const std::string_view> notes) {
+    std::vector<log::RecordedMark> marks;
+    for (const std::string_view note : notes) {
+        auto mark = log::parseMark(note);
+        if (mark && mark->packet < m_packetsRead && marks.size() < kMostComments) {
+            mark->comment.resize(std::min(mark->comment.size(), kLongestComment));
+            marks.push_back(std::move(*mark));
+        }
+    }
+    const auto reception = log::receptionIn(notes);
+    const std::lock_guard lock(m_mutex);
+    m_marks = std::move(marks);
+    m_afterLast = reception ? reception->afterLast : log::Duration();
+}
+
+std::vector<log::RecordedMark> FileImport::marks() const {
+    const std::lock_guard lock(m_mutex);
+    return m_marks;
+}
+
+log::Duration FileImport::afterLast() const {
+    const std::lock_guard lock(m_mutex);
+    return m_result && m_result->has_value() ? m_afterLast : log::Duration();
+}
+
+std::vector<FileImport::Comment> FileImport::takeComments() {
+    const std::lock_guard lock(m_mutex);
+    return std::exchange(m_comments, {});
+}
+
+void FileImport::keepStep(const std::stop_token& stop) {
+    if (stop.stop_requested()) {
+        return;
+    }
+    m_log.writer().publish();
+    const std::uint64_t written = m_log.history().end();
+    std::unique_lock lock(m_mutex);
+    m_moved.wait(lock, stop, [&] { return m_followed >= written; });
+}
+
+void FileImport::follow(std::uint64_t position) {
+    {
+        const std::lock_guard lock(m_mutex);
+        m_followed = position;
+    }
+    m_moved.notify_all();
+}
+
+double FileImport::share() const {
+    const auto size = static_cast<double>(m_size);
+    return size <= 0 ? 1 : std::min(1.0, static_cast<double>(m_bytesRead.load()) / size);
+}
+
+std::optional<ImportResult> FileImport::result() const {
+    const std::lock_guard lock(m_mutex);
+    return m_result;
+}
+
 namespace {
 
 /// At once, so that the time that was given is kept to.

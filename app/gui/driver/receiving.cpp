@@ -5,7 +5,6 @@
 #include "app/gui/base/logging.h"
 #include "app/gui/base/saving.h"
 #include "core/model/session/roster.h"
-#include "core/wire/header.h"
 
 #include <QCoreApplication>
 #include <QFile>

@@ -12,10 +12,8 @@
 #include <deque>
 #include <tl/expected.hpp>
 
-#include <functional>
 #include <future>
 #include <map>
-#include <span>
 #include <vector>
 
 namespace posewire::gui {

@@ -9,7 +9,6 @@
 
 #include <future>
 #include <memory>
-#include <optional>
 #include <vector>
 
 namespace posewire::gui {

@@ -1,12 +1,97 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/driver/session_driver.h"
 
+#include "app/net/datagram_sender.h"
 #include "app/system/process_figures.h"
 #include "core/model/session/roster.h"
+#include "core/performer/performer.h"
+#include "core/wire/codec.h"
 
 #include <algorithm>
+#include <vector>
 
 namespace posewire::gui {
+
+namespace {
+
+/// A demo that fell behind (a sleeping computer) continues from now instead of flooding the receiver with the
+/// past.
+constexpr log::Duration kGreatestLag = std::chrono::milliseconds(250);
+
+/// The performer as a sender beside the window, until it is asked to stop.
+void sendDemo(const std::stop_token& stop, int characters, const net::Endpoint& to) {
+    auto sender = net::DatagramSender::connect({to, net::SendTarget::Transport::Udp});
+    if (!sender) {
+        return;
+    }
+    performer::PerformerSettings settings;
+    settings.characters = characters;
+    performer::Performer performer(settings);
+    const log::SystemClock clock;
+    net::SendSchedule schedule(clock);
+    const auto period =
+        std::chrono::duration_cast<log::Duration>(log::Duration(std::chrono::seconds(1)) / settings.rateHz);
+    std::vector<wire::Datagram> datagrams;
+    std::vector<std::byte> bytes;
+    log::Duration skipped{};
+    for (std::uint64_t index = 0; !stop.stop_requested(); ++index) {
+        performer.frameInto(index, datagrams);
+        const log::Duration late = schedule.waitUntil(skipped + static_cast<std::int64_t>(index) * period);
+        if (late > kGreatestLag) {
+            skipped += late;
+        }
+        for (const wire::Datagram& datagram : datagrams) {
+            bytes.clear();
+            if (wire::encodeInto(datagram, bytes)) {
+                // A datagram that the system does not take counts as one that a network lost.
+                static_cast<void>(sender->send(bytes));
+            }
+        }
+    }
+}
+
+} // namespace
+
+void Demo::setCharacters(int characters) {
+    m_thread = {}; // stops and joins the one that runs
+    if (characters > 0) {
+        if (m_receiving.openPort() == 0) {
+            m_receiving.addPort({QStringLiteral("127.0.0.1"), 0});
+        }
+        m_thread = std::jthread(sendDemo, characters, m_receiving.openPlace());
+    }
+    emit changed();
+}
+
+namespace {
+
+std::optional<double> shareOf(const std::optional<double>& before, const std::optional<double>& now,
+                              double seconds) {
+    return before && now ? std::optional((*now - *before) / seconds) : std::nullopt;
+}
+
+} // namespace
+
+void HealthMeter::add(const Reading& reading) {
+    const std::optional<Reading> before = std::exchange(m_before, reading);
+    m_health.bufferFill = reading.bufferFill;
+    m_health.memoryBytes = reading.memoryBytes;
+    const log::Duration follow = std::exchange(m_follow, {});
+    const std::uint64_t followed = std::exchange(m_followed, 0);
+    const std::uint64_t pictures = m_pictures - std::exchange(m_picturesBefore, m_pictures);
+    if (followed != 0) {
+        m_health.followUsPerPacket =
+            static_cast<double>(follow.count()) * 1e-3 / static_cast<double>(followed);
+    }
+    const double seconds = before ? log::secondsOf(reading.monotonic - before->monotonic) : 0;
+    if (seconds <= 0) {
+        return;
+    }
+    m_health.receiverShare = shareOf(before->receiverCpuS, reading.receiverCpuS, seconds);
+    m_health.processShare = shareOf(before->processCpuS, reading.processCpuS, seconds);
+    m_health.followShare = log::secondsOf(follow) / seconds;
+    m_health.framesPerSecond = static_cast<double>(pictures) / seconds;
+}
 
 namespace {
 

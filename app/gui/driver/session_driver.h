@@ -2,20 +2,92 @@
 #pragma once
 
 #include "app/gui/base/playback.h"
-#include "app/gui/driver/demo.h"
+#include "app/gui/base/program_state.h"
 #include "app/gui/driver/files.h"
 #include "app/gui/driver/history.h"
-#include "app/gui/driver/program_health.h"
 #include "app/gui/driver/receiving.h"
 #include "app/gui/driver/replaying.h"
 #include "app/gui/driver/takes.h"
+#include "core/log/time.h"
 #include "core/model/session/held_up.h"
 #include "core/model/session/session.h"
 
 #include <QObject>
 #include <QTimer>
 
+#include <cstdint>
+#include <optional>
+#include <thread>
+#include <utility>
+
 namespace posewire::gui {
+
+/// The performer as a sender beside the window.
+class Demo final : public QObject {
+    Q_OBJECT
+
+public:
+    explicit Demo(Receiving& receiving) : m_receiving(receiving) {}
+
+    /// Sends this many characters to a port of this computer, through a real socket; 0 ends that.
+    void setCharacters(int characters);
+    [[nodiscard]] bool isRunning() const { return m_thread.joinable(); }
+
+signals:
+    void changed();
+
+private:
+    Receiving& m_receiving;
+    std::jthread m_thread;
+};
+
+/// Makes figures of what this program does out of counters that only grow.
+class HealthMeter {
+public:
+    static constexpr log::Duration kPeriod = std::chrono::milliseconds(500);
+
+    /// Counters at a moment of the monotonic clock.
+    struct Reading {
+        log::Moment monotonic{};
+        std::optional<double> receiverCpuS{};
+        std::optional<double> processCpuS{};
+        std::optional<double> bufferFill{};
+        std::optional<std::uint64_t> memoryBytes{};
+    };
+
+    /// Time that the session took to follow a number of packets.
+    void addFollow(log::Duration took, std::uint64_t packets) {
+        m_follow += took;
+        m_followed += packets;
+    }
+
+    /// Pictures shown since the start, and how they are drawn now.
+    void setPictures(std::uint64_t shown, PictureHealth health) {
+        m_pictures = shown;
+        m_health.picture = std::move(health);
+    }
+    /// What the bodies in the viewport take, and can become.
+    void setMeshMemory(std::size_t bytes, std::size_t most) {
+        m_health.meshBytes = bytes;
+        m_health.mostMeshBytes = most;
+    }
+
+    /// It is time for another reading.
+    [[nodiscard]] bool isDue(log::Moment monotonic) const {
+        return !m_before || monotonic - m_before->monotonic >= kPeriod;
+    }
+    void add(const Reading& reading);
+
+    [[nodiscard]] const MonitorHealth& health() const { return m_health; }
+
+private:
+    std::optional<Reading> m_before;
+    log::Duration m_follow{};
+    std::uint64_t m_followed = 0;
+    std::uint64_t m_pictures = 0;
+    std::uint64_t m_picturesBefore = 0;
+    MonitorHealth m_health;
+};
 
 /// Owns what the window runs on, and lets all of it follow once each display tick: the live session what is
 /// received, that of an opened file what is read. Receiving waits for neither.
@@ -38,7 +110,6 @@ public:
     [[nodiscard]] Demo& demo() { return m_demo; }
     [[nodiscard]] HealthMeter& health() { return m_health; }
 
-    /// Begins to tick.
     void start() { m_timer.start(0); }
     /// One display tick: what the timer calls.
     void tick();

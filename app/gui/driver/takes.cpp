@@ -156,7 +156,6 @@ std::vector<std::string> Takes::notesAtEnd() const {
     return notes;
 }
 
-/// Of its newest file.
 log::Reception Takes::reception() const {
     const auto first = m_live.packet(m_recording->figures().fileBegin);
     const auto last = m_live.end() == 0 ? std::nullopt : m_live.packet(m_live.end() - 1);

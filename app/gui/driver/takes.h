@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/base/recording_choice.h"
+#include "app/gui/base/settings.h"
 #include "core/log/recording.h"
 #include "core/model/session/session.h"
 
@@ -16,7 +16,6 @@
 
 namespace posewire::gui {
 
-/// How the recording that runs is doing.
 struct TakeState {
     QString path;
     double seconds = 0;

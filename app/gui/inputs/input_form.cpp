@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/inputs/inputs_page.h"
 
-#include "app/gui/theme/note.h"
 #include "app/gui/theme/widgets.h"
 #include "app/gui/theme/words.h"
 

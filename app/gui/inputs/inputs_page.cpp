@@ -5,7 +5,6 @@
 #include "app/gui/inputs/undo_removal.h"
 #include "app/gui/models/text.h"
 #include "app/gui/panels/table_view.h"
-#include "app/gui/theme/note.h"
 #include "app/gui/theme/theme.h"
 #include "app/gui/theme/widgets.h"
 #include "app/gui/theme/words.h"

@@ -47,7 +47,6 @@ public:
     void focusHost();
 
 signals:
-    /// Enter was pressed in one of the fields.
     void submitted();
 
 protected:

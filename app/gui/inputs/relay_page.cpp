@@ -3,7 +3,6 @@
 
 #include "app/gui/inputs/undo_removal.h"
 #include "app/gui/panels/table_view.h"
-#include "app/gui/theme/note.h"
 #include "app/gui/theme/widgets.h"
 
 #include <QHBoxLayout>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/inputs/undo_removal.h"
 
-#include "app/gui/theme/plain_text.h"
+#include "app/gui/theme/theme.h"
 
 #include <QShortcut>
 #include <QUndoStack>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/theme/plain_text.h"
 #include "app/gui/theme/theme.h"
 
 #include <QAbstractTableModel>

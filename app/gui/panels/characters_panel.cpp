@@ -5,7 +5,7 @@
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
 #include "app/gui/panels/cell_delegate.h"
-#include "app/gui/theme/plain_text.h"
+#include "app/gui/theme/theme.h"
 #include "app/gui/theme/widgets.h"
 #include "core/model/session/accounts.h"
 #include "core/model/session/roster.h"
@@ -24,32 +24,6 @@
 namespace posewire::gui {
 
 namespace {
-
-using CharacterDo = ActionsOf<CharactersPanel>;
-
-constexpr const char* kMenu = QT_TRANSLATE_NOOP("Action", "&View/C&haracters");
-
-const ActionInfo kCharacterActions[] = {
-    {"troubleFirst", kMenu, QT_TRANSLATE_NOOP("Action", "&Trouble first"), "",
-     CharacterDo::call<&CharactersPanel::toggleTroubleFirst>,
-     CharacterDo::is<&CharactersPanel::isTroubleFirst>},
-    {"characterDetail", kMenu, QT_TRANSLATE_NOOP("Action", "&Detail of the selected"), "",
-     CharacterDo::call<&CharactersPanel::toggleDetail>, CharacterDo::is<&CharactersPanel::isDetailShown>},
-    {"frameCharacter", kMenu, QT_TRANSLATE_NOOP("Action", "&Frame selected"), "",
-     CharacterDo::call<&CharactersPanel::frameSelected>},
-    {"soloCharacter", kMenu, QT_TRANSLATE_NOOP("Action", "&Solo selected, or show all"), "",
-     CharacterDo::call<&CharactersPanel::soloSelected>},
-    {"toggleCharacter", kMenu, QT_TRANSLATE_NOOP("Action", "&Hide or show selected"), "",
-     CharacterDo::call<&CharactersPanel::toggleSelected>},
-    {"packetsOfCharacter", kMenu, QT_TRANSLATE_NOOP("Action", "&Packets of selected"), "",
-     CharacterDo::call<&CharactersPanel::showPacketsOfSelected>},
-    {"incidentsOfCharacter", kMenu, QT_TRANSLATE_NOOP("Action", "&Incidents of selected"), "",
-     CharacterDo::call<&CharactersPanel::showIncidentsOfSelected>},
-    {"showEnded", kMenu, QT_TRANSLATE_NOOP("Action", "&Ended senders"), "",
-     CharacterDo::call<&CharactersPanel::toggleEnded>, CharacterDo::is<&CharactersPanel::isEndedShown>},
-    {"forgetEnded", kMenu, QT_TRANSLATE_NOOP("Action", "F&orget ended senders"), "",
-     CharacterDo::call<&CharactersPanel::forgetEnded>},
-};
 
 QToolButton* toggle(const QString& name, const QString& text, const QString& toolTip, QWidget* parent) {
     QToolButton* button = framedButton(text, toolTip, parent);
@@ -78,6 +52,108 @@ private:
     int m_height = 0;
 };
 
+/// Senders that others have taken over from, behind a line that counts them; hidden if there are none.
+class EndedSenders final : public QWidget {
+public:
+    EndedSenders(model::SessionView& view, Commands& commands, QWidget* parent)
+        : QWidget(parent),
+          m_commands(commands),
+          m_model(view),
+          m_toggle(flatButton({}, tr("Senders that others have taken over from"), this)),
+          m_table(new TableView(tr("Ended senders"), this)) {
+        m_toggle->setObjectName(QStringLiteral("endedSenders"));
+        m_toggle->setCheckable(true);
+        m_toggle->setFocusPolicy(Qt::StrongFocus);
+        QToolButton* forget =
+            flatButton(tr("Forget"), tr("Take ended senders out of all lists; sums keep them"), this);
+        forget->setObjectName(QStringLiteral("forgetEnded"));
+        forget->setFocusPolicy(Qt::StrongFocus);
+        auto* row = spacedRow({4, 2, 8, 2}, 6);
+        row->addWidget(m_toggle);
+        row->addStretch(1);
+        row->addWidget(forget);
+        auto* column = tightColumn(this);
+        column->addWidget(new Line(this));
+        column->addLayout(row);
+        m_table->setModel(&m_model);
+        column->addWidget(m_table);
+        m_table->hide();
+        hide();
+        connect(m_toggle, &QToolButton::clicked, this, &EndedSenders::refresh);
+        connect(forget, &QToolButton::clicked, this, &EndedSenders::forgetAll);
+        connect(m_table, &TableView::menuRequested, this, &EndedSenders::addActions);
+    }
+
+    void toggle() { m_toggle->click(); }
+    [[nodiscard]] bool isOpen() const { return m_toggle->isChecked(); }
+
+    void refresh() {
+        constexpr int kMostRows = 4;
+        m_model.refresh();
+        const int count = m_model.rowCount();
+        setVisible(count != 0);
+        m_table->setVisible(isOpen() && count != 0);
+        const QString words = count == 1 ? tr("1 ended sender") : tr("%1 ended senders").arg(count);
+        m_toggle->setText((isOpen() ? QStringLiteral("▾ ") : QStringLiteral("▸ ")) + words);
+        m_toggle->setAccessibleName(words);
+        m_table->setFixedHeight(m_table->heightForRows(std::clamp(count, 1, kMostRows)));
+    }
+
+    /// Takes all ended senders out of the lists.
+    void forgetAll() {
+        for (const EndedSender& one : std::vector(m_model.rows())) {
+            m_commands.forgetSender(one.sender);
+        }
+        refresh();
+    }
+
+private:
+    void addActions(QMenu& menu, const QModelIndex& index) {
+        if (index.isValid()) {
+            const log::SenderId sender = m_model.rows()[static_cast<std::size_t>(index.row())].sender;
+            connect(menu.addAction(tr("Forget")), &QAction::triggered, this,
+                    [this, sender] { m_commands.forgetSender(sender); });
+            menu.addSeparator();
+        }
+    }
+
+    Commands& m_commands;
+    EndedSenderModel m_model;
+    QToolButton* m_toggle;
+    TableView* m_table;
+};
+
+namespace {
+
+using CharacterDo = ActionsOf<CharactersPanel>;
+
+constexpr const char* kMenu = QT_TRANSLATE_NOOP("Action", "&View/C&haracters");
+
+const ActionInfo kCharacterActions[] = {
+    {"troubleFirst", kMenu, QT_TRANSLATE_NOOP("Action", "&Trouble first"), "",
+     CharacterDo::call<&CharactersPanel::toggleTroubleFirst>,
+     CharacterDo::is<&CharactersPanel::isTroubleFirst>},
+    {"characterDetail", kMenu, QT_TRANSLATE_NOOP("Action", "&Detail of the selected"), "",
+     CharacterDo::call<&CharactersPanel::toggleDetail>, CharacterDo::is<&CharactersPanel::isDetailShown>},
+    {"frameCharacter", kMenu, QT_TRANSLATE_NOOP("Action", "&Frame selected"), "",
+     CharacterDo::call<&CharactersPanel::frameSelected>},
+    {"soloCharacter", kMenu, QT_TRANSLATE_NOOP("Action", "&Solo selected, or show all"), "",
+     CharacterDo::call<&CharactersPanel::soloSelected>},
+    {"toggleCharacter", kMenu, QT_TRANSLATE_NOOP("Action", "&Hide or show selected"), "",
+     CharacterDo::call<&CharactersPanel::toggleSelected>},
+    {"packetsOfCharacter", kMenu, QT_TRANSLATE_NOOP("Action", "&Packets of selected"), "",
+     CharacterDo::call<&CharactersPanel::showPacketsOfSelected>},
+    {"incidentsOfCharacter", kMenu, QT_TRANSLATE_NOOP("Action", "&Incidents of selected"), "",
+     CharacterDo::call<&CharactersPanel::showIncidentsOfSelected>},
+    {"showEnded", kMenu, QT_TRANSLATE_NOOP("Action", "&Ended senders"), "",
+     CharacterDo::callIn<&CharactersPanel::ended, &EndedSenders::toggle>,
+     CharacterDo::isIn<&CharactersPanel::ended, &EndedSenders::isOpen>},
+    {"forgetEnded", kMenu, QT_TRANSLATE_NOOP("Action", "F&orget ended senders"), "",
+     CharacterDo::callIn<&CharactersPanel::ended, &EndedSenders::forgetAll>},
+};
+
+} // namespace
+
 std::span<const ActionInfo> CharactersPanel::actionTable() {
     return kCharacterActions;
 }
@@ -88,7 +164,6 @@ CharactersPanel::CharactersPanel(model::SessionView& view, Commands& commands,
       m_receiving(receiving),
       m_model(view, commands),
       m_detailModel(view),
-      m_endedModel(view),
       m_troubleFirst(toggle(QStringLiteral("troubleFirst"), tr("Trouble first"),
                             tr("The worst verdict on top; else in order of appearance"), this)),
       m_detailToggle(toggle(QStringLiteral("detail"), tr("Detail"),
@@ -99,9 +174,7 @@ CharactersPanel::CharactersPanel(model::SessionView& view, Commands& commands,
       m_detail(new QWidget(this)),
       m_history(dimText({}, m_detail)),
       m_streams(new TableView(tr("Streams of the selected character"), m_detail)),
-      m_ended(new QWidget(this)),
-      m_endedToggle(flatButton({}, tr("Senders that others have taken over from"), m_ended)),
-      m_endedTable(new TableView(tr("Ended senders"), m_ended)),
+      m_ended(new EndedSenders(view, commands, this)),
       m_message(footMessage(this)) {
     auto* column = tightColumn(this);
     addBar();
@@ -120,7 +193,7 @@ CharactersPanel::CharactersPanel(model::SessionView& view, Commands& commands,
     detail->addWidget(m_streams);
     column->addWidget(m_detail);
     m_detail->hide();
-    addEnded();
+    column->addWidget(m_ended);
     column->addWidget(m_message);
 
     showEmptyState();
@@ -141,31 +214,6 @@ void CharactersPanel::addBar() {
     static_cast<QVBoxLayout*>(layout())->addLayout(row);
     connect(m_troubleFirst, &QToolButton::clicked, this, &CharactersPanel::setTroubleFirst);
     connect(m_detailToggle, &QToolButton::clicked, this, &CharactersPanel::setDetailShown);
-}
-
-void CharactersPanel::addEnded() {
-    auto* column = tightColumn(m_ended);
-    column->addWidget(new Line(m_ended));
-    auto* row = spacedRow({4, 2, 8, 2}, 6);
-    m_endedToggle->setObjectName(QStringLiteral("endedSenders"));
-    m_endedToggle->setCheckable(true);
-    m_endedToggle->setFocusPolicy(Qt::StrongFocus);
-    row->addWidget(m_endedToggle);
-    row->addStretch(1);
-    QToolButton* forget =
-        flatButton(tr("Forget"), tr("Take ended senders out of all lists; sums keep them"), m_ended);
-    forget->setObjectName(QStringLiteral("forgetEnded"));
-    forget->setFocusPolicy(Qt::StrongFocus);
-    row->addWidget(forget);
-    column->addLayout(row);
-    m_endedTable->setModel(&m_endedModel);
-    column->addWidget(m_endedTable);
-    m_endedTable->hide();
-    m_ended->hide();
-    layout()->addWidget(m_ended);
-    connect(m_endedToggle, &QToolButton::clicked, this, &CharactersPanel::showEnded);
-    connect(forget, &QToolButton::clicked, this, &CharactersPanel::forgetEnded);
-    connect(m_endedTable, &TableView::menuRequested, this, &CharactersPanel::addEndedActions);
 }
 
 void CharactersPanel::showEmptyState() {
@@ -212,7 +260,7 @@ void CharactersPanel::refresh() {
     }
     m_span->setText({}, span);
     showDetail();
-    showEnded();
+    m_ended->refresh();
     fitRows();
 }
 
@@ -269,21 +317,6 @@ void CharactersPanel::showDetail() {
             std::min(m_streams->heightForRows(std::max(1, m_detailModel.rowCount())), height() / 2));
     }
     m_detail->setVisible(isShown);
-}
-
-void CharactersPanel::showEnded() {
-    m_endedModel.refresh();
-    const int count = m_endedModel.rowCount();
-    m_ended->setVisible(count != 0);
-    const bool isOpen = m_endedToggle->isChecked();
-    m_endedTable->setVisible(isOpen && count != 0);
-    const QString words = count == 1 ? tr("1 ended sender") : tr("%1 ended senders").arg(count);
-    m_endedToggle->setText((isOpen ? QStringLiteral("▾ ") : QStringLiteral("▸ ")) + words);
-    m_endedToggle->setAccessibleName(words);
-    if (isOpen) {
-        constexpr int kMostRows = 4;
-        m_endedTable->setFixedHeight(m_endedTable->heightForRows(std::clamp(count, 1, kMostRows)));
-    }
 }
 
 /// Lines become lower, down to the height of the letters, so that as many performers as can be are in view.
@@ -384,21 +417,6 @@ void CharactersPanel::showIncidentsOfSelected() {
     }
 }
 
-void CharactersPanel::toggleEnded() {
-    m_endedToggle->click();
-}
-
-bool CharactersPanel::isEndedShown() const {
-    return m_endedToggle->isChecked();
-}
-
-void CharactersPanel::forgetEnded() {
-    for (const EndedSender& one : std::vector(m_endedModel.rows())) {
-        m_commands.forgetSender(one.sender);
-    }
-    refresh();
-}
-
 void CharactersPanel::addActions(QMenu& menu, const QModelIndex& index) {
     const auto key = m_model.character(index);
     if (!key) {
@@ -421,15 +439,6 @@ void CharactersPanel::addActions(QMenu& menu, const QModelIndex& index) {
     connect(forget, &QAction::triggered, this,
             [this, sender = key->sender] { m_commands.forgetSender(sender); });
     menu.addSeparator();
-}
-
-void CharactersPanel::addEndedActions(QMenu& menu, const QModelIndex& index) {
-    if (index.isValid()) {
-        const log::SenderId sender = m_endedModel.rows()[static_cast<std::size_t>(index.row())].sender;
-        connect(menu.addAction(tr("Forget")), &QAction::triggered, this,
-                [this, sender] { m_commands.forgetSender(sender); });
-        menu.addSeparator();
-    }
 }
 
 } // namespace posewire::gui

@@ -13,6 +13,7 @@ namespace posewire::gui {
 
 class BoardDelegate;
 class ElidedLabel;
+class EndedSenders;
 class PassingMessage;
 
 /// Dock `characters`: a board of all performers, a line each, with what each is in detail and which senders
@@ -46,21 +47,15 @@ public:
     void showPacketsOfSelected();
     void showIncidentsOfSelected();
 
-    void toggleEnded();
-    [[nodiscard]] bool isEndedShown() const;
-    /// Takes all ended senders out of the lists.
-    void forgetEnded();
+    [[nodiscard]] EndedSenders& ended() const { return *m_ended; }
 
 protected:
     bool eventFilter(QObject* watched, QEvent* event) override;
 
 private:
     void addBar();
-    void addEnded();
     void addActions(QMenu& menu, const QModelIndex& index);
-    void addEndedActions(QMenu& menu, const QModelIndex& index);
     void showEmptyState();
-    void showEnded();
     void showDetail();
     void fitRows();
     void followSelection();
@@ -72,7 +67,6 @@ private:
     const ReceivingState& m_receiving;
     CharacterModel m_model;
     CharacterDetailModel m_detailModel;
-    EndedSenderModel m_endedModel;
     QToolButton* m_troubleFirst;
     QToolButton* m_detailToggle;
     ElidedLabel* m_span; ///< the time that losses are of
@@ -81,9 +75,7 @@ private:
     QWidget* m_detail;
     QLabel* m_history;
     TableView* m_streams;
-    QWidget* m_ended;
-    QToolButton* m_endedToggle;
-    TableView* m_endedTable;
+    EndedSenders* m_ended;
     PassingMessage* m_message;
     model::Selection m_followed; ///< the selection that the table shows
     bool m_isFollowing = false;

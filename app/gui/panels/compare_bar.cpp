@@ -2,7 +2,6 @@
 #include "app/gui/panels/compare_bar.h"
 
 #include "app/gui/models/shown_character.h"
-#include "app/gui/theme/plain_text.h"
 #include "app/gui/theme/theme.h"
 #include "core/model/session/roster.h"
 

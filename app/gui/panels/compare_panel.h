@@ -51,7 +51,6 @@ protected:
 private:
     [[nodiscard]] const ComparisonState& comparison() const { return m_comparing.state(); }
     [[nodiscard]] const ComparisonChoice& choice() const { return comparison().choice; }
-    /// Changes one thing of the choice.
     template <class Change>
     void change(Change change);
     void layOut();

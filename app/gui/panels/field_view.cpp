@@ -4,7 +4,6 @@
 #include "app/gui/base/saving.h"
 #include "app/gui/models/display_filter.h"
 #include "app/gui/models/field_text.h"
-#include "app/gui/theme/plain_text.h"
 #include "app/gui/theme/theme.h"
 #include "core/filter/completion.h"
 #include "core/wire/text.h"

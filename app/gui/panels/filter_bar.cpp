@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/panels/filter_bar.h"
 
-#include "app/gui/theme/plain_text.h"
+#include "app/gui/theme/theme.h"
 #include "app/gui/theme/widgets.h"
 
 #include <QAction>

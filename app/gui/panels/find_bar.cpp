@@ -3,7 +3,6 @@
 
 #include "app/gui/models/packet_model.h"
 #include "app/gui/models/text.h"
-#include "app/gui/theme/plain_text.h"
 #include "app/gui/theme/theme.h"
 #include "app/gui/theme/widgets.h"
 

@@ -3,7 +3,7 @@
 
 #include "app/gui/models/column.h"
 #include "app/gui/panels/cell_delegate.h"
-#include "app/gui/theme/plain_text.h"
+#include "app/gui/theme/theme.h"
 
 #include <QAbstractButton>
 #include <QGuiApplication>

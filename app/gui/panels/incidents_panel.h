@@ -30,7 +30,6 @@ signals:
     void filterChanged(const IncidentModel::Filter& filter);
     void seenRequested();
     void exportRequested();
-    /// The keyboard is wanted in the list.
     void left();
 
 protected:

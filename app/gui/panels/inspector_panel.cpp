@@ -6,7 +6,7 @@
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
 #include "app/gui/panels/cell_delegate.h"
-#include "app/gui/theme/plain_text.h"
+#include "app/gui/theme/theme.h"
 #include "app/gui/theme/widgets.h"
 #include "core/model/session/accounts.h"
 #include "core/model/session/roster.h"

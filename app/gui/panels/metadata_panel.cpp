@@ -5,7 +5,6 @@
 #include "app/gui/models/text.h"
 #include "app/gui/panels/cell_delegate.h"
 #include "app/gui/theme/theme.h"
-#include "app/gui/theme/widgets.h"
 #include "core/model/session/roster.h"
 
 #include <QActionGroup>

@@ -26,7 +26,6 @@ public:
     void declare(const model::SenderOverride& overrides);
 
 private:
-    /// A button that opens a menu of values, one of which is declared.
     struct Choice {
         QToolButton* button;
         QActionGroup* group;

@@ -2,7 +2,6 @@
 #include "app/gui/panels/null_pose_figure.h"
 
 #include "app/gui/models/text.h"
-#include "app/gui/theme/plain_text.h"
 #include "app/gui/theme/theme.h"
 
 #include <Eigen/Geometry>

@@ -32,7 +32,6 @@ public:
 
     /// Shows the packets that a cell counts in the dock of packets.
     void showPackets(const QModelIndex& index, PacketLook look = PacketLook::InContext);
-    /// Lists all packets of the range in the dock of packets.
     void filterToRange();
 
 private:

@@ -27,7 +27,6 @@ public:
     void setModel(QAbstractItemModel* model) override;
     /// Shows a list of properties, without column titles.
     void showFacts(QAbstractItemModel& facts);
-    /// As high as all rows of the model are.
     void fixHeight();
 
     /// From now on, opens what is inserted on the first two levels of a tree, with all under it. What comes
@@ -38,7 +37,6 @@ public:
     /// readers then.
     void setEmptyText(const QString& text);
 
-    /// Height that shows `rows` rows and the header.
     [[nodiscard]] int heightForRows(int rows) const;
 
     /// Rows as lines, cells set apart by tabs: what the copy commands give.

@@ -58,7 +58,6 @@ public:
 
     void refresh() override;
     [[nodiscard]] bool hasWindow() const override { return m_fullScreen != nullptr; }
-    /// Which clock is the large one.
     void choose(ClockChoice choice);
     [[nodiscard]] ClockChoice choice() const { return m_choice; }
     [[nodiscard]] QString summary() const override {

@@ -82,198 +82,233 @@ std::vector<double> heightsOf(const std::vector<model::RangePart>& parts,
 
 } // namespace
 
-void TimelineView::paintEvent(QPaintEvent* /*event*/) {
-    QPainter painter(viewport());
-    painter.fillRect(viewport()->rect(), theme().panel);
-    if (!m_model.span() || m_model.rows().empty()) {
-        drawEmptyText(*viewport(),
-                      tr("No stream received yet.\nWhat each character sends appears here: when, how "
-                         "much, and what was lost."));
-        return;
+class TimelinePainter {
+public:
+    explicit TimelinePainter(TimelineView& timeline) : m_timeline(timeline), m_painter(timeline.viewport()) {}
+
+    void paint() {
+        m_painter.fillRect(m_timeline.viewport()->rect(), theme().panel);
+        if (!m_timeline.m_model.span() || m_timeline.m_model.rows().empty()) {
+            drawEmptyText(
+                *m_timeline.viewport(),
+                TimelineView::tr("No stream received yet.\nWhat each character sends appears here: when, how "
+                                 "much, and what was lost."));
+            return;
+        }
+        for (std::size_t row = 0; row < m_timeline.m_model.rows().size(); ++row) {
+            const QRect rect = rowRect(row);
+            if (rect.bottom() >= m_timeline.rulerHeight() && rect.top() < m_timeline.viewport()->height()) {
+                paintRow(row);
+            }
+        }
+        m_painter.setClipRect(m_timeline.namesWidth(), 0, m_timeline.stripWidth(),
+                              m_timeline.viewport()->height());
+        paintRange();
+        m_painter.setClipping(false);
+        paintRuler();
+        m_painter.setClipRect(m_timeline.namesWidth(), 0, m_timeline.stripWidth(),
+                              m_timeline.viewport()->height());
+        paintIncidents();
+        paintCursor();
+        if (m_timeline.hasFocus()) {
+            m_painter.setClipping(false);
+            m_painter.setPen(theme().accent);
+            m_painter.setBrush(Qt::NoBrush);
+            m_painter.drawRect(QRectF(m_timeline.viewport()->rect()).adjusted(0.5, 0.5, -0.5, -0.5));
+        }
     }
-    for (std::size_t row = 0; row < m_model.rows().size(); ++row) {
+
+private:
+    [[nodiscard]] QRect rowRect(std::size_t row) const {
+        const int top = m_timeline.rulerHeight() + static_cast<int>(row) * m_timeline.rowHeight() -
+                        m_timeline.verticalScrollBar()->value();
+        return {0, top, m_timeline.viewport()->width(), m_timeline.rowHeight()};
+    }
+
+    void paintRuler() {
+        const QRect ruler(0, 0, m_timeline.viewport()->width(), m_timeline.rulerHeight());
+        m_painter.fillRect(ruler, theme().header);
+        m_painter.setPen(theme().line);
+        m_painter.drawLine(0, ruler.bottom(), ruler.right(), ruler.bottom());
+        m_painter.drawLine(m_timeline.namesWidth(), 0, m_timeline.namesWidth(),
+                           m_timeline.viewport()->height());
+        m_painter.setFont(tabularFont());
+        const QFontMetrics metrics = m_painter.fontMetrics();
+        const auto length = m_timeline.m_window.to - m_timeline.m_window.from;
+        const auto stepFor = [&](const QString& text) {
+            return roundStep(length * metrics.horizontalAdvance(text) / m_timeline.stripWidth());
+        };
+        const log::Duration coarse = stepFor(QStringLiteral("00:00:00.000   "));
+        const log::Duration step = coarse < 1ms ? stepFor(QStringLiteral("00:00:00.000000   ")) : coarse;
+        const int lane = m_timeline.fontMetrics().height();
+        m_painter.setClipRect(m_timeline.namesWidth(), 0, m_timeline.stripWidth(),
+                              m_timeline.viewport()->height());
+        // Ticks stand at round times of day, which is the local one.
+        const auto wall = m_timeline.m_view.wallOf(m_timeline.m_window.from).time_since_epoch();
+        const auto seconds = std::chrono::floor<std::chrono::seconds>(wall).count();
+        const std::chrono::seconds offset(QDateTime::fromSecsSinceEpoch(seconds).offsetFromUtc());
+        for (log::Stamp tick = m_timeline.m_window.from - (wall + offset) % step;
+             tick < m_timeline.m_window.to; tick += step) {
+            const double x = m_timeline.placeOf(tick);
+            m_painter.setPen(theme().line);
+            m_painter.drawLine(QPointF(x, lane * 0.3), QPointF(x, m_timeline.rulerHeight()));
+            if (x < m_timeline.namesWidth()) {
+                continue; // half a label says nothing
+            }
+            m_painter.setPen(theme().dim);
+            m_painter.drawText(QPointF(x + 4, lane * 0.3 + metrics.ascent()),
+                               tickText(m_timeline.m_view.wallOf(tick), step));
+        }
+        m_painter.setClipping(false);
+        m_painter.setFont(m_timeline.font());
+        m_painter.setPen(theme().dim);
+        const int margin = CellDelegate::margin(m_timeline.fontMetrics());
+        m_painter.drawText(QRect(margin, 0, m_timeline.namesWidth() - margin, ruler.height()),
+                           Qt::AlignVCenter | Qt::AlignLeft,
+                           TimelineView::tr("%1 in sight").arg(inSight(length)));
+    }
+
+    void paintIncidents() {
+        const double y = m_timeline.rulerHeight() - m_timeline.fontMetrics().height() / 2.0;
+        const double size = m_timeline.fontMetrics().height() * 0.28;
+        m_painter.setRenderHint(QPainter::Antialiasing);
+        m_painter.setPen(Qt::NoPen);
+        double last = -2 * size;
+        for (const model::Incident* one : worstLast(m_timeline.m_view.verdicts().incidents().all())) {
+            const model::Incident& incident = *one;
+            const double x = m_timeline.placeOf(incident.firstStamp);
+            const bool goesOn = incident.isCurrent && incident.kind == model::IncidentKind::Outage;
+            const double end = std::min<double>(
+                m_timeline.placeOf(goesOn ? m_timeline.m_view.cursorStamp() : incident.lastStamp),
+                m_timeline.viewport()->width());
+            const Health health = healthOf(incident.severity());
+            const bool isNote = incident.severity() == model::IncidentSeverity::Info;
+            m_painter.setBrush(isNote ? theme().dim : healthColour(health));
+            if (!isNote && end > m_timeline.namesWidth() &&
+                x < m_timeline.viewport()->width()) { // how long it lasted
+                m_painter.drawRect(QRectF(std::max<double>(x, m_timeline.namesWidth()),
+                                          m_timeline.rulerHeight() - 2.5, std::max(0.0, end - x), 2));
+            }
+            const bool isSeen = x >= m_timeline.namesWidth() && x <= m_timeline.viewport()->width() &&
+                                std::abs(x - last) >= 1;
+            if (!isSeen) {
+                continue;
+            }
+            last = x;
+            if (health == Health::Error) {
+                m_painter.drawRect(QRectF(x - size, y - size, 2 * size, 2 * size));
+            } else if (health == Health::Warning) {
+                m_painter.drawPolygon(QPolygonF({{x - size, y + size}, {x + size, y + size}, {x, y - size}}));
+            } else {
+                m_painter.drawEllipse(QPointF(x, y), size * 0.8, size * 0.8);
+            }
+        }
+        m_painter.setRenderHint(QPainter::Antialiasing, false);
+    }
+
+    void paintRow(std::size_t row) {
+        const TimelineModel::Row& shown = m_timeline.m_model.shown(row);
         const QRect rect = rowRect(row);
-        if (rect.bottom() >= rulerHeight() && rect.top() < viewport()->height()) {
-            paintRow(painter, row);
+        const int margin = CellDelegate::margin(m_timeline.fontMetrics());
+        if (row % 2 == 1) {
+            m_painter.fillRect(rect, withAlpha(theme().raised, 0.5));
         }
-    }
-    painter.setClipRect(namesWidth(), 0, stripWidth(), viewport()->height());
-    paintRange(painter);
-    painter.setClipping(false);
-    paintRuler(painter);
-    painter.setClipRect(namesWidth(), 0, stripWidth(), viewport()->height());
-    paintIncidents(painter);
-    paintCursor(painter);
-    if (hasFocus()) {
-        painter.setClipping(false);
-        painter.setPen(theme().accent);
-        painter.setBrush(Qt::NoBrush);
-        painter.drawRect(QRectF(viewport()->rect()).adjusted(0.5, 0.5, -0.5, -0.5));
-    }
-}
-
-void TimelineView::paintRuler(QPainter& painter) const {
-    const QRect ruler(0, 0, viewport()->width(), rulerHeight());
-    painter.fillRect(ruler, theme().header);
-    painter.setPen(theme().line);
-    painter.drawLine(0, ruler.bottom(), ruler.right(), ruler.bottom());
-    painter.drawLine(namesWidth(), 0, namesWidth(), viewport()->height());
-    painter.setFont(tabularFont());
-    const QFontMetrics metrics = painter.fontMetrics();
-    const auto length = m_window.to - m_window.from;
-    const auto stepFor = [&](const QString& text) {
-        return roundStep(length * metrics.horizontalAdvance(text) / stripWidth());
-    };
-    const log::Duration coarse = stepFor(QStringLiteral("00:00:00.000   "));
-    const log::Duration step = coarse < 1ms ? stepFor(QStringLiteral("00:00:00.000000   ")) : coarse;
-    const int lane = fontMetrics().height();
-    painter.setClipRect(namesWidth(), 0, stripWidth(), viewport()->height());
-    // Ticks stand at round times of day, which is the local one.
-    const auto wall = m_view.wallOf(m_window.from).time_since_epoch();
-    const auto seconds = std::chrono::floor<std::chrono::seconds>(wall).count();
-    const std::chrono::seconds offset(QDateTime::fromSecsSinceEpoch(seconds).offsetFromUtc());
-    for (log::Stamp tick = m_window.from - (wall + offset) % step; tick < m_window.to; tick += step) {
-        const double x = placeOf(tick);
-        painter.setPen(theme().line);
-        painter.drawLine(QPointF(x, lane * 0.3), QPointF(x, rulerHeight()));
-        if (x < namesWidth()) {
-            continue; // half a label says nothing
+        const bool isSelected = m_timeline.m_view.roster().isSelected(shown.character) && !shown.type;
+        if (isSelected) {
+            m_painter.fillRect(QRect(rect.left(), rect.top(), m_timeline.namesWidth(), rect.height()),
+                               theme().selection);
         }
-        painter.setPen(theme().dim);
-        painter.drawText(QPointF(x + 4, lane * 0.3 + metrics.ascent()), tickText(m_view.wallOf(tick), step));
-    }
-    painter.setClipping(false);
-    painter.setFont(font());
-    painter.setPen(theme().dim);
-    const int margin = CellDelegate::margin(fontMetrics());
-    painter.drawText(QRect(margin, 0, namesWidth() - margin, ruler.height()),
-                     Qt::AlignVCenter | Qt::AlignLeft, tr("%1 in sight").arg(inSight(length)));
-}
-
-void TimelineView::paintIncidents(QPainter& painter) const {
-    const double y = rulerHeight() - fontMetrics().height() / 2.0;
-    const double size = fontMetrics().height() * 0.28;
-    painter.setRenderHint(QPainter::Antialiasing);
-    painter.setPen(Qt::NoPen);
-    double last = -2 * size;
-    for (const model::Incident* one : worstLast(m_view.verdicts().incidents().all())) {
-        const model::Incident& incident = *one;
-        const double x = placeOf(incident.firstStamp);
-        const bool goesOn = incident.isCurrent && incident.kind == model::IncidentKind::Outage;
-        const double end = std::min<double>(placeOf(goesOn ? m_view.cursorStamp() : incident.lastStamp),
-                                            viewport()->width());
-        const Health health = healthOf(incident.severity());
-        const bool isNote = incident.severity() == model::IncidentSeverity::Info;
-        painter.setBrush(isNote ? theme().dim : healthColour(health));
-        if (!isNote && end > namesWidth() && x < viewport()->width()) { // how long it lasted
-            painter.drawRect(
-                QRectF(std::max<double>(x, namesWidth()), rulerHeight() - 2.5, std::max(0.0, end - x), 2));
-        }
-        const bool isSeen = x >= namesWidth() && x <= viewport()->width() && std::abs(x - last) >= 1;
-        if (!isSeen) {
-            continue;
-        }
-        last = x;
-        if (health == Health::Error) {
-            painter.drawRect(QRectF(x - size, y - size, 2 * size, 2 * size));
-        } else if (health == Health::Warning) {
-            painter.drawPolygon(QPolygonF({{x - size, y + size}, {x + size, y + size}, {x, y - size}}));
+        m_painter.setClipRect(0, m_timeline.rulerHeight(), m_timeline.namesWidth(),
+                              m_timeline.viewport()->height());
+        QRect name(rect.left() + margin, rect.top(), m_timeline.namesWidth() - 2 * margin, rect.height());
+        const int indent = m_timeline.fontMetrics().height();
+        m_painter.setPen(shown.type ? theme().dim : theme().text);
+        if (shown.type) {
+            name.setLeft(name.left() + 2 * indent);
         } else {
-            painter.drawEllipse(QPointF(x, y), size * 0.8, size * 0.8);
+            m_painter.drawText(name, Qt::AlignLeft | Qt::AlignVCenter,
+                               shown.isOpen ? QStringLiteral("▾") : QStringLiteral("▸"));
+            name.setLeft(name.left() + indent);
+            name.setLeft(name.left() + CellDelegate::paintBefore(m_painter, name, indent / 2, shown.mark));
+            m_painter.setPen(theme().text);
+        }
+        m_painter.drawText(name, Qt::AlignLeft | Qt::AlignVCenter,
+                           m_timeline.fontMetrics().elidedText(shown.name, Qt::ElideRight, name.width()));
+        const QRect strip(m_timeline.namesWidth() + 1, rect.top(), m_timeline.stripWidth() - 1,
+                          rect.height());
+        m_painter.setClipRect(strip.intersected(QRect(
+            0, m_timeline.rulerHeight(), m_timeline.viewport()->width(), m_timeline.viewport()->height())));
+        paintStrip(shown, strip);
+        m_painter.setClipping(false);
+    }
+
+    /// As high as the part with most, with the share that was lost at the bottom; hatched if nothing came for
+    /// longer than usual.
+    void paintStrip(const TimelineModel::Row& row, const QRect& strip) {
+        const model::RangeParts& parts = m_timeline.m_model.parts();
+        const std::vector<TimelineModel::Gap> gaps = TimelineModel::gapsIn(row.parts);
+        const std::vector<double> heights = heightsOf(row.parts, gaps);
+        const double most = heights.empty() ? 1 : std::max(1e-9, std::ranges::max(heights));
+        const double room = strip.height() - 5.0;
+        const double bottom = strip.bottom() - 1.0;
+        const QColor colour = withAlpha(row.mark.colour, row.type ? 0.45 : 0.7);
+        m_painter.setPen(Qt::NoPen);
+        for (const auto& [from, to] : gaps) {
+            const double left = m_timeline.placeOf(parts.beginOf(from));
+            m_painter.fillRect(
+                QRectF(left, bottom - room, m_timeline.placeOf(parts.beginOf(to)) - left, room),
+                QBrush(withAlpha(theme().dim, 0.6), Qt::BDiagPattern));
+        }
+        for (std::size_t i = 0; i < row.parts.size(); ++i) {
+            const model::RangePart& part = row.parts[i];
+            const double left = m_timeline.placeOf(parts.beginOf(i));
+            const double right = std::max(left + 1, m_timeline.placeOf(parts.beginOf(i + 1)));
+            if (heights[i] > 0) {
+                const double height = std::max(2.0, room * heights[i] / most);
+                m_painter.fillRect(QRectF(left, bottom - height, right - left, height), colour);
+            }
+            if (part.lost != 0) {
+                const double share = static_cast<double>(part.lost) / (part.lost + part.samples);
+                const double height = std::max(kLeastMark, room * share);
+                m_painter.fillRect(QRectF(left, bottom - height, std::max(kLeastMark, right - left), height),
+                                   theme().warning);
+            }
         }
     }
-    painter.setRenderHint(QPainter::Antialiasing, false);
-}
 
-void TimelineView::paintRow(QPainter& painter, std::size_t row) {
-    const TimelineModel::Row& shown = m_model.shown(row);
-    const QRect rect = rowRect(row);
-    const int margin = CellDelegate::margin(fontMetrics());
-    if (row % 2 == 1) {
-        painter.fillRect(rect, withAlpha(theme().raised, 0.5));
-    }
-    const bool isSelected = m_view.roster().isSelected(shown.character) && !shown.type;
-    if (isSelected) {
-        painter.fillRect(QRect(rect.left(), rect.top(), namesWidth(), rect.height()), theme().selection);
-    }
-    painter.setClipRect(0, rulerHeight(), namesWidth(), viewport()->height());
-    QRect name(rect.left() + margin, rect.top(), namesWidth() - 2 * margin, rect.height());
-    const int indent = fontMetrics().height();
-    painter.setPen(shown.type ? theme().dim : theme().text);
-    if (shown.type) {
-        name.setLeft(name.left() + 2 * indent);
-    } else {
-        painter.drawText(name, Qt::AlignLeft | Qt::AlignVCenter,
-                         shown.isOpen ? QStringLiteral("▾") : QStringLiteral("▸"));
-        name.setLeft(name.left() + indent);
-        name.setLeft(name.left() + CellDelegate::paintBefore(painter, name, indent / 2, shown.mark));
-        painter.setPen(theme().text);
-    }
-    painter.drawText(name, Qt::AlignLeft | Qt::AlignVCenter,
-                     fontMetrics().elidedText(shown.name, Qt::ElideRight, name.width()));
-    const QRect strip(namesWidth() + 1, rect.top(), stripWidth() - 1, rect.height());
-    painter.setClipRect(
-        strip.intersected(QRect(0, rulerHeight(), viewport()->width(), viewport()->height())));
-    paintStrip(painter, shown, strip);
-    painter.setClipping(false);
-}
-
-/// As high as the part with most, with the share that was lost at the bottom; where nothing came for longer
-/// than usual it is hatched.
-void TimelineView::paintStrip(QPainter& painter, const TimelineModel::Row& row, const QRect& strip) const {
-    const model::RangeParts& parts = m_model.parts();
-    const std::vector<TimelineModel::Gap> gaps = TimelineModel::gapsIn(row.parts);
-    const std::vector<double> heights = heightsOf(row.parts, gaps);
-    const double most = heights.empty() ? 1 : std::max(1e-9, std::ranges::max(heights));
-    const double room = strip.height() - 5.0;
-    const double bottom = strip.bottom() - 1.0;
-    const QColor colour = withAlpha(row.mark.colour, row.type ? 0.45 : 0.7);
-    painter.setPen(Qt::NoPen);
-    for (const auto& [from, to] : gaps) {
-        const double left = placeOf(parts.beginOf(from));
-        painter.fillRect(QRectF(left, bottom - room, placeOf(parts.beginOf(to)) - left, room),
-                         QBrush(withAlpha(theme().dim, 0.6), Qt::BDiagPattern));
-    }
-    for (std::size_t i = 0; i < row.parts.size(); ++i) {
-        const model::RangePart& part = row.parts[i];
-        const double left = placeOf(parts.beginOf(i));
-        const double right = std::max(left + 1, placeOf(parts.beginOf(i + 1)));
-        if (heights[i] > 0) {
-            const double height = std::max(2.0, room * heights[i] / most);
-            painter.fillRect(QRectF(left, bottom - height, right - left, height), colour);
+    void paintRange() {
+        const auto range = m_timeline.m_view.range();
+        if (!range || !m_timeline.m_view.choices().range.fixed) {
+            return;
         }
-        if (part.lost != 0) {
-            const double share = static_cast<double>(part.lost) / (part.lost + part.samples);
-            const double height = std::max(kLeastMark, room * share);
-            painter.fillRect(QRectF(left, bottom - height, std::max(kLeastMark, right - left), height),
-                             theme().warning);
-        }
+        const QRectF shade(
+            QPointF(m_timeline.placeOf(range->from), 0),
+            QPointF(std::max(m_timeline.placeOf(range->to), m_timeline.placeOf(range->from) + 1),
+                    m_timeline.viewport()->height()));
+        m_painter.fillRect(shade, withAlpha(theme().accent, 0.16));
+        m_painter.setPen(theme().accent);
+        m_painter.drawLine(shade.topLeft(), shade.bottomLeft());
+        m_painter.drawLine(shade.topRight(), shade.bottomRight());
     }
-}
 
-void TimelineView::paintRange(QPainter& painter) const {
-    const auto range = m_view.range();
-    if (!range || !m_view.choices().range.fixed) {
-        return;
+    void paintCursor() {
+        const double x = m_timeline.placeOf(m_timeline.m_view.cursorStamp());
+        const double head = m_timeline.fontMetrics().height() * 0.35;
+        m_painter.setRenderHint(QPainter::Antialiasing);
+        m_painter.setPen(QPen(theme().text, 1.5));
+        m_painter.drawLine(QPointF(x, head), QPointF(x, m_timeline.viewport()->height()));
+        m_painter.setPen(Qt::NoPen);
+        m_painter.setBrush(theme().text);
+        m_painter.drawPolygon(QPolygonF({{x - head, 0}, {x + head, 0}, {x, head * 1.4}}));
+        m_painter.setRenderHint(QPainter::Antialiasing, false);
     }
-    const QRectF shade(QPointF(placeOf(range->from), 0),
-                       QPointF(std::max(placeOf(range->to), placeOf(range->from) + 1), viewport()->height()));
-    painter.fillRect(shade, withAlpha(theme().accent, 0.16));
-    painter.setPen(theme().accent);
-    painter.drawLine(shade.topLeft(), shade.bottomLeft());
-    painter.drawLine(shade.topRight(), shade.bottomRight());
-}
 
-void TimelineView::paintCursor(QPainter& painter) const {
-    const double x = placeOf(m_view.cursorStamp());
-    const double head = fontMetrics().height() * 0.35;
-    painter.setRenderHint(QPainter::Antialiasing);
-    painter.setPen(QPen(theme().text, 1.5));
-    painter.drawLine(QPointF(x, head), QPointF(x, viewport()->height()));
-    painter.setPen(Qt::NoPen);
-    painter.setBrush(theme().text);
-    painter.drawPolygon(QPolygonF({{x - head, 0}, {x + head, 0}, {x, head * 1.4}}));
-    painter.setRenderHint(QPainter::Antialiasing, false);
+    TimelineView& m_timeline;
+    QPainter m_painter;
+};
+
+void TimelineView::paintEvent(QPaintEvent* /*event*/) {
+    TimelinePainter(*this).paint();
 }
 
 } // namespace posewire::gui

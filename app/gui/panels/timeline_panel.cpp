@@ -5,7 +5,6 @@
 #include "app/gui/models/text.h"
 #include "app/gui/panels/cell_delegate.h"
 #include "app/gui/panels/range_bar.h"
-#include "app/gui/panels/timeline_view.h"
 #include "app/gui/theme/theme.h"
 #include "app/gui/theme/widgets.h"
 #include "core/model/body/character_pose.h"
@@ -57,7 +56,7 @@ TimelinePanel::TimelinePanel(model::SessionView& view, Commands& commands, Playb
     connect(m_range, &QAction::triggered, this, &TimelinePanel::showRange);
     m_thumbnail->hide();
     connect(m_timeline, &TimelineView::windowChanged, m_thumbnail,
-            [this] { m_thumbnail->setVisible(!m_timeline->isAllShown()); });
+            [this](bool isAll) { m_thumbnail->setVisible(!isAll); });
     connect(out, &QAction::triggered, this, &TimelinePanel::zoomOut);
     connect(in, &QAction::triggered, this, &TimelinePanel::zoomIn);
 }
@@ -121,7 +120,7 @@ TimelineThumbnail::TimelineThumbnail(model::SessionView& view, TimelineView& tim
     : QWidget(parent), m_timeline(timeline), m_overview(view) {
     setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
     setToolTip(tr("All there is, with losses marked; drag to move what the timeline shows"));
-    connect(&timeline, &TimelineView::windowChanged, this, qOverload<>(&QWidget::update));
+    connect(&timeline, &TimelineView::windowChanged, this, [this] { update(); });
 }
 
 QSize TimelineThumbnail::sizeHint() const {

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/panels/timeline_view.h"
 
-#include "app/gui/models/incident_words.h"
 #include "app/gui/models/text.h"
 #include "app/gui/panels/cell_delegate.h"
-#include "app/gui/theme/plain_text.h"
 #include "app/gui/theme/theme.h"
 #include "core/model/session/roster.h"
 #include "core/model/session/verdict.h"
@@ -73,31 +71,25 @@ log::Stamp TimelineView::stampAt(double place) const {
 
 void TimelineView::refresh() {
     const auto span = m_model.span();
-    if (span) {
-        followNow(*span);
+    const bool isLive = m_view.choices().cursor.mode == model::Cursor::Mode::Following;
+    if (span && (m_isAll || m_window.to == log::Stamp())) {
+        m_window = *span;
+    } else if (span && m_isAtNow && isLive) {
+        m_window = {span->to - (m_window.to - m_window.from), span->to};
     }
     readRows();
-}
-
-/// The end moves by whole parts, so that not every moment reads everything again.
-void TimelineView::followNow(const model::TimeRange& span) {
-    if (m_isAll || m_window.to == log::Stamp()) {
-        m_window = span;
-        return;
-    }
-    const log::Duration length = m_window.to - m_window.from;
-    const bool isLive = m_view.choices().cursor.mode == model::Cursor::Mode::Following;
-    if (m_isAtNow && isLive) {
-        m_window = {span.to - length, span.to};
-    }
 }
 
 void TimelineView::readRows() {
     const auto most = static_cast<std::size_t>(std::max(1.0, stripWidth() / kPixelsOfPart));
     m_model.refresh(m_window, most);
-    fitScrollBar();
+    const int room = viewport()->height() - rulerHeight();
+    verticalScrollBar()->setPageStep(room);
+    verticalScrollBar()->setSingleStep(rowHeight());
+    verticalScrollBar()->setRange(0,
+                                  std::max(0, static_cast<int>(m_model.rows().size()) * rowHeight() - room));
     viewport()->update();
-    emit windowChanged();
+    emit windowChanged(m_isAll);
 }
 
 void TimelineView::setWindow(model::TimeRange window) {
@@ -132,19 +124,6 @@ void TimelineView::fit() {
 void TimelineView::fitRange() {
     const auto range = m_view.range();
     range ? setWindow(*range) : fit();
-}
-
-void TimelineView::fitScrollBar() {
-    const int rows = static_cast<int>(m_model.rows().size()) * rowHeight();
-    const int room = viewport()->height() - rulerHeight();
-    verticalScrollBar()->setPageStep(room);
-    verticalScrollBar()->setSingleStep(rowHeight());
-    verticalScrollBar()->setRange(0, std::max(0, rows - room));
-}
-
-QRect TimelineView::rowRect(std::size_t row) const {
-    const int top = rulerHeight() + static_cast<int>(row) * rowHeight() - verticalScrollBar()->value();
-    return {0, top, viewport()->width(), rowHeight()};
 }
 
 std::optional<std::size_t> TimelineView::rowAt(const QPoint& place) const {
@@ -197,14 +176,10 @@ void TimelineView::drag(const QPoint& place) {
     if (m_drag == Drag::Cursor) {
         m_playback.showMoment(moment);
     } else {
-        chooseRange(moment);
+        const auto [from, to] = std::minmax(m_anchor, moment);
+        m_commands.selectRange({log::Duration::zero(), model::TimeRange{from, to + log::Duration(1)}});
     }
     viewport()->update();
-}
-
-void TimelineView::chooseRange(log::Stamp to) {
-    const auto [from, end] = std::minmax(m_anchor, to);
-    m_commands.selectRange({log::Duration::zero(), model::TimeRange{from, end + log::Duration(1)}});
 }
 
 void TimelineView::mouseReleaseEvent(QMouseEvent* event) {
@@ -283,11 +258,6 @@ void TimelineView::toggleStreams() {
     }
 }
 
-void TimelineView::resizeEvent(QResizeEvent* event) {
-    QAbstractScrollArea::resizeEvent(event);
-    readRows();
-}
-
 const model::Incident* TimelineView::incidentAt(const QPoint& place) const {
     const int lane = fontMetrics().height();
     const bool isInLane =
@@ -336,7 +306,11 @@ bool TimelineView::viewportEvent(QEvent* event) {
         QToolTip::showText(help->globalPos(), toolTipText(helpAt(help->pos())), this);
         return true;
     }
-    return QAbstractScrollArea::viewportEvent(event);
+    const bool isDone = QAbstractScrollArea::viewportEvent(event);
+    if (event->type() == QEvent::Resize) {
+        readRows();
+    }
+    return isDone;
 }
 
 } // namespace posewire::gui

@@ -28,11 +28,9 @@ public:
     void zoom(double factor, std::optional<log::Stamp> about = {});
     /// All there is.
     void fit();
-    /// The range that figures are of.
     void fitRange();
     /// Shows or hides the streams of the selected character, of the first where none is.
     void toggleStreams();
-    [[nodiscard]] bool isAllShown() const { return m_isAll; }
     /// As much of it as there is; at least the shortest that can be looked at.
     void setWindow(model::TimeRange window);
 
@@ -42,11 +40,10 @@ public:
     [[nodiscard]] const TimelineModel& model() const { return m_model; }
     [[nodiscard]] int rulerHeight() const;
     [[nodiscard]] int rowHeight() const;
-    /// Of the column of names at the left.
     [[nodiscard]] int namesWidth() const;
 
 signals:
-    void windowChanged();
+    void windowChanged(bool isAll);
 
 protected:
     void paintEvent(QPaintEvent* event) override;
@@ -56,29 +53,19 @@ protected:
     void mouseDoubleClickEvent(QMouseEvent* event) override;
     void wheelEvent(QWheelEvent* event) override;
     void keyPressEvent(QKeyEvent* event) override;
-    void resizeEvent(QResizeEvent* event) override;
     bool viewportEvent(QEvent* event) override;
 
 private:
+    friend class TimelinePainter;
+
     enum class Drag { None, Cursor, Range, Window };
 
-    void followNow(const model::TimeRange& span);
     void readRows();
-    void fitScrollBar();
     [[nodiscard]] int stripWidth() const;
-    [[nodiscard]] QRect rowRect(std::size_t row) const;
     [[nodiscard]] std::optional<std::size_t> rowAt(const QPoint& place) const;
     [[nodiscard]] const model::Incident* incidentAt(const QPoint& place) const;
     [[nodiscard]] QString helpAt(const QPoint& place);
     void drag(const QPoint& place);
-    void chooseRange(log::Stamp to);
-
-    void paintRuler(QPainter& painter) const;
-    void paintIncidents(QPainter& painter) const;
-    void paintRow(QPainter& painter, std::size_t row);
-    void paintStrip(QPainter& painter, const TimelineModel::Row& row, const QRect& strip) const;
-    void paintRange(QPainter& painter) const;
-    void paintCursor(QPainter& painter) const;
 
     model::SessionView& m_view;
     Commands& m_commands;

@@ -66,4 +66,22 @@ void offerHelp(QDialog& dialog, QDialogButtonBox& buttons, const QString& place)
                      open);
 }
 
+void layOut(QDialog& dialog, std::initializer_list<std::variant<QWidget*, QLayout*>> parts,
+            QDialogButtonBox& buttons, const QString& helpPlace, int characters) {
+    auto* column = new QVBoxLayout(&dialog);
+    column->setSpacing(dialog.fontMetrics().height());
+    for (const auto& part : parts) {
+        if (QWidget* const* widget = std::get_if<QWidget*>(&part)) {
+            column->addWidget(*widget);
+        } else {
+            column->addLayout(std::get<QLayout*>(part));
+        }
+    }
+    column->addWidget(&buttons);
+    QObject::connect(&buttons, &QDialogButtonBox::accepted, &dialog, &QDialog::accept);
+    QObject::connect(&buttons, &QDialogButtonBox::rejected, &dialog, &QDialog::reject);
+    offerHelp(dialog, buttons, helpPlace);
+    dialog.setMinimumWidth(dialog.fontMetrics().averageCharWidth() * characters);
+}
+
 } // namespace posewire::gui

@@ -3,8 +3,12 @@
 
 #include <QString>
 
+#include <initializer_list>
+#include <variant>
+
 class QDialog;
 class QDialogButtonBox;
+class QLayout;
 class QMessageBox;
 class QToolButton;
 class QWidget;
@@ -32,5 +36,10 @@ void offerHelp(QMessageBox& message, const QString& place);
 
 /// Gives a dialog a Help button and F1, which open a place.
 void offerHelp(QDialog& dialog, QDialogButtonBox& buttons, const QString& place);
+
+/// Puts the parts of a dialog below each other and its buttons, with one for help, at the foot.
+/// `characters`: about how many a line of its text has.
+void layOut(QDialog& dialog, std::initializer_list<std::variant<QWidget*, QLayout*>> parts,
+            QDialogButtonBox& buttons, const QString& helpPlace, int characters);
 
 } // namespace posewire::gui

@@ -3,10 +3,15 @@
 
 #include "app/gui/theme/desktop_theme.h"
 
+#include <QFile>
 #include <QFontDatabase>
 #include <QFontMetrics>
+#include <QIconEngine>
+#include <QPainter>
 #include <QPalette>
 #include <QStyleFactory>
+#include <QSvgRenderer>
+#include <QTextDocument>
 
 #include <algorithm>
 #include <array>
@@ -329,6 +334,75 @@ QString healthSymbol(Health health) {
 
 QString healthText(Health health, const QString& text) {
     return healthSymbol(health) + QLatin1Char(' ') + text;
+}
+
+namespace {
+
+class TintedIcon final : public QIconEngine {
+public:
+    TintedIcon(QByteArray svg, QColor colour) : m_svg(std::move(svg)), m_colour(std::move(colour)) {}
+
+    void paint(QPainter* painter, const QRect& rectangle, QIcon::Mode mode, QIcon::State /*state*/) override {
+        const QColor colour = mode == QIcon::Disabled ? theme().dim : m_colour;
+        QByteArray tinted = m_svg;
+        tinted.replace("currentColor", colour.name().toLatin1());
+        QSvgRenderer renderer(tinted);
+        renderer.render(painter, QRectF(rectangle));
+    }
+
+    QPixmap pixmap(const QSize& size, QIcon::Mode mode, QIcon::State state) override {
+        QPixmap pixmap(size);
+        pixmap.fill(Qt::transparent);
+        QPainter painter(&pixmap);
+        paint(&painter, QRect(QPoint(), size), mode, state);
+        return pixmap;
+    }
+
+    [[nodiscard]] QIconEngine* clone() const override { return new TintedIcon(*this); }
+
+private:
+    QByteArray m_svg;
+    QColor m_colour;
+};
+
+} // namespace
+
+QIcon themedIcon(const QString& name, const QColor& colour) {
+    QFile file(QStringLiteral(":/icons/%1.svg").arg(name));
+    if (!file.open(QIODevice::ReadOnly)) {
+        return {};
+    }
+    return QIcon(new TintedIcon(file.readAll(), colour.isValid() ? colour : theme().text));
+}
+
+QIcon applicationIcon() {
+    return QIcon(QStringLiteral(":/icons/posewire.svg"));
+}
+
+namespace {
+
+/// Keeps line breaks.
+const QString kBegin = QStringLiteral("<qt><span style=\"white-space:pre-wrap\">");
+const QString kEnd = QStringLiteral("</span></qt>");
+
+} // namespace
+
+QString toolTipText(const QString& plain) {
+    return Qt::mightBeRichText(plain) ? kBegin + plain.toHtmlEscaped() + kEnd : plain;
+}
+
+bool isEscapedToolTip(const QString& toolTip) {
+    const QString inside = toolTip.mid(kBegin.size()).chopped(kEnd.size());
+    return toolTip.startsWith(kBegin) && toolTip.endsWith(kEnd) && !inside.contains(QLatin1Char('<'));
+}
+
+QString menuText(const QString& plain) {
+    constexpr qsizetype kMost = 80;
+    QString text = plain.simplified();
+    if (text.size() > kMost) {
+        text = text.left(kMost - 1) + QStringLiteral("…");
+    }
+    return text.replace(QLatin1Char('&'), QStringLiteral("&&"));
 }
 
 } // namespace posewire::gui

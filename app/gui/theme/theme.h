@@ -4,6 +4,9 @@
 #include <QApplication>
 #include <QColor>
 #include <QFont>
+#include <QIcon>
+#include <QString>
+#include <QVariant>
 
 namespace posewire::gui {
 
@@ -38,7 +41,6 @@ enum class ThemeChoice { System, Dark, Light };
 /// A colour of text for a selected row: mixed with the text's own until it stands out as 4.5 : 1.
 [[nodiscard]] QColor onSelection(const QColor& colour);
 
-/// Sets palette, Fusion style and style sheet for the whole application.
 void applyTheme(QApplication& application, ThemeChoice choice);
 
 /// Fonts from the desktop's own, sizes from its metrics.
@@ -52,5 +54,30 @@ enum class Health { Good, Warning, Error, Unknown };
 [[nodiscard]] QString healthSymbol(Health health);
 /// "▲ lossy": a text after the symbol.
 [[nodiscard]] QString healthText(Health health, const QString& text);
+
+/// An icon of resources/icons by its file name without ending, in the theme's text colour (or `colour`),
+/// sharp at any pixel ratio. Made again when the theme changes: ask again then. Null where there is no such
+/// icon.
+[[nodiscard]] QIcon themedIcon(const QString& name, const QColor& colour = {});
+
+[[nodiscard]] QIcon applicationIcon();
+
+// Qt guesses in tooltips whether a text is HTML, and takes an & in menus and on buttons for a mnemonic. If a
+// text is not a literal of ours, these make it plain; for labels and messages see widgets.h.
+
+/// A tooltip that shows a plain text as it is: escaped where Qt would take it for HTML, which might load
+/// pictures from files.
+[[nodiscard]] QString toolTipText(const QString& plain);
+
+/// The same for models: nothing for an empty one.
+[[nodiscard]] inline QVariant toolTipOf(const QString& plain) {
+    return plain.isEmpty() ? QVariant() : QVariant(toolTipText(plain));
+}
+
+/// Whether toolTipText() had to escape it: what is shown is text all the same.
+[[nodiscard]] bool isEscapedToolTip(const QString& toolTip);
+
+/// An entry of a menu or the text of a button: no mnemonic, one line, at most 80 characters.
+[[nodiscard]] QString menuText(const QString& plain);
 
 } // namespace posewire::gui

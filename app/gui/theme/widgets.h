@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/gui/theme/theme.h"
+
+#include <QAbstractButton>
 #include <QComboBox>
 #include <QLabel>
 #include <QMessageBox>
@@ -20,7 +23,6 @@ namespace posewire::gui {
 /// A layout from left to right, of `parent` or to be put into another layout.
 [[nodiscard]] QHBoxLayout* spacedRow(const QMargins& margins, int spacing, QWidget* parent = nullptr);
 
-/// Gives the text of a label a colour.
 void setTextColour(QLabel& label, const QColor& colour);
 
 /// A label that shows plain text, whatever is in it. There are no others, but for richLabel().
@@ -37,7 +39,6 @@ public:
     MessageBox(const QString& title, const QString& text, StandardButtons buttons, QWidget* parent);
 };
 
-/// A label of secondary importance, in the theme's dim colour.
 [[nodiscard]] QLabel* dimLabel(const QString& text, QWidget* parent);
 /// The same for sentences: broken into lines where it has to be.
 [[nodiscard]] QLabel* dimText(const QString& text, QWidget* parent);
@@ -46,7 +47,6 @@ public:
 /// and no word is left alone in the last one. Pixels.
 [[nodiscard]] qreal balancedWidth(const QFontMetricsF& metrics, const QString& text, qreal most);
 
-/// A thin line in the theme's colour between the parts of a dock.
 class Line : public QWidget {
 public:
     explicit Line(QWidget* parent = nullptr) : QWidget(parent) { setFixedHeight(1); }
@@ -64,6 +64,18 @@ public:
 
 protected:
     void paintEvent(QPaintEvent* event) override;
+};
+
+/// How much of a session a dialog is about: all there is, or the time that figures are of.
+class RangeBox final : public ComboBox {
+    Q_OBJECT
+
+public:
+    explicit RangeBox(QWidget* parent) : ComboBox(parent) {
+        addItems({tr("All there is"), tr("The range of the figures")});
+    }
+
+    [[nodiscard]] bool isRangeOnly() const { return currentIndex() == 1; }
 };
 
 /// One line of text and, dimmed, what is added to it. It never asks for room: where there is too little it
@@ -146,5 +158,45 @@ struct TextPrompt {
 /// empty for nothing. Nothing where the operator cancels.
 [[nodiscard]] std::optional<QString>
 askForText(const TextPrompt& words, const std::function<QString(const QString&)>& problemOf, QWidget* parent);
+
+/// Two lines beside what is typed: dim while they explain, in the colour of errors when they say what is
+/// wrong. Their room is there from the beginning, so that nothing jumps under the pointer.
+class Note final : public QLabel {
+    Q_OBJECT
+
+public:
+    explicit Note(QWidget* parent);
+
+    void explain(const QString& text);
+    void warn(const QString& problem);
+};
+
+/// A button of one short line in the colour of its health, as in the bar at the bottom.
+class ColourText final : public QAbstractButton {
+    Q_OBJECT
+
+public:
+    /// Plain is dim text, Pill has an outline about it.
+    enum class Look { Plain, Pill };
+
+    explicit ColourText(Look look, QWidget* parent = nullptr);
+
+    /// Unknown is dim text without a symbol.
+    void setContent(Health level, const QString& text);
+    [[nodiscard]] Health level() const { return m_level; }
+
+    /// Pixels beside the text of a plain one, on both sides together.
+    [[nodiscard]] static int marginsOf(const QFontMetrics& metrics) { return 2 * (metrics.height() / 4 + 1); }
+
+    [[nodiscard]] QSize sizeHint() const override;
+    [[nodiscard]] QSize minimumSizeHint() const override { return sizeHint(); }
+
+protected:
+    void paintEvent(QPaintEvent* event) override;
+
+private:
+    Look m_look;
+    Health m_level = Health::Unknown;
+};
 
 } // namespace posewire::gui

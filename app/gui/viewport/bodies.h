@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/model/body/character_pose.h"
+#include "core/model/body/null_pose.h"
+#include "core/model/body/reference_body.h"
 #include "render/mesh/mannequin.h"
 #include "render/mesh/null_pose_fit.h"
 #include "render/mesh/own_body.h"
 #include "render/picking.h"
 #include "render/scene.h"
+#include "render/skinning.h"
 
 #include <QString>
 
@@ -122,5 +126,24 @@ private:
     std::vector<Entry> m_entries;
     std::uint64_t m_uses = 0;
 };
+
+/// The fingers of one character as the palette wants them, the left hand first.
+struct PosedHands {
+    std::array<glm::vec3, render::kFingerJointCount> positions{};
+    std::array<glm::quat, render::kFingerJointCount> orientations{};
+    bool hasLeft = false;
+    bool hasRight = false;
+
+    [[nodiscard]] render::FingerPose left() const;
+    [[nodiscard]] render::FingerPose right() const;
+};
+
+/// A hand without any finger in the pose is left out; of others, missing segments are not numbers.
+[[nodiscard]] PosedHands handsOf(const model::CharacterPose& pose);
+
+/// Where a scale message has the fingers, moved to where `body` has the hands; not a number where it has
+/// none.
+[[nodiscard]] render::FingerOrigins fingerOriginsOf(const model::NullPose& nullPose,
+                                                    const model::BodyOrigins& body);
 
 } // namespace posewire::gui

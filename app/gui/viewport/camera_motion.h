@@ -48,7 +48,6 @@ public:
 
     /// Shows all boxes at once, and keeps showing what follow() is given. Without boxes nothing changes.
     void frame(std::span<const render::Bounds> boxes, float aspect);
-    /// Shows a box and stays there.
     void show(const render::Bounds& box, float aspect);
     /// Shows the first boxes at once. From then on it holds still as long as all are well in the picture, and
     /// glides to where they are when they are not; after infinite `seconds`, as between two moments of a
@@ -70,7 +69,6 @@ private:
 [[nodiscard]] render::Camera fitted(render::Camera camera, std::span<const render::Bounds> boxes,
                                     float aspect);
 
-/// The camera as it is kept from one run to the next.
 [[nodiscard]] QJsonObject stateOf(const CameraMotion& motion);
 /// What is missing or makes no sense stays as it is.
 void restore(CameraMotion& motion, const QJsonObject& state);

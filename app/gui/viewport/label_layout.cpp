@@ -174,7 +174,6 @@ private:
         return isGood ? std::optional(Candidate{plate, own.before->offset, costOf(own, plate)})
                       : std::nullopt;
     }
-    /// Whether it lies on nothing that it must not lie on.
     [[nodiscard]] bool isFree(const QRectF& plate, std::size_t which, qreal spare) const {
         const QRectF wide = plate.adjusted(-kApart - spare, -kApart, kApart + spare, kApart);
         return !isTaken(wide) && !m_places[which].head.intersects(plate) && !isOnHead(plate, which, true);

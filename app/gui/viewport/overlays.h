@@ -15,7 +15,6 @@
 /// viewport's menu and tests follow.
 namespace posewire::gui {
 
-/// The character that an overlay is about.
 struct OverlaySubject : PoseSubject {
     glm::vec3 colour;
     int segment = -1;    ///< the selected one, -1 for none

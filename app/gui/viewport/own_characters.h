@@ -18,7 +18,6 @@
 
 namespace posewire::gui {
 
-/// A file of a character as it was read.
 struct CharacterFile {
     QString path;
     QString sum; ///< SHA-256 of its bytes
@@ -60,7 +59,6 @@ private:
     std::shared_ptr<Recipient> m_recipient;
 };
 
-/// How a file becomes a body, as the operator chose it.
 struct BodyChoice {
     render::RestChoice rest;
     bool isScaled = true;
@@ -97,7 +95,6 @@ public:
 
     [[nodiscard]] QJsonArray state() const;
     void restoreState(const QJsonArray& state);
-    /// Whether files of the last run are still being read.
     [[nodiscard]] bool isRestoring() const { return !m_waiting.empty(); }
 
 signals:

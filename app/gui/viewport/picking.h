@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/gui/theme/character_mark.h"
+#include "app/gui/viewport/captions.h"
 #include "app/gui/viewport/scene.h"
 #include "render/picking.h"
 
+#include <QColor>
 #include <QPointF>
 #include <QRectF>
 #include <QSizeF>
+#include <QString>
 
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 namespace posewire::gui {
 
@@ -36,5 +41,29 @@ struct PickedSegment {
 /// The rectangle that a figure takes in a picture of that size; empty where it is not in it, or partly behind
 /// the eye.
 [[nodiscard]] QRectF roomOf(const SceneFrame& frame, const model::CharacterKey& key, const QSizeF& view);
+
+struct ViewportLabel {
+    model::CharacterKey key;
+    QPointF anchor; ///< just above its head
+    QRectF head;
+    double depth = 0; ///< of the head, metres from the eye
+    CharacterMark mark;
+    QString name;
+    PropertyValue state; ///< how it does
+    bool isSelected = false;
+    bool isBehind = false; ///< its head is hidden by somebody else
+};
+
+struct ViewportText {
+    QPointF place; ///< its left end, at half its height
+    QString text;
+    QColor colour;
+};
+
+/// Of the figures in a picture of that size, in logical pixels; none of a head that is behind the eye.
+[[nodiscard]] std::vector<ViewportLabel> labelsOf(const SceneFrame& frame, model::SessionView& session,
+                                                  const QSizeF& size);
+/// The nearest first, numbers of the floor last.
+[[nodiscard]] std::vector<ViewportText> textsOf(const SceneFrame& frame, const QSizeF& size);
 
 } // namespace posewire::gui

@@ -30,7 +30,6 @@ public:
 
     /// True while what is on screen is what was last asked for, or, with data streaming, next to it.
     [[nodiscard]] bool isSettled() const;
-    /// What is on screen; null if nothing is.
     [[nodiscard]] const SceneFrame* shown() const { return m_shown.get(); }
     /// Empty before start(), as are the following.
     [[nodiscard]] QString rendererName() const {
@@ -38,7 +37,6 @@ public:
     }
     /// Since the start.
     [[nodiscard]] std::uint64_t count() const { return m_presenter == nullptr ? 0 : m_presenter->pictures(); }
-    /// How pictures are drawn now, for the statistics.
     [[nodiscard]] PictureHealth health() const;
     [[nodiscard]] const SceneBuilder* builder() const { return m_builder.get(); }
     /// Why there is no picture; empty if there is one.

@@ -21,7 +21,6 @@ namespace posewire::gui {
 class DrawingThread;
 class ViewportOverlay;
 
-/// Which moments are to become pictures, and what these are like.
 struct PictureRequest {
     log::Stamp first{};
     log::Duration every{};
@@ -53,7 +52,6 @@ public:
     /// Another session is shown: the display stays where it is.
     void leave() { m_isLeft = true; }
     [[nodiscard]] const PictureRequest& request() const { return m_request; }
-    /// Pictures that are on the disk.
     [[nodiscard]] int written() const { return m_written; }
 
 signals:

@@ -38,7 +38,6 @@ public:
     [[nodiscard]] virtual QString failure() const = 0;
 
     [[nodiscard]] virtual PictureLoad load() const = 0;
-    /// Drawn since the start.
     [[nodiscard]] virtual std::uint64_t pictures() const = 0;
 
 signals:

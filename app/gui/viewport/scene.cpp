@@ -5,7 +5,6 @@
 #include "app/gui/models/text.h"
 #include "app/gui/theme/theme.h"
 #include "app/gui/viewport/captions.h"
-#include "app/gui/viewport/hands.h"
 #include "app/gui/viewport/overlays.h"
 #include "core/model/body/null_pose_measures.h"
 #include "core/model/body/pose_remark.h"

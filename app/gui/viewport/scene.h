@@ -2,7 +2,6 @@
 #pragma once
 
 #include "app/gui/viewport/bodies.h"
-#include "core/log/time.h"
 #include "core/model/body/character_pose.h"
 #include "core/model/body/pose_interpolation.h"
 #include "core/model/session/roster.h"
@@ -58,7 +57,6 @@ struct FigureProp {
     bool operator==(const FigureProp&) const = default;
 };
 
-/// A tracked object or a prop, by its position in the pose.
 struct FreeSegment {
     int segment = -1;
     glm::vec3 origin{0.0F};
@@ -66,7 +64,6 @@ struct FreeSegment {
     bool operator==(const FreeSegment&) const = default;
 };
 
-/// One character in a picture.
 struct Figure {
     model::CharacterKey key;
     std::shared_ptr<const FigureBody> body;    ///< null for tracked objects: they have axes alone
@@ -98,7 +95,6 @@ struct Figure {
     }
 };
 
-/// A few words at a place in space.
 struct SceneText {
     glm::vec3 position{0.0F};
     QString text;
@@ -157,7 +153,6 @@ private:
     std::vector<render::SkinnedInstance> m_instances;
 };
 
-/// The theme's colours as the renderer wants them.
 [[nodiscard]] render::SceneColours themedSceneColours();
 
 /// Gives axes their length in space: the same on the screen wherever they are, but never smaller or larger
@@ -178,7 +173,6 @@ public:
     /// Fills figures, axes, lines, points, texts and colours; camera and size are the caller's. Hidden
     /// characters are left out. Overlays are drawn of the selected character, of all where none is selected.
     void build(AxesMode axes, const Overlays& overlays, SceneFrame& frame);
-    /// Who is drawn by a body of the user's own.
     void setWardrobe(const Wardrobe& wardrobe) { m_wardrobe = wardrobe; }
     /// Bodies glide from sample to sample while what is received is followed.
     void setInterpolating(bool isInterpolating) { m_isInterpolating = isInterpolating; }
@@ -186,7 +180,6 @@ public:
     void setComparison(const ComparisonState* comparison) { m_comparison = comparison; }
     /// Whether the same poses would be shown elsewhere a little later.
     [[nodiscard]] bool isUnderWay() const;
-    /// Of the bodies in the scenes.
     [[nodiscard]] const BodyFits& bodies() const { return m_bodies; }
     [[nodiscard]] const OwnFigures& ownFigures() const { return m_ownFigures; }
 

@@ -15,7 +15,6 @@ namespace posewire::gui {
 
 class ElidedLabel;
 
-/// The values of one segment, in the corner of the viewport.
 class SegmentCard final : public QWidget {
     Q_OBJECT
 

@@ -28,7 +28,6 @@ public:
 
     [[nodiscard]] const ViewLook& look() const { return m_look; }
     [[nodiscard]] ViewLook& look() { return m_look; }
-    /// Who is drawn by a body of the user's own.
     [[nodiscard]] OwnCharacters& ownCharacters() { return m_ownCharacters; }
 
     void setAxes(AxesMode mode);

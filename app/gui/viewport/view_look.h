@@ -1,12 +1,65 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/gui/viewport/camera_motion.h"
 #include "app/gui/viewport/scene.h"
-#include "app/gui/viewport/view_panes.h"
 
+#include <QPointF>
+#include <QRectF>
+#include <QSizeF>
+
+#include <array>
 #include <vector>
 
 namespace posewire::gui {
+
+/// The views that the viewport is split into: one, two side by side or four, each with a camera of its own.
+/// One is the active: what the operator asks of the camera is of that one.
+class ViewPanes {
+public:
+    static constexpr int kMost = 4;
+
+    [[nodiscard]] int count() const { return m_count; }
+    [[nodiscard]] bool isSplit() const { return m_count > 1; }
+    [[nodiscard]] int active() const { return m_active; }
+
+    /// Of all panes together, logical pixels.
+    void resize(const QSize& view) { m_view = view; }
+
+    /// 1, 2 or 4. Views that were never shown look level from the front, the left and the top, about
+    /// `heading` (radians) as a character's.
+    void split(int count, float heading);
+    void activate(int pane);
+
+    /// The active one's.
+    [[nodiscard]] CameraMotion& motion() { return motionOf(m_active); }
+    [[nodiscard]] const CameraMotion& motion() const { return m_motions[static_cast<std::size_t>(m_active)]; }
+    [[nodiscard]] CameraMotion& motionOf(int pane) { return m_motions[static_cast<std::size_t>(pane)]; }
+    [[nodiscard]] const CameraMotion& motionOf(int pane) const {
+        return m_motions[static_cast<std::size_t>(pane)];
+    }
+
+    [[nodiscard]] QRect place(int pane) const;
+    /// The active one's place, and its width by its height.
+    [[nodiscard]] QRect place() const { return place(m_active); }
+    [[nodiscard]] float aspect() const;
+    /// The one there; the active one if the point is between two.
+    [[nodiscard]] int paneAt(const QPointF& point) const;
+
+    [[nodiscard]] QJsonObject state() const;
+    /// What makes no sense stays as it is.
+    void restoreState(const QJsonObject& state);
+
+    /// What a pane shows: "Front", or how it is projected where it was turned by hand.
+    [[nodiscard]] QString name(int pane) const;
+
+private:
+    std::array<CameraMotion, kMost> m_motions;
+    std::array<bool, kMost> m_wasShown{true};
+    QSize m_view;
+    int m_count = 1;
+    int m_active = 0;
+};
 
 /// What the operator chose to see of a session, and from where.
 struct ViewLook {
@@ -22,7 +75,6 @@ struct ViewLook {
     /// The same for all panes: what is in them is built once.
     void fillPanes(SceneBuilder& builder, double seconds, SceneFrame& frame);
 
-    /// Whether a camera is on its way to what it follows.
     [[nodiscard]] bool isGliding() const;
 
 private:

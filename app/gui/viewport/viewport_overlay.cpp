@@ -16,7 +16,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <utility>
 
 namespace posewire::gui {
@@ -41,7 +40,6 @@ qreal paintText(QPainter& painter, qreal left, const QRectF& row, const QString&
     return left + width;
 }
 
-/// What is on one label.
 struct LabelText {
     QString name;
     QString status;

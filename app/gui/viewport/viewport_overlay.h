@@ -3,7 +3,7 @@
 
 #include "app/gui/theme/theme.h"
 #include "app/gui/viewport/label_layout.h"
-#include "app/gui/viewport/labels.h"
+#include "app/gui/viewport/picking.h"
 
 #include <QWidget>
 

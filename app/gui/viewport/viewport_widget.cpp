@@ -4,7 +4,6 @@
 #include "app/gui/models/shown_character.h"
 #include "app/gui/theme/theme.h"
 #include "app/gui/viewport/captions.h"
-#include "app/gui/viewport/pane_frame.h"
 #include "app/gui/viewport/pose_banner.h"
 #include "app/gui/viewport/segment_card.h"
 #include "app/gui/viewport/viewport_overlay.h"
@@ -16,10 +15,72 @@
 #include <QPainter>
 #include <QWheelEvent>
 
-#include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace posewire::gui {
+
+/// The lines between the panes of a view, their names, and the frame around the active one.
+class PaneFrame final : public QWidget {
+public:
+    explicit PaneFrame(QWidget* parent) : QWidget(parent) {
+        setAttribute(Qt::WA_TransparentForMouseEvents);
+        setAttribute(Qt::WA_NoSystemBackground);
+    }
+
+    struct NamedPane {
+        QRect place;
+        QString name;
+
+        bool operator==(const NamedPane&) const = default;
+    };
+    /// None for a view that is not split.
+    void setPanes(const std::vector<NamedPane>& panes, int active) {
+        if (panes != m_panes || active != m_active) {
+            m_panes = panes;
+            m_active = active;
+            update();
+        }
+    }
+
+protected:
+    void paintEvent(QPaintEvent* /*event*/) override {
+        if (m_panes.empty()) {
+            return;
+        }
+        QPainter painter(this);
+        QRegion between(rect());
+        for (const NamedPane& pane : m_panes) {
+            between -= pane.place;
+        }
+        for (const QRect& part : between) {
+            painter.fillRect(part, theme().line);
+        }
+        constexpr int kMargin = 8;
+        for (const NamedPane& pane : m_panes) {
+            const QRect inner = pane.place.adjusted(kMargin, kMargin, -kMargin, -kMargin);
+            const QRect words =
+                fontMetrics().boundingRect(inner, Qt::AlignRight | Qt::AlignBottom, pane.name);
+            painter.setPen(Qt::NoPen);
+            painter.setBrush(withAlpha(theme().panel, 0.7));
+            painter.setRenderHint(QPainter::Antialiasing);
+            painter.drawRoundedRect(words.adjusted(-6, -2, 6, 2), 4, 4);
+            painter.setRenderHint(QPainter::Antialiasing, false);
+            painter.setPen(theme().dim);
+            painter.setBrush(Qt::NoBrush);
+            painter.drawText(words, Qt::AlignCenter, pane.name);
+        }
+        constexpr qreal kWidth = 2;
+        painter.setPen(QPen(parentWidget()->hasFocus() ? theme().accent : withAlpha(theme().accent, 0.55),
+                            kWidth, Qt::SolidLine, Qt::SquareCap, Qt::MiterJoin));
+        const QRectF active(m_panes.at(static_cast<std::size_t>(m_active)).place);
+        painter.drawRect(active.adjusted(kWidth / 2, kWidth / 2, -kWidth / 2, -kWidth / 2));
+    }
+
+private:
+    std::vector<NamedPane> m_panes;
+    int m_active = 0;
+};
 
 namespace {
 

@@ -4,7 +4,7 @@
 #include "app/gui/base/help_topics.h"
 #include "app/gui/models/text.h"
 #include "app/gui/theme/help_link.h"
-#include "app/gui/theme/plain_text.h"
+#include "app/gui/theme/theme.h"
 #include "app/gui/theme/widgets.h"
 
 #include <QApplication>
@@ -108,24 +108,17 @@ ThresholdsDialog::ThresholdsDialog(const AlertChoices& choices, QWidget* parent)
     form->addRow(tr("Notification"), m_notification);
     auto* buttons = new QDialogButtonBox(
         QDialogButtonBox::Ok | QDialogButtonBox::Cancel | QDialogButtonBox::RestoreDefaults, this);
-    connect(buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
-    connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
-    offerHelp(*this, *buttons, placeOf(HelpTopic::Thresholds));
     connect(buttons->button(QDialogButtonBox::RestoreDefaults), &QPushButton::clicked, this,
             [this] { setChoices({}); });
-    auto* column = new QVBoxLayout(this);
-    column->setSpacing(fontMetrics().height());
-    column->addWidget(
-        dimText(tr("A stream that exceeds one of these raises one incident per episode, which also "
-                   "shows in the health of its character. Changes apply from now on."),
-                this));
-    column->addLayout(form);
-    column->addWidget(m_explanation);
-    column->addWidget(buttons);
+    layOut(*this,
+           {dimText(tr("A stream that exceeds one of these raises one incident per episode, which also "
+                       "shows in the health of its character. Changes apply from now on."),
+                    this),
+            form, m_explanation},
+           *buttons, placeOf(HelpTopic::Thresholds), 62);
     setChoices(choices);
-    const int width = fontMetrics().averageCharWidth() * 62;
-    setMinimumSize(width,
-                   column->totalHeightForWidth(width)); // a dialog does not ask for lines of wrapped text
+    // A dialog does not ask for lines of wrapped text.
+    setMinimumHeight(layout()->totalHeightForWidth(minimumWidth()));
 }
 
 void ThresholdsDialog::addLimit(QFormLayout& form, const model::ThresholdRow& row) {

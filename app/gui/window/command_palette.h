@@ -13,7 +13,6 @@ class QTreeWidget;
 
 namespace posewire::gui {
 
-/// An entry of the menus.
 struct Command {
     QAction* action;
     QString name; ///< as people read it, without the letter to press

@@ -1,50 +1,95 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <QWidget>
+#include "app/gui/panels/panels.h"
 
+#include <QJsonObject>
+#include <QObject>
+#include <QRect>
+
+#include <optional>
+#include <vector>
+
+class QAction;
 class QDockWidget;
-class QLabel;
-class QToolButton;
+class QMainWindow;
+class QMenu;
 
 namespace posewire::gui {
 
-class ElidedLabel;
+class DockTitle;
+class SessionDriver;
 
-/// The title of a dock: its name, a short summary at the right, "?" that opens its page of the guide, and
-/// under the pointer what floats and closes it. An edge shows where the keyboard is.
-class DockTitle final : public QWidget {
+/// The docks of the window, one for each row of the table of panels. Each has a page for what is received,
+/// and another for the file that is shown. Knows which dock lies in front, and moves the keyboard between
+/// them.
+class Docks final : public QObject {
     Q_OBJECT
 
 public:
-    /// The dock has its object name already: the page is called so.
-    explicit DockTitle(QDockWidget* dock);
+    /// Adds the docks to the window, hidden, and an entry for each at the top of `menu`. `states` are as
+    /// states() returns them. Driver and window must outlive it.
+    Docks(SessionDriver& driver, QMainWindow& window, QMenu& menu, const QJsonObject& states);
 
-    void setSummary(const QString& summary);
-    /// Where a tab says the name, the title does not say it again.
-    void setTabbed(bool isTabbed);
+    /// Panel::state() by the name of the dock; `before` keeps those of docks that do not exist.
+    [[nodiscard]] QJsonObject states(QJsonObject before) const;
+    /// The panel of the page that is shown.
+    [[nodiscard]] Panel& panelOf(const PanelInfo& info) const;
 
-    /// QDockWidget makes as much room as is said here, whatever the widget's fixed height.
-    [[nodiscard]] QSize sizeHint() const override;
-    [[nodiscard]] QSize minimumSizeHint() const override;
+    /// Every dock shows the session that the driver shows.
+    void showSession();
+    /// The session of the file is about to go.
+    void forgetFile();
+    void refresh();
 
-protected:
-    void paintEvent(QPaintEvent* event) override;
+    /// Brings a dock to the front, by its object name.
+    void show(const QString& name);
+    /// A dock, bar or part of them by its object name, in the front; null if there is none.
+    [[nodiscard]] QWidget* showPart(const QString& name);
+    /// Shows what the live verdict rests on, with the keyboard: Enter leads to its packets.
+    void showEvidence(std::optional<std::uint64_t> incident);
+    /// Shows a dock, and keeps which one its tab covers.
+    void coverBy(const QString& name);
+    /// Brings back what coverBy() has covered, and the keyboard with it.
+    void uncover();
+    /// Brings every floating dock back into the window, and the window back onto a screen.
+    void dockAll();
+    /// Brings those floating docks back that lie on no screen.
+    void dockUnseen();
+    /// Moves the keyboard to the next part of the window (1), or the one before (-1): `first`, the docks, and
+    /// `last` unless it is null.
+    void moveFocus(int direction, QWidget& first, QWidget* last);
 
 private:
-    void restyle();
-    void showButtons(bool isShown);
-    [[nodiscard]] bool hasKeyboard() const;
+    /// What a dock shows of one session.
+    struct Page {
+        QWidget* scroll = nullptr;
+        Panel* panel = nullptr;
+    };
+    struct Dock {
+        const PanelInfo* info;
+        QDockWidget* dock;
+        DockTitle* title;
+        Page live;
+        Page file;    ///< once a file was shown, until it is closed
+        Panel* panel; ///< of the page that is shown
 
-    QLabel* m_title;
-    ElidedLabel* m_summary;
-    QToolButton* m_help;
-    QToolButton* m_float;
-    QToolButton* m_close;
+        [[nodiscard]] bool isInSight() const;
+    };
+
+    void add(const PanelInfo& info, const QJsonObject& state);
+    [[nodiscard]] Page makePage(const PanelInfo& info, QDockWidget* dock);
+    /// Opens and closes a dock; brings one that lies behind another to the front, for it was not seen.
+    [[nodiscard]] QAction* actionFor(const QString& name);
+    [[nodiscard]] const Dock* find(const QString& name) const;
+
+    SessionDriver& m_driver;
+    QMainWindow& m_window;
+    std::vector<Dock> m_docks;
+    const Dock* m_covered = nullptr; ///< the newest request for another one hid it
 };
 
-/// Lets a dock become lower than its content, which then scrolls: the least heights of docks above each other
-/// must not add up to more than the screen has.
-[[nodiscard]] QWidget* scrolling(QWidget* content, QDockWidget* dock);
+/// Moves the place of a window so that the screens show all of it; empty if it cannot be grabbed where it is.
+[[nodiscard]] QRect onScreen(const QRect& window);
 
 } // namespace posewire::gui

@@ -6,10 +6,8 @@
 #include "app/gui/models/text.h"
 #include "app/gui/theme/event_watch.h"
 #include "app/gui/theme/help_link.h"
-#include "app/gui/theme/plain_text.h"
-#include "app/gui/theme/widgets.h"
+#include "app/gui/theme/theme.h"
 #include "app/gui/theme/words.h"
-#include "app/gui/window/colour_text.h"
 #include "app/gui/window/health_popup.h"
 #include "core/model/session/verdict.h"
 
@@ -67,7 +65,7 @@ QString leftOut(std::size_t all, std::size_t fitting) {
 
 HealthBar::HealthBar(model::SessionView& session, Commands& commands, QWidget* parent)
     : QWidget(parent),
-      m_session(session),
+      m_session(&session),
       m_commands(commands),
       m_entriesLayout(new QHBoxLayout),
       m_entriesArea(new QWidget(this)),
@@ -124,11 +122,15 @@ QString HealthBar::said() const {
     return m_message->said();
 }
 
-void HealthBar::takeMessage(HealthBar& from) {
-    if (const QString text = from.said(); !text.isEmpty()) {
-        say(text, from.m_helpPlace);
-        from.say({});
+void HealthBar::showSession(model::SessionView& session) {
+    delete m_list;
+    delete m_popup;
+    m_session = &session;
+    m_nameWidth = m_stateWidth = m_whatWidth = 0;
+    for (QLabel* figure : {m_rate, m_history, m_dropped}) {
+        figure->setMinimumWidth(0);
     }
+    refreshCharacters();
 }
 
 QString HealthBar::byteRateText(double bytesPerSecond) {
@@ -144,14 +146,14 @@ void HealthBar::refresh(const ReceivingState& receiving) {
                tr("%1 datagrams/s · %2")
                    .arg(grouped(static_cast<std::uint64_t>(receiving.datagramsPerSecond)),
                         byteRateText(receiving.bytesPerSecond)));
-    showFigure(*m_history, Health::Unknown, historyText(m_session));
-    const Health untroubled = m_session.end() == 0 ? Health::Unknown : Health::Good;
+    showFigure(*m_history, Health::Unknown, historyText(*m_session));
+    const Health untroubled = m_session->end() == 0 ? Health::Unknown : Health::Good;
     showFigure(*m_dropped, receiving.kernelDropped == 0 ? untroubled : Health::Error,
                tr("dropped here %1 in all").arg(grouped(receiving.kernelDropped)));
 }
 
 void HealthBar::refreshCharacters() {
-    m_shown = boardOf(m_session, BoardOrder::TroubleFirst);
+    m_shown = boardOf(*m_session, BoardOrder::TroubleFirst);
     const bool isForMessage = m_shown.empty() && m_message->isVisible();
     qobject_cast<QHBoxLayout*>(layout())->setStretchFactor(m_entriesArea, isForMessage ? 0 : 1);
     while (m_entries.size() < m_shown.size()) {
@@ -175,11 +177,11 @@ void HealthBar::measure(const QFontMetrics& metrics) {
     grow(m_stateWidth, QStringLiteral("99 lost, network"), QStringLiteral("10.0 % lost, network, over"));
     grow(m_whatWidth, QStringLiteral("10.0 % lost"), QStringLiteral("10.0 % lost, over"));
     for (const model::CharacterKey& key : m_shown) {
-        const model::TakeVerdict& verdict = m_session.verdicts().of(key);
+        const model::TakeVerdict& verdict = m_session->verdicts().of(key);
         grow(m_stateWidth, gui::said(verdict.said, words::Form::Brief),
              QStringLiteral("10.0 % lost, network, over"));
         grow(m_whatWidth, whatOf(verdict), QStringLiteral("10.0 % lost, over"));
-        grow(m_nameWidth, nameApart(m_session, key), QStringLiteral("Performer with a name"));
+        grow(m_nameWidth, nameApart(*m_session, key), QStringLiteral("Performer with a name"));
     }
 }
 
@@ -220,14 +222,14 @@ void HealthBar::fitEntries() {
     m_more->setVisible(fitting < all);
     // The first that has no room is the worst of them.
     const Health worst =
-        fitting < all ? healthOf(m_session.verdicts().of(m_shown[fitting]).state) : Health::Unknown;
+        fitting < all ? healthOf(m_session->verdicts().of(m_shown[fitting]).state) : Health::Unknown;
     m_more->setContent(worst == Health::Good ? Health::Unknown : worst, leftOut(all, fitting));
 }
 
 void HealthBar::showEntry(std::size_t index, const EntryRoom& room) {
-    const model::TakeVerdict& verdict = m_session.verdicts().of(m_shown[index]);
+    const model::TakeVerdict& verdict = m_session->verdicts().of(m_shown[index]);
     const PropertyValue state = verdictState(verdict);
-    const QString name = nameApart(m_session, m_shown[index]);
+    const QString name = nameApart(*m_session, m_shown[index]);
     ColourText* entry = m_entries[index];
     const QFontMetrics metrics = entry->fontMetrics();
     const auto besides = [&](const QString& words) { return room.text - metrics.horizontalAdvance(words); };
@@ -257,11 +259,11 @@ QWidget* HealthBar::firstEntry() const {
 
 void HealthBar::explain(const model::CharacterKey& key, QWidget& anchor) {
     m_commands.select({key.sender, key, -1});
-    showHealthPopup(m_session, m_commands, key, anchor);
+    m_popup = showHealthPopup(*m_session, m_commands, key, anchor);
 }
 
 void HealthBar::showList() {
-    m_list = new HealthList(m_session, m_commands, this);
+    m_list = new HealthList(*m_session, m_commands, this);
     connect(m_list, &HealthList::chosen, this,
             [this](const model::CharacterKey& key) { explain(key, *m_more); });
     m_list->showAt(*m_more);

@@ -27,6 +27,8 @@ class HealthBar final : public QWidget {
 public:
     HealthBar(model::SessionView& session, Commands& commands, QWidget* parent = nullptr);
 
+    /// Shows another session from now on.
+    void showSession(model::SessionView& session);
     void refresh(const ReceivingState& receiving);
 
     /// What the keyboard goes to here; null without characters.
@@ -37,8 +39,6 @@ public:
     void say(const QString& text, const QString& helpPlace = {});
     /// What it says now; empty where that has passed.
     [[nodiscard]] QString said() const;
-    /// What another one is saying goes on here.
-    void takeMessage(HealthBar& from);
 
 private:
     /// Selects a character, and says in a popup why it is as it is.
@@ -57,7 +57,7 @@ private:
     void showEntry(std::size_t index, const EntryRoom& room);
     void addEntry();
 
-    model::SessionView& m_session;
+    model::SessionView* m_session;
     Commands& m_commands;
     QHBoxLayout* m_entriesLayout;
     QWidget* m_entriesArea;
@@ -68,6 +68,7 @@ private:
     std::vector<model::CharacterKey> m_shown; ///< all, the worst first; the first entries show them
     ColourText* m_more;                       ///< how many there is no room for
     QPointer<HealthList> m_list;              ///< while it is open
+    QPointer<QWidget> m_popup;                ///< likewise, of one character
     PassingMessage* m_message;
     QToolButton* m_about; ///< opens m_helpPlace, while the message is there
     QString m_helpPlace;

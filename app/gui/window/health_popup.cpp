@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/window/health_popup.h"
 
-#include "app/gui/models/character_model.h"
 #include "app/gui/models/incident_words.h"
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
 #include "app/gui/panels/table_view.h"
 #include "app/gui/theme/help_link.h"
-#include "app/gui/theme/plain_text.h"
+#include "app/gui/theme/theme.h"
 #include "app/gui/theme/widgets.h"
 #include "app/gui/theme/words.h"
 #include "core/model/session/accounts.h"
 #include "core/model/session/verdict.h"
 
 #include <QAbstractButton>
-#include <QKeyEvent>
 #include <QLabel>
 #include <QPainter>
 #include <QPushButton>
@@ -78,14 +76,6 @@ protected:
         painter.drawText(room, Qt::TextWordWrap | Qt::AlignLeft | Qt::AlignTop, text());
         painter.setPen(theme().dim);
         painter.drawText(room, Qt::AlignLeft | Qt::AlignBottom, m_note);
-    }
-
-    void keyPressEvent(QKeyEvent* event) override {
-        if (event->key() == Qt::Key_Return || event->key() == Qt::Key_Enter) {
-            click();
-            return;
-        }
-        QAbstractButton::keyPressEvent(event);
     }
 
 private:
@@ -241,11 +231,12 @@ QString lossText(model::SessionView& session, const model::CharacterKey& key) {
                      : tr("Lost %1 of %2 samples · %3").arg(grouped(lost), grouped(counts.expected()), span);
 }
 
-void showHealthPopup(model::SessionView& session, Commands& commands, const model::CharacterKey& key,
-                     QWidget& anchor) {
+QWidget* showHealthPopup(model::SessionView& session, Commands& commands, const model::CharacterKey& key,
+                         QWidget& anchor) {
     auto* popup = new HealthPopup(session, commands, key, &anchor);
     showAbove(*popup, anchor);
     popup->focusFirst();
+    return popup;
 }
 
 HealthList::HealthList(model::SessionView& session, Commands& commands, QWidget* parent)

@@ -14,8 +14,8 @@ class TableView;
 [[nodiscard]] QString lossText(model::SessionView& session, const model::CharacterKey& key);
 
 /// Says above `anchor` why a character is as it is, until a click elsewhere or Escape.
-void showHealthPopup(model::SessionView& session, Commands& commands, const model::CharacterKey& key,
-                     QWidget& anchor);
+QWidget* showHealthPopup(model::SessionView& session, Commands& commands, const model::CharacterKey& key,
+                         QWidget& anchor);
 
 /// All characters in a list above the bottom line, the worst first. Deletes itself when it is closed: by a
 /// choice, a click elsewhere or Escape.

@@ -2,39 +2,145 @@
 #include "app/gui/window/main_window.h"
 
 #include "app/gui/base/dock_layout.h"
-#include "app/gui/help/help_pages.h"
 #include "app/gui/inputs/inputs_page.h"
 #include "app/gui/models/comparison_text.h"
 #include "app/gui/models/text.h"
+#include "app/gui/panels/range_bar.h"
 #include "app/gui/theme/event_watch.h"
-#include "app/gui/theme/icons.h"
+#include "app/gui/theme/help_link.h"
 #include "app/gui/theme/widgets.h"
 #include "app/gui/viewport/viewport_overlay.h"
-#include "app/gui/window/command_palette.h"
 #include "app/gui/window/docks.h"
+#include "app/gui/window/guide.h"
 #include "app/gui/window/health_bar.h"
-#include "app/gui/window/history_dialog.h"
-#include "app/gui/window/keyboard.h"
+#include "app/gui/window/opening.h"
 #include "app/gui/window/transport_bar.h"
 #include "app/gui/window/verdict_bar.h"
 #include "core/model/session/verdict.h"
 
+#include <QAbstractButton>
+#include <QAbstractItemView>
+#include <QAbstractSlider>
 #include <QApplication>
 #include <QCloseEvent>
+#include <QComboBox>
 #include <QDir>
 #include <QDockWidget>
+#include <QKeyEvent>
 #include <QLabel>
 #include <QMenu>
 #include <QMenuBar>
 #include <QScreen>
 #include <QStatusBar>
+#include <QTabBar>
 #include <QToolBar>
 #include <QToolButton>
+#include <QTreeView>
 
 #include <algorithm>
-#include <utility>
 
 namespace posewire::gui {
+
+namespace {
+
+bool isPressing(const QKeyEvent& event, bool isSpaceOnly) {
+    const bool isPlain = (event.modifiers() & ~Qt::KeypadModifier) == Qt::NoModifier;
+    const bool isSpace = event.key() == Qt::Key_Space || event.key() == Qt::Key_Select;
+    const bool isEnter = event.key() == Qt::Key_Return || event.key() == Qt::Key_Enter;
+    return isPlain && (isSpace || (isEnter && !isSpaceOnly));
+}
+
+/// The box in the current row of a table; invalid where it has none.
+QModelIndex boxOf(const QAbstractItemView& view) {
+    const QModelIndex current = view.currentIndex();
+    const int columns = current.isValid() ? current.model()->columnCount(current.parent()) : 0;
+    for (int column = 0; column < columns; ++column) {
+        const QModelIndex cell = current.siblingAtColumn(column);
+        if ((cell.flags() & Qt::ItemIsUserCheckable) != 0 && cell.data(Qt::CheckStateRole).isValid()) {
+            return cell;
+        }
+    }
+    return {};
+}
+
+void toggle(QAbstractItemView& view, const QModelIndex& box) {
+    const bool isOn = box.data(Qt::CheckStateRole).toInt() == Qt::Checked;
+    view.model()->setData(box, isOn ? Qt::Unchecked : Qt::Checked, Qt::CheckStateRole);
+}
+
+bool isSideways(const QKeyEvent& event) {
+    return event.key() == Qt::Key_Left || event.key() == Qt::Key_Right;
+}
+
+/// Arrows to the sides step through time, or with Alt go back, where they mean nothing else.
+bool wantsArrows(QObject& watched, Qt::KeyboardModifiers modifiers) {
+    const auto* tree = qobject_cast<QTreeView*>(&watched);
+    const bool isOfMoves =
+        tree != nullptr ? tree->rootIsDecorated() : qobject_cast<QTabBar*>(&watched) != nullptr;
+    const bool isOfRange =
+        qobject_cast<QAbstractSlider*>(&watched) != nullptr || qobject_cast<RangeStrip*>(&watched) != nullptr;
+    return isOfMoves ? (modifiers & ~Qt::KeypadModifier) == Qt::NoModifier
+                     : isOfRange && !modifiers.testFlag(Qt::AltModifier);
+}
+
+void press(QAbstractButton& button) {
+    auto* tool = qobject_cast<QToolButton*>(&button);
+    if (tool != nullptr && tool->menu() != nullptr && tool->popupMode() == QToolButton::InstantPopup) {
+        tool->showMenu();
+    } else {
+        button.click();
+    }
+}
+
+} // namespace
+
+/// Space and Enter press what has the focus, in the whole program: a button, a list of choices, a box in a
+/// table. Elsewhere they are what the menus say.
+class PressingKeys final : public QObject {
+public:
+    /// From now on, as long as the parent lives.
+    explicit PressingKeys(QObject* parent);
+
+    bool eventFilter(QObject* watched, QEvent* event) override;
+};
+
+PressingKeys::PressingKeys(QObject* parent) : QObject(parent) {
+    QCoreApplication::instance()->installEventFilter(this);
+}
+
+/// A shortcut takes a key before the widget that has the focus gets it, unless that says that it wants it.
+bool PressingKeys::eventFilter(QObject* watched, QEvent* event) {
+    if (event->type() != QEvent::ShortcutOverride && event->type() != QEvent::KeyPress) {
+        return false;
+    }
+    auto* key = static_cast<QKeyEvent*>(event);
+    if (isSideways(*key) && event->type() == QEvent::ShortcutOverride &&
+        wantsArrows(*watched, key->modifiers())) {
+        event->accept();
+        return true;
+    }
+    auto* button = qobject_cast<QAbstractButton*>(watched);
+    auto* list = qobject_cast<QComboBox*>(watched);
+    auto* table = qobject_cast<QAbstractItemView*>(watched);
+    if ((button == nullptr && list == nullptr && table == nullptr) || !isPressing(*key, table != nullptr)) {
+        return false;
+    }
+    const QModelIndex box = table != nullptr ? boxOf(*table) : QModelIndex();
+    if (table != nullptr && !box.isValid()) {
+        return false;
+    }
+    event->accept();
+    if (event->type() == QEvent::KeyPress && !key->isAutoRepeat()) {
+        if (button != nullptr) {
+            press(*button);
+        } else if (list != nullptr) {
+            list->showPopup();
+        } else {
+            toggle(*table, box);
+        }
+    }
+    return true;
+}
 
 namespace {
 
@@ -62,7 +168,8 @@ MainWindow::MainWindow(SessionDriver& driver, const SettingsFile& file, const Se
       m_file(file),
       m_settings(settings),
       m_viewport(new ViewportWidget(driver.commands().session(), driver.commands(), this)),
-      m_menus(*this, *menuBar()) {
+      m_menus(*this, *menuBar()),
+      m_guide(new Guide(*this)) {
     setWindowTitle(QStringLiteral("Posewire"));
     setDockOptions(AllowNestedDocks | AllowTabbedDocks | AnimatedDocks);
     setTabPosition(Qt::AllDockWidgetAreas, QTabWidget::North);
@@ -70,15 +177,14 @@ MainWindow::MainWindow(SessionDriver& driver, const SettingsFile& file, const Se
     setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
     setCentralWidget(m_viewport);
     layout()->setSizeConstraint(QLayout::SetNoConstraint); // docks give way; the window stays on its screen
+    setHelpPlace(*m_viewport, placeOf(HelpTopic::Viewport));
     addViewportButtons(*m_viewport);
     makeBars();
-    makeDocks();
+    m_docks = new Docks(driver, *this, *menuAt(*menuBar(), QStringLiteral("&View")), settings.panels);
     connectDriver();
-    connectHelp();
+    m_opening = new Opening(*this);
     m_driver.commands().setThresholds(m_settings.alerts.thresholds);
     m_driver.commands().setDisplayFilter(m_settings.filter);
-    connect(&m_viewport->choice().ownCharacters(), &OwnCharacters::failed, this,
-            &MainWindow::sayAlsoAfterOpening);
     m_viewport->choice().restoreState(m_settings.viewport);
     m_viewport->pictures().setComparison(m_driver.files().comparing().state());
     new PressingKeys(this);
@@ -101,41 +207,33 @@ void MainWindow::makeBars() {
     m_layoutButton->setObjectName(QStringLiteral("layoutButton"));
     menuBar()->setCornerWidget(m_layoutButton, Qt::TopRightCorner);
 
-    const TimeControls::Actions time{
-        m_menus.action("sampleBack"), m_menus.action("sampleOn"),
-        m_menus.action("playBack"),   m_menus.action("play"),
-        m_menus.action("loop"),       menuAt(*menuBar(), QStringLiteral("&Time/Sp&eed"))};
-    m_transport = new TransportBar(m_driver.commands().session(),
-                                   TransportBar::Actions{m_menus.action("record"), m_menus.action("pause"),
-                                                         m_menus.action("live"), m_menus.action("inputs"),
-                                                         m_menus.action("relay"), time},
-                                   this);
+    const auto action = [this](const char* id) { return m_menus.action(QLatin1String(id)); };
+    m_transport =
+        new TransportBar(m_driver.commands().session(),
+                         {action("record"), action("pause"), action("live"), action("inputs"),
+                          action("relay"), action("sampleBack"), action("sampleOn"), action("playBack"),
+                          action("play"), action("loop"), menuAt(*menuBar(), QStringLiteral("&Time/Sp&eed"))},
+                         this);
     connect(m_transport, &TransportBar::inputRequested, this, [this](const InputAddress& input) {
         openInputs(InputsDialog::Page::Inputs);
         m_inputs->inputs().select(input);
     });
+    setHelpPlace(*m_transport, placeOf(HelpTopic::TransportBar));
     m_transport->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
     addToolBar(Qt::TopToolBarArea, fixedBar(tr("Transport"), QStringLiteral("transportBar"), m_transport));
 
-    m_verdict =
-        new VerdictBar(m_driver.commands().live(),
-                       {m_menus.action("resetForTake"), m_menus.action("live"), m_menus.action("showFile"),
-                        m_menus.action("closeFile"), m_menus.action("endComparison")},
-                       this);
+    m_verdict = new VerdictBar(m_driver.commands().live(),
+                               {action("resetForTake"), action("live"), action("showFile"),
+                                action("closeFile"), action("endComparison")},
+                               this);
+    setHelpPlace(*m_verdict, placeOf(HelpTopic::VerdictBar));
     m_verdict->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
     addToolBarBreak(Qt::TopToolBarArea);
     addToolBar(Qt::TopToolBarArea, fixedBar(tr("Verdict"), QStringLiteral("verdict"), m_verdict));
-    connect(m_verdict, &VerdictBar::evidenceRequested, this, &MainWindow::showEvidence);
-
-    m_health = m_liveHealth = new HealthBar(m_driver.commands().live(), m_driver.commands(), this);
+    m_health = new HealthBar(m_driver.commands().live(), m_driver.commands(), this);
+    setHelpPlace(*statusBar(), placeOf(HelpTopic::HealthBar));
     statusBar()->setSizeGripEnabled(false);
     statusBar()->addWidget(m_health, 1);
-    m_stopOpening =
-        framedButton(tr("Stop"), tr("Stop opening the file (Esc); what was read of it stays"), this);
-    m_stopOpening->setObjectName(QStringLiteral("stopOpeningButton"));
-    connect(m_stopOpening, &QToolButton::clicked, m_menus.action("stopOpening"), &QAction::trigger);
-    statusBar()->addPermanentWidget(m_stopOpening);
-    showOpening();
 }
 
 void MainWindow::connectDriver() {
@@ -145,36 +243,31 @@ void MainWindow::connectDriver() {
     connect(&commands, &Commands::changed, this, showStates);
     connect(&commands, &Commands::switched, this, &MainWindow::showSession);
     connect(&commands, &Commands::frameCharacter, m_viewport, &ViewportWidget::frameCharacter);
-    connect(&commands, &Commands::showDock, this, &MainWindow::coverBy);
-    connect(&commands, &Commands::wentBack, this, &MainWindow::uncover);
+    connect(&commands, &Commands::showDock, m_docks, &Docks::coverBy);
+    connect(&commands, &Commands::wentBack, m_docks, &Docks::uncover);
+    connect(m_verdict, &VerdictBar::evidenceRequested, m_docks, &Docks::showEvidence);
     connect(&m_driver, &SessionDriver::moved, m_viewport, &ViewportWidget::refresh);
     connect(&m_driver, &SessionDriver::moved, m_transport, &TransportBar::refresh);
-    connect(&m_driver, &SessionDriver::tableTick, this, &MainWindow::refreshPanels);
-    connect(&m_driver, &SessionDriver::tableTick, this, &MainWindow::showReceiving);
-    connect(&m_driver, &SessionDriver::tableTick, this, &MainWindow::alert);
-    connect(&m_driver, &SessionDriver::tableTick, this, &MainWindow::showOpening);
-    connect(&m_driver, &SessionDriver::tableTick, m_transport, showTake);
-    connect(&m_driver, &SessionDriver::relayStopped, this, &MainWindow::keepRelays);
-    const Files& files = m_driver.files();
-    connect(&files, &Files::closing, this, &MainWindow::forgetFile);
-    connect(&files, &Files::opened, this, [this](bool isRead, const QString& text) {
-        showOpening();
-        // What there is to know of one that was read is told as long as it shows.
-        if (isRead) {
-            say(m_sayAgain);
-        } else {
-            say(text, HelpTopic::OpeningFailed);
-        }
-    });
-    const Comparing& comparing = m_driver.files().comparing();
-    connect(&comparing, &Comparing::askForRecording, this, &MainWindow::chooseComparison);
-    connect(&comparing, &Comparing::changed, this, [this](const QString& text) {
-        showOpening();
+    connect(&m_driver, &SessionDriver::tableTick, m_docks, &Docks::refresh);
+    connect(&m_driver, &SessionDriver::tableTick, this, [this, showTake] {
         showReceiving();
-        if (!text.isEmpty()) {
-            sayAlsoAfterOpening(text);
+        if (m_sounds.isDue(m_driver.commands().live().verdicts().incidents(), m_settings.alerts)) {
+            QApplication::beep();
+        }
+        m_notifier.look(m_verdict->verdict(), m_settings.alerts.hasNotification);
+        showTake();
+    });
+    // At once: whatever ends this program, the next run must not begin with a loop.
+    connect(&m_driver, &SessionDriver::relayStopped, this, [this] {
+        m_settings.inputs.relays = m_driver.receiving().choices().relays;
+        if (const QString problem = m_file.write(this->settings()); !problem.isEmpty()) {
+            say(problem, HelpTopic::SettingsUnusable);
         }
     });
+    connect(&m_driver.files(), &Files::closing, m_docks, &Docks::forgetFile);
+    const Comparing& comparing = m_driver.files().comparing();
+    connect(&comparing, &Comparing::askForRecording, m_menus.action("compareWith"), &QAction::trigger);
+    connect(&comparing, &Comparing::changed, this, &MainWindow::showReceiving);
     connect(&m_driver.demo(), &Demo::changed, this, showStates);
     connect(&m_driver.takes(), &Takes::changed, this, [this, showTake](const QString& problem) {
         m_menus.showStates();
@@ -211,48 +304,7 @@ void MainWindow::showEvent(QShowEvent* event) {
     if (m_settings.docks.isEmpty() || !restoreState(m_settings.docks, kStateVersion)) {
         useLayout(m_settings.layout);
     }
-    for (const Dock& dock : m_docks) {
-        if (dock.dock->isFloating() && onScreen(dock.dock->geometry()).isEmpty()) {
-            dock.dock->setFloating(false);
-        }
-    }
-}
-
-namespace {
-
-/// On one screen, or on several side by side.
-bool isAllSeen(const QRect& window) {
-    QRegion hidden(window);
-    for (const QScreen* screen : QGuiApplication::screens()) {
-        hidden -= screen->availableGeometry();
-    }
-    return hidden.isEmpty();
-}
-
-/// As far as it has to be, and as large as it may be.
-QRect movedInto(const QRect& room, const QRect& window) {
-    QRect moved(window.topLeft(), window.size().boundedTo(room.size()));
-    moved.moveRight(std::min(moved.right(), room.right()));
-    moved.moveBottom(std::min(moved.bottom(), room.bottom()));
-    moved.moveLeft(std::max(moved.left(), room.left()));
-    return moved;
-}
-
-} // namespace
-
-QRect onScreen(const QRect& window) {
-    constexpr int kGrabbable = 80;
-    if (window.width() < kGrabbable || window.height() < kGrabbable) {
-        return {};
-    }
-    for (const QScreen* screen : QGuiApplication::screens()) {
-        const QRect room = screen->availableGeometry();
-        const QRect seen = room.intersected(window);
-        if (seen.width() >= kGrabbable && seen.height() >= kGrabbable && window.top() >= room.top()) {
-            return isAllSeen(window) ? window : movedInto(room, window);
-        }
-    }
-    return {};
+    m_docks->dockUnseen();
 }
 
 Settings MainWindow::settings() const {
@@ -260,13 +312,7 @@ Settings MainWindow::settings() const {
     settings.window = normalGeometry().isEmpty() ? geometry() : normalGeometry();
     settings.isMaximized = isMaximized();
     settings.docks = saveState(kStateVersion);
-    for (const Dock& dock : m_docks) {
-        if (const QJsonObject state = dock.panel->state(); !state.isEmpty()) {
-            settings.panels[dock.dock->objectName()] = state;
-        } else {
-            settings.panels.remove(dock.dock->objectName());
-        }
-    }
+    settings.panels = m_docks->states(settings.panels);
     settings.viewport = m_viewport->choice().state();
     settings.filter = QString::fromStdString(m_driver.commands().live().choices().ownFilter());
     const auto pathOf = [](const OpenedFile* file) {
@@ -285,6 +331,18 @@ void MainWindow::closeEvent(QCloseEvent* event) {
         qWarning("Settings were not saved: %s", qUtf8Printable(problem));
     }
     event->accept();
+}
+
+void MainWindow::showSession() {
+    const Commands& commands = m_driver.commands();
+    const bool isFile = commands.isFileShown();
+    m_docks->showSession();
+    m_health->showSession(commands.session());
+    m_transport->showSession(commands.session(), !isFile);
+    m_viewport->showSession(commands.session(), isFile ? m_driver.files().file()->name() : QString());
+    m_menus.showStates();
+    showReceiving();
+    m_docks->refresh();
 }
 
 void MainWindow::showReceiving() {
@@ -328,39 +386,16 @@ void MainWindow::showVerdict() {
     m_verdict->refresh(file, hasInputs, isBlocked ? ports.front().problem : QString());
 }
 
-/// At once: whatever ends this program, the next run must not begin with a loop.
-void MainWindow::keepRelays() {
-    m_settings.inputs.relays = m_driver.receiving().choices().relays;
-    if (const QString problem = m_file.write(settings()); !problem.isEmpty()) {
-        say(problem, HelpTopic::SettingsUnusable);
-    }
-}
-
 void MainWindow::openInputs(InputsDialog::Page page) {
     if (m_inputs == nullptr) {
         m_inputs = new InputsDialog(m_driver.receiving(), this);
-        connect(m_inputs, &InputsDialog::openFileRequested, this, &MainWindow::openFile);
+        connect(m_inputs, &InputsDialog::openFileRequested, m_menus.action("open"), &QAction::trigger);
         connect(m_inputs, &InputsDialog::choicesChanged, this, [this] {
             m_settings.inputs = m_driver.receiving().choices();
             showReceiving();
         });
     }
     m_inputs->open(page);
-}
-
-void MainWindow::editThresholds() {
-    ThresholdsDialog dialog(m_settings.alerts, this);
-    if (dialog.exec() == QDialog::Accepted) {
-        m_settings.alerts = dialog.choices();
-        m_driver.commands().setThresholds(m_settings.alerts.thresholds);
-    }
-}
-
-void MainWindow::alert() {
-    if (m_sounds.isDue(m_driver.commands().live().verdicts().incidents(), m_settings.alerts)) {
-        QApplication::beep();
-    }
-    m_notifier.look(m_verdict->verdict(), m_settings.alerts.hasNotification);
 }
 
 void MainWindow::useTheme(ThemeChoice choice) {
@@ -386,7 +421,7 @@ void MainWindow::useLayout(const QString& nameOrFile) {
     m_verdict->setLarge(layout->hasLargeVerdict);
     m_settings.layout = layoutNames().contains(layout->name) ? layout->name : nameOrFile;
     showLayoutName(layout->name);
-    refreshPanels();
+    m_docks->refresh();
 }
 
 /// It may be the path of a file, and the button must not make the window wide.
@@ -394,22 +429,6 @@ void MainWindow::showLayoutName(const QString& name) {
     const QFontMetrics metrics = m_layoutButton->fontMetrics();
     const int most = metrics.averageCharWidth() * 30;
     m_layoutButton->setText(tr("Layout: %1 ▾").arg(metrics.elidedText(name, Qt::ElideMiddle, most)));
-}
-
-void MainWindow::findCommand() {
-    CommandPalette palette(*menuBar(), this);
-    palette.exec();
-    if (QAction* chosen = palette.chosen()) {
-        chosen->trigger();
-    }
-}
-
-void MainWindow::editHistory() {
-    HistoryDialog dialog(m_driver.commands().live(), m_driver.history(), m_settings.history, this);
-    if (dialog.exec() == QDialog::Accepted && dialog.choice() != m_settings.history) {
-        m_settings.history = dialog.choice();
-        keepHistory();
-    }
 }
 
 void MainWindow::keepHistory() {
@@ -421,41 +440,44 @@ void MainWindow::keepHistory() {
     }
 }
 
-const QWidget& MainWindow::ownerOf(const MenuEntry& entry) const {
-    const auto found = std::ranges::find(m_docks, entry.panel, &Dock::info);
-    return found == m_docks.end() ? static_cast<const QWidget&>(*this) : *found->panel;
+void MainWindow::moveFocus(int direction) {
+    m_docks->moveFocus(direction, *m_viewport, m_health->firstEntry() != nullptr ? m_health : nullptr);
 }
 
-void MainWindow::carryOut(const MenuEntry& entry) {
-    if (entry.panel != nullptr) {
-        showDock(QLatin1String(entry.panel->id));
+bool MainWindow::focusNextPrevChild(bool isNext) {
+    const auto step = [isNext](QWidget* one) {
+        return isNext ? one->nextInFocusChain() : one->previousInFocusChain();
+    };
+    // Docks behind others, and the tabs of an area without any, lie beside the window.
+    const auto isInSight = [this](const QWidget* one) {
+        while (one->parentWidget() != this) {
+            one = one->parentWidget();
+        }
+        return rect().intersects(one->geometry());
+    };
+    QWidget* const from = focusWidget() != nullptr ? focusWidget() : this;
+    for (QWidget* one = step(from); one != from; one = step(one)) {
+        const bool takesTab = (one->focusPolicy() & Qt::TabFocus) == Qt::TabFocus &&
+                              one->focusProxy() == nullptr && one->window() == this && one->isVisible() &&
+                              one->isEnabled();
+        if (takesTab && one != this && isInSight(one)) {
+            one->setFocus(isNext ? Qt::TabFocusReason : Qt::BacktabFocusReason);
+            return true;
+        }
     }
-    entry.action->run(const_cast<QWidget&>(ownerOf(entry)));
-}
-
-void MainWindow::list(const MenuEntry& entry, QMenu& menu) {
-    entry.action->list(const_cast<QWidget&>(ownerOf(entry)), menu);
-    for (QAction* action : entry.panel != nullptr ? menu.actions() : QList<QAction*>()) {
-        connect(action, &QAction::triggered, this,
-                [this, entry] { showDock(QLatin1String(entry.panel->id)); });
-    }
-}
-
-bool MainWindow::isOn(const MenuEntry& entry) const {
-    return entry.action->isOn(ownerOf(entry));
+    return false;
 }
 
 void MainWindow::say(const QString& text) {
     m_health->say(text);
 }
 
-void MainWindow::sayAlsoAfterOpening(const QString& text) {
-    say(text);
-    m_sayAgain = text;
-}
-
 void MainWindow::say(const QString& text, HelpTopic topic) {
     m_health->say(text, placeOf(topic));
+}
+
+QString MainWindow::message() const {
+    return m_health->said();
 }
 
 } // namespace posewire::gui

@@ -3,18 +3,26 @@
 
 #include "app/gui/base/dock_layout.h"
 #include "app/gui/base/saving.h"
+#include "app/gui/models/receiving_models.h"
 #include "app/gui/models/shown_character.h"
+#include "app/gui/models/text.h"
+#include "app/gui/theme/help_link.h"
+#include "app/gui/theme/theme.h"
+#include "app/gui/theme/widgets.h"
 #include "app/gui/theme/words.h"
+#include "app/gui/window/command_palette.h"
+#include "app/gui/window/docks.h"
+#include "app/gui/window/guide.h"
 #include "app/gui/window/main_window.h"
-#include "app/gui/window/report_saving.h"
-#include "app/gui/window/texts.h"
-#include "app/gui/window/viewport_entries.h"
+#include "core/model/session/roster.h"
 #include "core/model/session/verdict.h"
 
 #include <QAction>
-#include <QCoreApplication>
+#include <QApplication>
 #include <QMenu>
 #include <QMenuBar>
+#include <QSysInfo>
+#include <QTextStream>
 
 #include <set>
 #include <string_view>
@@ -38,12 +46,6 @@ Playback& playback(const Window& window) {
 Files& files(const Window& window) {
     return window.driver().files();
 }
-Comparing& comparing(const Window& window) {
-    return files(window).comparing();
-}
-Takes& takes(const Window& window) {
-    return window.driver().takes();
-}
 Demo& demo(const Window& window) {
     return window.driver().demo();
 }
@@ -56,25 +58,55 @@ void togglePaused(Window& window) {
     playback(window).setPaused(!playback(window).isPaused());
 }
 
-void saveScreenshot(Window& window) {
-    const QPixmap picture = window.grab();
-    const QString path = askWhereToSave(&window, tr("Save screenshot"), QStringLiteral("posewire.png"),
-                                        tr("Pictures (*.png)"));
-    if (path.isEmpty()) {
-        return;
+void writeReceiving(QTextStream& out, const ReceivingState& receiving) {
+    for (const PortState& port : receiving.ports) {
+        out << displayText(port.port) << ": " << inputState(port).text << ", " << port.status.datagrams
+            << " datagrams, " << port.status.kernelDropped << " dropped here, "
+            << port.status.refusedDatagrams << " refused\n";
     }
-    const QString problem = savePicture(picture, path);
-    if (problem.isEmpty()) {
-        window.say(tr("Saved %1").arg(path));
-    } else {
-        window.say(problem, HelpTopic::SavingFailed);
+    for (const RelayState& relay : receiving.relays) {
+        out << "relay to " << displayText(relay.target) << ": " << relayStage(relay).text << ", "
+            << relay.sent << " sent, " << relay.refused << " refused, " << relay.skipped << " skipped, "
+            << relay.behind << " behind\n";
+    }
+    for (const net::Finding& finding : receiving.findings) {
+        out << "found: " << QString::fromStdString(finding.text) << '\n';
+    }
+    out << "receive buffer " << receiving.receiveBufferBytes << " bytes, dropped here "
+        << receiving.kernelDropped << ", " << receiving.datagramsPerSecond << " datagrams/s, "
+        << receiving.bytesPerSecond << " bytes/s\n";
+}
+
+void writeSenders(QTextStream& out, model::SessionView& session) {
+    for (const model::Sender& sender : session.roster().senders()) {
+        out << "sender " << shown(sender.address()) << ": " << sender.datagrams << " datagrams, "
+            << sender.malformed << " malformed, " << sender.foreign << " foreign, " << sender.skippedBytes
+            << " bytes skipped\n";
+    }
+    for (const model::Stream& stream : session.roster().streams()) {
+        const model::CharacterKey key{stream.key.sender, stream.key.character};
+        out << "stream " << shown(session.roster().displayName(key)) << " type " << stream.key.type << ": "
+            << stream.accounting.datagrams() << " datagrams, " << stream.statistics.rateHz() << " Hz, "
+            << stream.accounting.counts().lost << " lost, " << stream.accounting.malformed()
+            << " malformed\n";
     }
 }
 
-void saveReport(Window& window) {
-    if (const QString line = saveStreamReport(commands(window).session(), &window); !line.isEmpty()) {
-        window.say(line);
-    }
+/// What someone who helps from afar wants to know, as plain text: program, system, ports, senders, streams.
+QString diagnosticsText(model::SessionView& session, const ReceivingState& receiving,
+                        const QString& rendererName) {
+    QString text;
+    QTextStream out(&text);
+    out << "Posewire " << QCoreApplication::applicationVersion() << ", Qt " << qVersion() << ", "
+        << QSysInfo::prettyProductName() << ", " << QSysInfo::currentCpuArchitecture() << ", platform "
+        << QGuiApplication::platformName() << '\n';
+    out << "OpenGL: " << (rendererName.isEmpty() ? QStringLiteral("none") : rendererName) << '\n';
+    writeReceiving(out, receiving);
+    const log::LogFigures figures = session.log().figures();
+    out << "history: packets " << figures.begin << " to " << figures.end << ", " << figures.memoryInUse
+        << " of " << figures.memoryCap << " bytes\n";
+    writeSenders(out, session);
+    return text;
 }
 
 void copyDiagnostics(Window& window) {
@@ -84,12 +116,63 @@ void copyDiagnostics(Window& window) {
 }
 
 void showGuide(Window& window) {
-    window.showHelp({});
+    window.guide().show({});
+}
+
+void showHelpHere(Window& window) {
+    window.guide().show(helpPlaceOf(QApplication::focusWidget()));
 }
 
 template <HelpTopic topic>
 void showPage(Window& window) {
-    window.showHelp(placeOf(topic));
+    window.guide().show(placeOf(topic));
+}
+
+void showAbout(Window& window) {
+    auto* box =
+        new MessageBox(tr("About Posewire"), tr("Posewire %1").arg(QCoreApplication::applicationVersion()),
+                       QMessageBox::Close, &window);
+    box->setAttribute(Qt::WA_DeleteOnClose);
+    box->setIconPixmap(applicationIcon().pixmap(64));
+    box->setInformativeText(tr("Network monitor for MVN motion-capture streams.\n\nThe application is free "
+                               "software under the GNU "
+                               "General Public License, version 3 or later; its core and renderer are under "
+                               "the MIT licence.\n\nQt %1")
+                                .arg(QLatin1String(qVersion())));
+    box->open();
+}
+
+void editThresholds(Window& window) {
+    ThresholdsDialog dialog(window.kept().alerts, &window);
+    if (dialog.exec() == QDialog::Accepted) {
+        window.kept().alerts = dialog.choices();
+        commands(window).setThresholds(dialog.choices().thresholds);
+    }
+}
+
+void findCommand(Window& window) {
+    CommandPalette palette(*window.menuBar(), &window);
+    palette.exec();
+    if (QAction* chosen = palette.chosen()) {
+        chosen->trigger();
+    }
+}
+
+void resetLayout(Window& window) {
+    window.useLayout(window.kept().layout);
+}
+
+void dockAll(Window& window) {
+    window.docks().dockAll();
+}
+
+void toggleFullScreen(Window& window) {
+    window.setWindowState(window.windowState() ^ Qt::WindowFullScreen);
+}
+
+template <ThemeChoice choice>
+bool isThemed(const Window& window) {
+    return window.kept().theme == choice;
 }
 
 template <std::size_t index>
@@ -131,7 +214,7 @@ bool hasSpeed(const Window& window) {
 
 /// The evidence of the live verdict, as a click on it gives it.
 void showEvidence(Window& window) {
-    window.showEvidence(commands(window).live().verdicts().all().all.incident);
+    window.docks().showEvidence(commands(window).live().verdicts().all().all.incident);
 }
 
 /// What figures are of: the newest seconds, or all.
@@ -151,12 +234,8 @@ bool isSinceResetUsed(const Window& window) {
     return commands(window).session().choices().range.isSinceReset;
 }
 
-/// Where the entries of panels go in a menu and in its submenus.
-constexpr const char* kPanels = "panels"; ///< an id
-/// Where those of the viewport go.
-constexpr const char* kViewport = "viewport";
 constexpr ActionInfo panelsIn(const char* menu) {
-    return {kPanels, menu, "", ""};
+    return {kPanelEntries, menu, "", ""};
 }
 
 constexpr const char* kSpeed = QT_TRANSLATE_NOOP("Action", "&Time/Sp&eed");
@@ -175,43 +254,6 @@ constexpr ActionInfo step(const char* id, const char* text, const char* shortcut
 constexpr const char* kFigures = QT_TRANSLATE_NOOP("Action", "&Time/Show &figures for");
 
 const ActionInfo kActions[] = {
-    {"open", QT_TRANSLATE_NOOP("Action", "&File"), QT_TRANSLATE_NOOP("Action", "&Open…"), "Ctrl+O",
-     Do::call<&Window::openFile>},
-    listIn(QT_TRANSLATE_NOOP("Action", "&File/Open rece&nt"), Do::list<&Window::listRecentFiles>),
-    {"clearRecentFiles", "&File/Open rece&nt", QT_TRANSLATE_NOOP("Action", "&Clear list"), "",
-     Do::call<&Window::clearRecentFiles>},
-    {"closeFile", "&File", QT_TRANSLATE_NOOP("Action", "&Close recording"), "Ctrl+W",
-     Do::callIn<files, &Files::close>},
-    {"stopOpening", "&File", QT_TRANSLATE_NOOP("Action", "S&top opening"), "Esc",
-     Do::callIn<files, &Files::cancelOpening>},
-    lineIn("&File"),
-    {"compareWith", "&File", QT_TRANSLATE_NOOP("Action", "Compare &with a recording…"), "Ctrl+Shift+O",
-     Do::call<&Window::chooseComparison>},
-    {"endComparison", "&File", QT_TRANSLATE_NOOP("Action", "&End comparison"), "",
-     Do::callIn<comparing, &Comparing::close>},
-    lineIn("&File"),
-    {"saveScreenshot", "&File", QT_TRANSLATE_NOOP("Action", "&Save screenshot…"), "Ctrl+Shift+S",
-     Do::call<saveScreenshot>},
-    {"saveReport", "&File", QT_TRANSLATE_NOOP("Action", "Save stream re&port…"), "", Do::call<saveReport>},
-    {"exportMotion", "&File", QT_TRANSLATE_NOOP("Action", "Export &motion…"), "",
-     Do::call<&Window::exportMotion>},
-    {"exportPictures", "&File", QT_TRANSLATE_NOOP("Action", "Export pict&ures…"), "",
-     Do::call<&Window::exportPictures>},
-    panelsIn("&File"),
-    lineIn("&File"),
-    {"record", "&File", QT_TRANSLATE_NOOP("Action", "Reco&rd"), "R", Do::call<&Window::toggleRecording>,
-     Do::isIn<takes, &Takes::isRecording>},
-    {"recordingOptions", "&File", QT_TRANSLATE_NOOP("Action", "Recor&ding options…"), "",
-     Do::call<&Window::editRecording>},
-    lineIn("&File"),
-    {"replay", "&File", QT_TRANSLATE_NOOP("Action", "Repla&y to the network…"), "",
-     Do::call<&Window::showReplay>},
-    {"recovered", "&File", QT_TRANSLATE_NOOP("Action", "Reco&vered packets…"), "",
-     Do::call<&Window::showRecovered>},
-    {"history", "&File", QT_TRANSLATE_NOOP("Action", "&History…"), "", Do::call<&Window::editHistory>},
-    lineIn("&File"),
-    {"quit", "&File", QT_TRANSLATE_NOOP("Action", "&Quit"), "Ctrl+Q", Do::call<&Window::close>},
-
     panelsIn(QT_TRANSLATE_NOOP("Action", "&Edit")),
 
     {"inputs", QT_TRANSLATE_NOOP("Action", "&Input"), QT_TRANSLATE_NOOP("Action", "&Inputs…"), "Ctrl+U",
@@ -221,8 +263,8 @@ const ActionInfo kActions[] = {
     panelsIn("&Input"),
 
     {"resetLayout", QT_TRANSLATE_NOOP("Action", "&View"), QT_TRANSLATE_NOOP("Action", "&Reset layout"), "",
-     Do::call<&Window::resetLayout>},
-    {"dockAll", "&View", QT_TRANSLATE_NOOP("Action", "&Dock all"), "", Do::call<&Window::dockAll>},
+     Do::call<resetLayout>},
+    {"dockAll", "&View", QT_TRANSLATE_NOOP("Action", "&Dock all"), "", Do::call<dockAll>},
     {"nextDock", "&View", QT_TRANSLATE_NOOP("Action", "&Next dock"), "F6", Do::call<&Window::moveFocus, 1>},
     {"previousDock", "&View", QT_TRANSLATE_NOOP("Action", "Previous doc&k"), "Shift+F6",
      Do::call<&Window::moveFocus, -1>},
@@ -235,16 +277,16 @@ const ActionInfo kActions[] = {
      Do::call<useShippedLayout<2>>},
     {"themeSystem", QT_TRANSLATE_NOOP("Action", "&View/&Theme"),
      QT_TRANSLATE_NOOP("Action", "As the &desktop"), "", Do::call<&Window::useTheme, ThemeChoice::System>,
-     Do::is<&Window::themeChoice, ThemeChoice::System>},
+     Do::is<isThemed<ThemeChoice::System>>},
     {"themeDark", "&View/&Theme", QT_TRANSLATE_NOOP("Action", "Dar&k"), "",
-     Do::call<&Window::useTheme, ThemeChoice::Dark>, Do::is<&Window::themeChoice, ThemeChoice::Dark>},
+     Do::call<&Window::useTheme, ThemeChoice::Dark>, Do::is<isThemed<ThemeChoice::Dark>>},
     {"themeLight", "&View/&Theme", QT_TRANSLATE_NOOP("Action", "&Light"), "",
-     Do::call<&Window::useTheme, ThemeChoice::Light>, Do::is<&Window::themeChoice, ThemeChoice::Light>},
-    {kViewport, "&View", "", ""},
+     Do::call<&Window::useTheme, ThemeChoice::Light>, Do::is<isThemed<ThemeChoice::Light>>},
+    {kViewportEntries, "&View", "", ""},
     panelsIn("&View"),
     lineIn("&View"),
-    {"fullScreen", "&View", QT_TRANSLATE_NOOP("Action", "F&ull screen"), "F11",
-     Do::call<&Window::toggleFullScreen>, Do::is<&Window::isFullScreen>},
+    {"fullScreen", "&View", QT_TRANSLATE_NOOP("Action", "F&ull screen"), "F11", Do::call<toggleFullScreen>,
+     Do::is<&Window::isFullScreen>},
 
     panelsIn(QT_TRANSLATE_NOOP("Action", "&Go")),
 
@@ -298,19 +340,19 @@ const ActionInfo kActions[] = {
     {"relay", QT_TRANSLATE_NOOP("Action", "T&ools"), QT_TRANSLATE_NOOP("Action", "&Relay…"), "Ctrl+R",
      Do::call<&Window::openInputs, InputsDialog::Page::Relay>},
     {"thresholds", QT_TRANSLATE_NOOP("Action", "T&ools"), QT_TRANSLATE_NOOP("Action", "&Thresholds…"),
-     "Ctrl+T", Do::call<&Window::editThresholds>},
+     "Ctrl+T", Do::call<editThresholds>},
     {"copyDiagnostics", QT_TRANSLATE_NOOP("Action", "T&ools"),
      QT_TRANSLATE_NOOP("Action", "&Copy diagnostics"), "", Do::call<copyDiagnostics>},
 
     panelsIn("T&ools"),
     lineIn("T&ools"),
     {"findCommand", "T&ools", QT_TRANSLATE_NOOP("Action", "&Find a command…"), "Ctrl+Shift+P",
-     Do::call<&Window::findCommand>},
+     Do::call<findCommand>},
 
     {"guide", QT_TRANSLATE_NOOP("Action", "&Help"), QT_TRANSLATE_NOOP("Action", "&User guide"), "Ctrl+F1",
      Do::call<showGuide>},
     {"helpHere", "&Help", QT_TRANSLATE_NOOP("Action", "&Help on this part of the window"), "F1",
-     Do::call<&Window::showHelpHere>},
+     Do::call<showHelpHere>},
     {"causes", "&Help", QT_TRANSLATE_NOOP("Action", "&What a cause means"), "",
      Do::call<showPage<HelpTopic::Causes>>},
     panelsIn("&Help"),
@@ -326,6 +368,24 @@ const ActionInfo kActions[] = {
     lineIn("&Help"),
     {"about", "&Help", QT_TRANSLATE_NOOP("Action", "&About Posewire"), "", Do::call<showAbout>},
 };
+
+void gather(std::span<const ActionInfo> table, std::vector<MenuEntry>& into) {
+    for (const ActionInfo& info : table) {
+        const std::string_view id = info.id;
+        if (id == kViewportEntries) {
+            gather(viewportEntries(), into);
+        } else if (id != kPanelEntries) {
+            into.push_back({&info, nullptr});
+        }
+        for (const PanelInfo& panel : id == kPanelEntries ? panelTable() : std::span<const PanelInfo>()) {
+            for (const ActionInfo& action : panel.actions()) {
+                if (std::string_view(action.menu).starts_with(info.menu)) {
+                    into.push_back({&action, &panel});
+                }
+            }
+        }
+    }
+}
 
 template <typename Parent>
 QMenu* childMenu(Parent& parent, const QString& name) {
@@ -343,25 +403,8 @@ QMenu* childMenu(Parent& parent, const QString& name) {
 
 std::vector<MenuEntry> menuEntries() {
     std::vector<MenuEntry> entries;
-    for (const ActionInfo& info : kActions) {
-        if (std::string_view(info.id) == kViewport) {
-            for (const ActionInfo& entry : viewportEntries()) {
-                entries.push_back({&entry, nullptr});
-            }
-            continue;
-        }
-        if (std::string_view(info.id) != kPanels) {
-            entries.push_back({&info, nullptr});
-            continue;
-        }
-        for (const PanelInfo& panel : panelTable()) {
-            for (const ActionInfo& action : panel.actions()) {
-                if (std::string_view(action.menu).starts_with(info.menu)) {
-                    entries.push_back({&action, &panel});
-                }
-            }
-        }
-    }
+    gather(fileEntries(), entries);
+    gather(kActions, entries);
     return entries;
 }
 
@@ -379,10 +422,7 @@ Menus::Menus(MainWindow& window, QMenuBar& bar) : m_window(window), m_entries(me
     for (const MenuEntry& entry : m_entries) {
         QMenu* menu = menuAt(bar, QString::fromUtf8(entry.action->menu));
         if (entry.action->list != nullptr) {
-            QObject::connect(menu, &QMenu::aboutToShow, &window, [&window, entry, menu] {
-                menu->clear();
-                window.list(entry, *menu);
-            });
+            QObject::connect(menu, &QMenu::aboutToShow, &window, [this, entry, menu] { list(entry, *menu); });
             continue;
         }
         if (entry.action->run == nullptr) {
@@ -396,6 +436,10 @@ Menus::Menus(MainWindow& window, QMenuBar& bar) : m_window(window), m_entries(me
     }
 }
 
+QWidget& Menus::ownerOf(const MenuEntry& entry) const {
+    return entry.panel != nullptr ? m_window.docks().panelOf(*entry.panel) : static_cast<QWidget&>(m_window);
+}
+
 QAction* Menus::makeAction(const MenuEntry& entry) {
     const ActionInfo& info = *entry.action;
     auto* action = new QAction(QCoreApplication::translate("Action", info.text), &m_window);
@@ -403,7 +447,10 @@ QAction* Menus::makeAction(const MenuEntry& entry) {
     action->setShortcut(QKeySequence(QLatin1String(info.shortcut), QKeySequence::PortableText));
     action->setCheckable(info.isOn != nullptr);
     QObject::connect(action, &QAction::triggered, &m_window, [this, entry] {
-        m_window.carryOut(entry);
+        if (entry.panel != nullptr) {
+            m_window.docks().show(QLatin1String(entry.panel->id));
+        }
+        entry.action->run(ownerOf(entry));
         showStates();
     });
     // Also reachable while the menu bar is hidden.
@@ -412,10 +459,19 @@ QAction* Menus::makeAction(const MenuEntry& entry) {
     return action;
 }
 
+void Menus::list(const MenuEntry& entry, QMenu& menu) {
+    menu.clear();
+    entry.action->list(ownerOf(entry), menu);
+    for (QAction* action : entry.panel != nullptr ? menu.actions() : QList<QAction*>()) {
+        QObject::connect(action, &QAction::triggered, &m_window,
+                         [this, entry] { m_window.docks().show(QLatin1String(entry.panel->id)); });
+    }
+}
+
 void Menus::showStates() {
     for (const MenuEntry& entry : m_entries) {
         if (entry.action->isOn != nullptr) {
-            m_actions[QLatin1String(entry.action->id)]->setChecked(m_window.isOn(entry));
+            m_actions[QLatin1String(entry.action->id)]->setChecked(entry.action->isOn(ownerOf(entry)));
         }
     }
 }

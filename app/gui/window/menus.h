@@ -22,11 +22,16 @@ struct MenuEntry {
     const PanelInfo* panel; ///< null for the window itself
 };
 
-/// All entries in the order of the menus. The window's own are in menus.cpp, which also says where in each
-/// menu those of the panels go.
+/// In the tables of the window: here come the entries that panels have in this menu and its submenus, or
+/// those of the viewport.
+inline constexpr const char* kPanelEntries = "panels";
+inline constexpr const char* kViewportEntries = "viewport";
+
+/// All entries in the order of the menus.
 [[nodiscard]] std::vector<MenuEntry> menuEntries();
 
-/// The menus of a window, with an action for each of menuEntries().
+/// The menus of a window, with an action for each of menuEntries(): brings the dock of a panel to the front
+/// before it carries out an entry of it.
 class Menus {
 public:
     Menus(MainWindow& window, QMenuBar& bar);
@@ -38,11 +43,25 @@ public:
 
 private:
     QAction* makeAction(const MenuEntry& entry);
+    void list(const MenuEntry& entry, QMenu& menu);
+    /// The panel that carries it out, or the window itself.
+    [[nodiscard]] QWidget& ownerOf(const MenuEntry& entry) const;
 
     MainWindow& m_window;
     std::vector<MenuEntry> m_entries;
     QMap<QString, QAction*> m_actions;
 };
+
+/// What the window does with files: opens, compares, saves, exports, records and replays them.
+[[nodiscard]] std::span<const ActionInfo> fileEntries();
+
+/// Writes a report on the streams, of a range of time or of all there is. Returns what went wrong, empty for
+/// nothing.
+[[nodiscard]] QString writeStreamReport(model::SessionView& session,
+                                        const std::optional<model::TimeRange>& range, const QString& path);
+
+/// What the menus do in the viewport: camera, axes, overlays, and whose figure is selected.
+[[nodiscard]] std::span<const ActionInfo> viewportEntries();
 
 /// The menu at a path as in ActionInfo, new if need be.
 [[nodiscard]] QMenu* menuAt(QMenuBar& bar, const QString& path);

@@ -7,8 +7,8 @@
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
 #include "app/gui/theme/help_link.h"
+#include "app/gui/theme/widgets.h"
 #include "app/gui/theme/words.h"
-#include "app/gui/window/range_box.h"
 #include "core/model/accounting/stream_figures.h"
 #include "core/model/session/messages.h"
 #include "core/model/session/roster.h"
@@ -22,7 +22,6 @@
 #include <QListWidget>
 #include <QPushButton>
 #include <QTimer>
-#include <QVBoxLayout>
 
 #include <algorithm>
 #include <chrono>
@@ -37,14 +36,12 @@ constexpr int kMostRows = 8; // of characters, before the list scrolls
 
 } // namespace
 
-/// What a thread writes, by value, and how far it is.
-struct MotionExportDialog::Work {
+/// By value, for a thread.
+struct MotionExportDialog::Job {
     feed::PoseSource source;
     exporting::MotionRequest request;
-    std::atomic<double> share{0};
-    std::atomic<bool> isCancelled{false};
 
-    Work(feed::PoseSource from, const exporting::MotionFormat& format, std::string path)
+    Job(feed::PoseSource from, const exporting::MotionFormat& format, std::string path)
         : source(std::move(from)), request{source, format, std::move(path)} {}
 };
 
@@ -72,28 +69,17 @@ MotionExportDialog::MotionExportDialog(model::SessionView& view, QWidget* parent
     auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, this);
     buttons->addButton(m_button, QDialogButtonBox::ActionRole);
     m_button->setDefault(true);
-    auto* column = new QVBoxLayout(this);
-    column->setSpacing(fontMetrics().height());
-    column->addLayout(form);
-    column->addWidget(m_state);
-    column->addWidget(buttons);
-    setMinimumWidth(fontMetrics().averageCharWidth() * 66);
+    layOut(*this, {form, m_state}, *buttons, placeOf(HelpTopic::MotionExport), 66);
     connect(m_format, &QComboBox::currentIndexChanged, this, &MotionExportDialog::describe);
     connect(m_characters, &QListWidget::itemChanged, this, &MotionExportDialog::describe);
     connect(m_button, &QPushButton::clicked, this, &MotionExportDialog::toggle);
-    connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
-    offerHelp(*this, *buttons, placeOf(HelpTopic::MotionExport));
     m_watch->setInterval(kProgressLook);
     connect(m_watch, &QTimer::timeout, this, &MotionExportDialog::watch);
     describe();
     showState({});
 }
 
-MotionExportDialog::~MotionExportDialog() {
-    if (m_work != nullptr) {
-        m_work->isCancelled = true;
-    }
-}
+MotionExportDialog::~MotionExportDialog() = default; // what is being written is given up
 
 void MotionExportDialog::listCharacters() {
     for (const model::Character* one : m_view.atNow().roster().listed()) {
@@ -145,7 +131,7 @@ void MotionExportDialog::describe() {
 
 void MotionExportDialog::toggle() {
     if (m_watch->isActive()) {
-        m_work->isCancelled = true;
+        m_work->cancel();
     } else {
         askWhereToSave();
     }
@@ -159,49 +145,45 @@ void MotionExportDialog::askWhereToSave() {
     if (path.isEmpty()) {
         return;
     }
-    std::shared_ptr<Work> work = workFor(path);
-    for (const std::string& each : exporting::motionPaths(work->request)) {
+    std::shared_ptr<Job> job = jobFor(path);
+    for (const std::string& each : exporting::motionPaths(job->request)) {
         const QString other = QFile::decodeName(each.c_str());
         if (other != path && QFileInfo::exists(other) && !wantsToReplace(this, windowTitle(), other)) {
             return;
         }
     }
-    begin(std::move(work));
+    begin(std::move(job));
 }
 
 void MotionExportDialog::save(const QString& path) {
-    begin(workFor(path));
+    begin(jobFor(path));
 }
 
-std::shared_ptr<MotionExportDialog::Work> MotionExportDialog::workFor(const QString& path) const {
+std::shared_ptr<MotionExportDialog::Job> MotionExportDialog::jobFor(const QString& path) const {
     const auto range = m_range->isRangeOnly() ? m_view.range() : std::nullopt;
-    auto work = std::make_shared<Work>(feed::poseSourceOf(m_view, range.value_or(model::kAllTime), chosen()),
-                                       format(), QFile::encodeName(path).toStdString());
-    work->request.rules = replacing();
-    work->request.application = ("Posewire " + QCoreApplication::applicationVersion()).toStdString();
-    work->request.makeBody = figure::mannequinBody;
-    return work;
+    auto job = std::make_shared<Job>(feed::poseSourceOf(m_view, range.value_or(model::kAllTime), chosen()),
+                                     format(), QFile::encodeName(path).toStdString());
+    job->request.rules = replacing();
+    job->request.application = ("Posewire " + QCoreApplication::applicationVersion()).toStdString();
+    job->request.makeBody = figure::mannequinBody;
+    return job;
 }
 
-void MotionExportDialog::begin(std::shared_ptr<Work> work) {
-    m_work = std::move(work);
-    m_result = std::async(std::launch::async, [work = m_work] {
-        return exporting::exportMotion(work->request, [work](double share) {
-            work->share = share;
-            return !work->isCancelled;
-        });
-    });
+void MotionExportDialog::begin(std::shared_ptr<Job> job) {
+    m_job = std::move(job);
+    m_work = std::make_unique<Background<Result>>(
+        [job = m_job](const auto& progress) { return exporting::exportMotion(job->request, progress); });
     m_watch->start();
     watch();
 }
 
 void MotionExportDialog::watch() {
-    if (m_result.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
-        showState(tr("Writing: %1 %").arg(std::floor(100 * m_work->share)));
+    if (!m_work->isDone()) {
+        showState(tr("Writing: %1 %").arg(std::floor(100 * m_work->share())));
         return;
     }
     m_watch->stop();
-    const Result result = m_result.get();
+    const Result result = m_work->take();
     if (!result) {
         showState(result.error().kind == log::FileError::Kind::Cancelled
                       ? tr("Cancelled: nothing was written.")
@@ -210,7 +192,7 @@ void MotionExportDialog::watch() {
     }
     QStringList lines;
     for (const exporting::ExportedMotion& one : *result) {
-        lines += QString::fromStdString(exporting::describe(one, m_work->source, m_work->request.format));
+        lines += QString::fromStdString(exporting::describe(one, m_job->source, m_job->request.format));
     }
     showState(
         lines.isEmpty()

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/gui/base/background.h"
 #include "core/export/motion/motion_export.h"
 #include "core/model/session/session_view.h"
 
 #include <QDialog>
 
-#include <atomic>
-#include <future>
 #include <memory>
 
 class QComboBox;
@@ -28,7 +27,6 @@ class MotionExportDialog final : public QDialog {
 public:
     /// The log of the session must outlive it.
     MotionExportDialog(model::SessionView& view, QWidget* parent);
-    /// What is being written is given up; nothing of it is left.
     ~MotionExportDialog() override;
 
     /// Writes, on a thread of its own, what is chosen. A file that is there is replaced.
@@ -36,7 +34,7 @@ public:
 
 private:
     using Result = tl::expected<std::vector<exporting::ExportedMotion>, log::FileError>;
-    struct Work;
+    struct Job;
 
     [[nodiscard]] const exporting::MotionFormat& format() const;
     [[nodiscard]] std::vector<model::CharacterKey> chosen() const;
@@ -44,8 +42,8 @@ private:
     void describe();
     void toggle();
     void askWhereToSave();
-    [[nodiscard]] std::shared_ptr<Work> workFor(const QString& path) const;
-    void begin(std::shared_ptr<Work> work);
+    [[nodiscard]] std::shared_ptr<Job> jobFor(const QString& path) const;
+    void begin(std::shared_ptr<Job> job);
     void watch();
     void showState(const QString& text);
 
@@ -57,8 +55,8 @@ private:
     QLabel* m_state;
     QPushButton* m_button;
     QTimer* m_watch;
-    std::shared_ptr<Work> m_work; ///< what was written last, or is
-    std::future<Result> m_result; ///< last: it uses the work
+    std::shared_ptr<Job> m_job; ///< written last, or now
+    std::unique_ptr<Background<Result>> m_work;
 };
 
 } // namespace posewire::gui

@@ -1,36 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which files the window opens, records and sends.
-#include "app/gui/models/text.h"
-#include "app/gui/theme/help_link.h"
+#include "app/gui/window/opening.h"
+
 #include "app/gui/theme/widgets.h"
+#include "app/gui/window/docks.h"
 #include "app/gui/window/main_window.h"
-#include "app/gui/window/motion_export_dialog.h"
-#include "app/gui/window/own_character_dialog.h"
-#include "app/gui/window/pictures_dialog.h"
-#include "app/gui/window/recording_dialog.h"
-#include "app/gui/window/recovery_dialog.h"
-#include "app/gui/window/replay_dialog.h"
-#include "core/model/session/roster.h"
 
 #include <QDir>
-#include <QDockWidget>
-#include <QDragEnterEvent>
-#include <QFileDialog>
+#include <QDropEvent>
 #include <QFileInfo>
-#include <QMenu>
 #include <QMimeData>
-#include <QToolButton>
+#include <QStatusBar>
 #include <QUrl>
 
 namespace posewire::gui {
 
 namespace {
-
-constexpr int kLongestPath = 480; // logical pixels
-
-QString recordingFilters() {
-    return MainWindow::tr("Recordings (*.pcapng *.pcap);;All files (*)");
-}
 
 /// The file of this computer that is dragged; empty for none and for several.
 QString droppedFile(const QMimeData& data) {
@@ -41,169 +25,96 @@ QString droppedFile(const QMimeData& data) {
 
 } // namespace
 
-void MainWindow::openFile() {
-    const QString path =
-        QFileDialog::getOpenFileName(this, tr("Open a recording"), placeOfRecordings(), recordingFilters());
-    if (!path.isEmpty()) {
-        openPath(path);
-    }
-}
-
-void MainWindow::openPath(const QString& path) {
-    noteRecent(path);
-    m_driver.files().open(path);
-}
-
-void MainWindow::noteRecent(const QString& path) {
-    const QString whole = QDir().absoluteFilePath(path);
-    m_settings.recentFiles.removeAll(whole);
-    m_settings.recentFiles.prepend(whole);
-    m_settings.recentFiles = m_settings.recentFiles.mid(0, Settings::kMostRecentFiles);
-}
-
-/// Where a recording is looked for: beside the newest, else where takes go.
-QString MainWindow::placeOfRecordings() const {
-    const QString newest = m_settings.recentFiles.isEmpty()
-                               ? QString()
-                               : QFileInfo(m_settings.recentFiles.first()).absolutePath();
-    return !newest.isEmpty() && QDir(newest).exists() ? newest : recordingFolder(m_settings.recording);
-}
-
-void MainWindow::chooseComparison() {
-    const QString path = QFileDialog::getOpenFileName(this, tr("Compare with a recording"),
-                                                      placeOfRecordings(), recordingFilters());
-    if (!path.isEmpty()) {
-        compareWith(path);
-    }
-}
-
-void MainWindow::compareWith(const QString& path) {
-    m_driver.files().comparing().open(path);
-    showDock(QStringLiteral("compare"));
-}
-
-void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
-    if (!droppedFile(*event->mimeData()).isEmpty()) {
-        event->acceptProposedAction();
-    }
-}
-
-void MainWindow::dropEvent(QDropEvent* event) {
-    if (const QString path = droppedFile(*event->mimeData()); !path.isEmpty()) {
-        event->acceptProposedAction();
-        openPath(path);
-    }
-}
-
-void MainWindow::listRecentFiles(QMenu& menu) {
-    for (const QString& path : m_settings.recentFiles) {
-        const QString name = QDir::toNativeSeparators(path).replace(u'&', QStringLiteral("&&"));
-        menu.addAction(fontMetrics().elidedText(name, Qt::ElideMiddle, kLongestPath), this,
-                       [this, path] { openPath(path); });
-    }
-    menu.addSeparator();
-    QAction* clear = m_menus.action("clearRecentFiles");
-    clear->setEnabled(!m_settings.recentFiles.isEmpty());
-    menu.addAction(clear);
-}
-
-void MainWindow::toggleRecording() {
-    Takes& takes = m_driver.takes();
-    const std::optional<TakeState> take = takes.state();
-    if (const QString problem = takes.toggle(m_settings.recording); !problem.isEmpty()) {
-        MessageBox box(tr("Record"), problem, QMessageBox::Ok, this);
-        offerHelp(box, placeOf(HelpTopic::RecordingFailed));
-        box.exec();
-    } else if (take && !takes.isRecording()) {
-        noteRecent(take->path);
-        const QFileInfo file(take->path);
-        say(tr("Recorded %1, under File > Open recent: %2, in %3")
-                .arg(duration(take->seconds), file.fileName(),
-                     QDir::toNativeSeparators(file.absolutePath())));
-    }
-}
-
-void MainWindow::editRecording() {
-    RecordingDialog dialog(m_settings.recording, this);
-    if (dialog.exec() == QDialog::Accepted) {
-        m_settings.recording = dialog.choice();
-    }
-}
-
-void MainWindow::showReplay() {
-    auto* dialog = findChild<ReplayDialog*>();
-    if (dialog == nullptr) {
-        dialog = new ReplayDialog(m_driver.replaying(), m_driver.commands(), this);
-        dialog->setAttribute(Qt::WA_DeleteOnClose);
-    }
-    dialog->show();
-    dialog->raise();
-    dialog->activateWindow();
-}
-
-void MainWindow::exportMotion() {
-    model::SessionView& session = m_driver.commands().session();
-    if (session.atNow().roster().listed().empty()) {
-        say(tr("There is no motion to export: no character has arrived yet."), HelpTopic::NothingToExport);
-        return;
-    }
-    MotionExportDialog(session, this).exec(); // the file stays open meanwhile
-}
-
-void MainWindow::exportPictures() {
-    if (m_driver.commands().session().atNow().roster().listed().empty()) {
-        say(tr("There is nothing to draw: no character has arrived yet."), HelpTopic::NothingToExport);
-        return;
-    }
-    PicturesDialog(m_driver.commands(), m_driver.playback(), m_driver.files().comparing().state(),
-                   *m_viewport, this)
-        .exec();
-}
-
-void MainWindow::editOwnCharacter() {
-    model::SessionView& session = m_driver.commands().session();
-    QStringList names;
-    for (const model::Character* character : session.roster().listed()) {
-        names += shown(session.roster().displayName(character->key));
-    }
-    names.removeDuplicates();
-    const std::optional<model::CharacterKey>& selected = session.choices().selection.character;
-    const QString name = selected ? shown(session.roster().displayName(*selected)) : QString();
-    OwnCharacterDialog(m_viewport->choice().ownCharacters(), names, name, this).exec();
-}
-
-void MainWindow::showRecovered() {
-    auto* dialog = new RecoveryDialog(m_driver.history(), this);
-    connect(dialog, &RecoveryDialog::openRequested, this,
-            [this](const QString& path) { m_driver.files().open(path); }); // it goes: no recent file
-    connect(dialog, &RecoveryDialog::over, this, [this, dialog](const QString& text) {
-        if (!text.isEmpty()) {
-            say(text);
+Opening::Opening(MainWindow& window)
+    : QObject(&window),
+      m_window(window),
+      m_stop(
+          framedButton(tr("Stop"), tr("Stop opening the file (Esc); what was read of it stays"), &window)) {
+    m_stop->setObjectName(QStringLiteral("stopOpeningButton"));
+    connect(m_stop, &QToolButton::clicked, window.menus().action("stopOpening"), &QAction::trigger);
+    window.statusBar()->addPermanentWidget(m_stop);
+    window.setAcceptDrops(true);
+    window.installEventFilter(this);
+    connect(&window.driver(), &SessionDriver::tableTick, this, &Opening::showState);
+    const Files& files = window.driver().files();
+    connect(&files, &Files::opened, this, [this](bool isRead, const QString& text) {
+        showState();
+        // What there is to know of one that was read is told as long as it shows.
+        if (isRead) {
+            m_window.say(m_sayAgain);
+        } else {
+            m_window.say(text, HelpTopic::OpeningFailed);
         }
-        dialog->deleteLater();
     });
-    dialog->show();
+    connect(&window.driver().files().comparing(), &Comparing::changed, this, [this](const QString& text) {
+        showState();
+        if (!text.isEmpty()) {
+            sayAlsoAfterwards(text);
+        }
+    });
+    connect(&window.viewport().choice().ownCharacters(), &OwnCharacters::failed, this,
+            &Opening::sayAlsoAfterwards);
+    showState();
 }
 
-void MainWindow::offerRecovered() {
-    if (!m_driver.history().lost().empty()) {
-        showRecovered();
+void Opening::open(const QString& path) {
+    noteRecent(path);
+    m_window.driver().files().open(path);
+}
+
+void Opening::compareWith(const QString& path) {
+    m_window.driver().files().comparing().open(path);
+    m_window.docks().show(QStringLiteral("compare"));
+}
+
+void Opening::noteRecent(const QString& path) {
+    QStringList& recent = m_window.kept().recentFiles;
+    const QString whole = QDir().absoluteFilePath(path);
+    recent.removeAll(whole);
+    recent.prepend(whole);
+    recent = recent.mid(0, Settings::kMostRecentFiles);
+}
+
+QString Opening::folder() const {
+    const Settings& kept = m_window.kept();
+    const QString newest =
+        kept.recentFiles.isEmpty() ? QString() : QFileInfo(kept.recentFiles.first()).absolutePath();
+    return !newest.isEmpty() && QDir(newest).exists() ? newest : recordingFolder(kept.recording);
+}
+
+bool Opening::eventFilter(QObject* /*window*/, QEvent* event) {
+    if (event->type() != QEvent::DragEnter && event->type() != QEvent::Drop) {
+        return false;
     }
+    auto* drop = static_cast<QDropEvent*>(event);
+    const QString path = droppedFile(*drop->mimeData());
+    if (!path.isEmpty()) {
+        drop->acceptProposedAction();
+    }
+    if (!path.isEmpty() && event->type() == QEvent::Drop) {
+        open(path);
+    }
+    return true;
 }
 
-void MainWindow::showOpening() {
-    const bool isOpening = m_driver.files().isOpening();
-    if (!m_saysOpening && m_health->said() != m_sayAgain) {
+void Opening::sayAlsoAfterwards(const QString& text) {
+    m_window.say(text);
+    m_sayAgain = text;
+}
+
+void Opening::showState() {
+    const bool isOpening = m_window.driver().files().isOpening();
+    if (!m_saysOpening && m_window.message() != m_sayAgain) {
         m_sayAgain.clear(); // it has passed
     }
     if (isOpening) {
-        say(m_driver.files().openingText());
+        m_window.say(m_window.driver().files().openingText());
     } else if (m_saysOpening) {
-        say(m_sayAgain);
+        m_window.say(m_sayAgain);
     }
     m_saysOpening = isOpening;
-    m_menus.action("stopOpening")->setEnabled(isOpening); // else Escape is for others
-    m_stopOpening->setVisible(isOpening);
+    m_window.menus().action("stopOpening")->setEnabled(isOpening); // else Escape is for others
+    m_stop->setVisible(isOpening);
 }
 
 } // namespace posewire::gui

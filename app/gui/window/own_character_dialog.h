@@ -36,7 +36,6 @@ public:
     void accept() override;
 
 signals:
-    /// A file was read, or could not be.
     void finished();
 
 private:

@@ -7,17 +7,19 @@
 #include "app/gui/theme/help_link.h"
 #include "app/gui/theme/widgets.h"
 #include "app/gui/theme/words.h"
+#include "app/gui/viewport/picture_series.h"
 
+#include <QDialog>
 #include <QDialogButtonBox>
 #include <QFileInfo>
 #include <QFormLayout>
 #include <QPushButton>
 #include <QSpinBox>
-#include <QVBoxLayout>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 
 namespace posewire::gui {
 
@@ -36,178 +38,184 @@ QString textOf(const QSize& size) {
 
 } // namespace
 
-PicturesDialog::PicturesDialog(const Commands& commands, Playback& playback,
-                               const ComparisonState& comparison, const ViewportWidget& viewport,
-                               QWidget* parent)
-    : QDialog(parent),
-      m_commands(commands),
-      m_playback(playback),
-      m_comparison(comparison),
-      m_viewport(viewport),
-      m_what(new ComboBox(this)),
-      m_rate(new QSpinBox(this)),
-      m_size(new ComboBox(this)),
-      m_about(dimText({}, this)),
-      m_state(dimText({}, this)),
-      m_button(new QPushButton(this)) {
-    constexpr int kUsualRate = 30;
-    constexpr int kMostRate = 240;
-    setWindowTitle(tr("Export pictures"));
-    m_what->addItems({tr("This moment"), tr("The range of the figures"), tr("All there is")});
-    m_rate->setButtonSymbols(QAbstractSpinBox::NoButtons);
-    m_rate->setRange(1, kMostRate);
-    m_rate->setValue(kUsualRate);
-    m_rate->setSuffix(tr(" pictures per second"));
-    const QSize own = viewport.size() * viewport.devicePixelRatioF();
-    m_size->addItem(tr("As the viewport: %1").arg(textOf(own)), own);
-    for (const QSize& size : kSizes) {
-        m_size->addItem(textOf(size), size);
-    }
-    auto* form = new QFormLayout;
-    form->addRow(tr("&What"), m_what);
-    form->addRow(tr("&Rate"), m_rate);
-    form->addRow(tr("&Pixels"), m_size);
-    form->addRow({}, m_about);
-    auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, this);
-    buttons->addButton(m_button, QDialogButtonBox::ActionRole);
-    m_button->setDefault(true);
-    auto* column = new QVBoxLayout(this);
-    column->setSpacing(fontMetrics().height());
-    column->addWidget(dimText(tr("Pictures show what the viewport shows (of a split view, the active one), "
-                                 "with its labels and overlays, drawn as "
-                                 "well as it can be. The display moves to each moment while they are drawn."),
-                              this));
-    column->addLayout(form);
-    column->addWidget(m_state);
-    column->addWidget(buttons);
-    setMinimumWidth(fontMetrics().averageCharWidth() * 66);
-    connect(m_what, &QComboBox::currentIndexChanged, this, &PicturesDialog::describe);
-    connect(m_rate, &QSpinBox::valueChanged, this, &PicturesDialog::describe);
-    connect(m_button, &QPushButton::clicked, this, &PicturesDialog::toggle);
-    connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
-    offerHelp(*this, *buttons, placeOf(HelpTopic::PicturesExport));
-    connect(&commands, &Commands::switched, this, [this] {
-        if (m_series != nullptr) {
-            m_series->leave();
-            end(tr("Stopped after %1 pictures: another session is shown now.").arg(m_series->written()));
+/// Writes what the viewport shows as PNG: of this moment, or a series of a time. The window shows the moments
+/// as they are drawn; what is received goes on meanwhile.
+class PicturesDialog final : public QDialog {
+public:
+    PicturesDialog(const Commands& commands, Playback& playback, const ComparisonState& comparison,
+                   const ViewportWidget& viewport, QWidget* parent)
+        : QDialog(parent),
+          m_commands(commands),
+          m_playback(playback),
+          m_comparison(comparison),
+          m_viewport(viewport),
+          m_what(new ComboBox(this)),
+          m_rate(new QSpinBox(this)),
+          m_size(new ComboBox(this)),
+          m_about(dimText({}, this)),
+          m_state(dimText({}, this)),
+          m_button(new QPushButton(this)) {
+        constexpr int kUsualRate = 30;
+        constexpr int kMostRate = 240;
+        setWindowTitle(tr("Export pictures"));
+        m_what->addItems({tr("This moment"), tr("The range of the figures"), tr("All there is")});
+        m_rate->setButtonSymbols(QAbstractSpinBox::NoButtons);
+        m_rate->setRange(1, kMostRate);
+        m_rate->setValue(kUsualRate);
+        m_rate->setSuffix(tr(" pictures per second"));
+        const QSize own = viewport.size() * viewport.devicePixelRatioF();
+        m_size->addItem(tr("As the viewport: %1").arg(textOf(own)), own);
+        for (const QSize& size : kSizes) {
+            m_size->addItem(textOf(size), size);
         }
-    });
-    describe();
-}
+        auto* form = new QFormLayout;
+        form->addRow(tr("&What"), m_what);
+        form->addRow(tr("&Rate"), m_rate);
+        form->addRow(tr("&Pixels"), m_size);
+        form->addRow({}, m_about);
+        auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, this);
+        buttons->addButton(m_button, QDialogButtonBox::ActionRole);
+        m_button->setDefault(true);
+        layOut(*this,
+               {dimText(tr("Pictures show what the viewport shows (of a split view, the active one), "
+                           "with its labels and overlays, drawn as "
+                           "well as it can be. The display moves to each moment while they are drawn."),
+                        this),
+                form, m_state},
+               *buttons, placeOf(HelpTopic::PicturesExport), 66);
+        connect(m_what, &QComboBox::currentIndexChanged, this, &PicturesDialog::describe);
+        connect(m_rate, &QSpinBox::valueChanged, this, &PicturesDialog::describe);
+        connect(m_button, &QPushButton::clicked, this, &PicturesDialog::toggle);
+        connect(&commands, &Commands::switched, this, [this] {
+            if (m_series != nullptr) {
+                m_series->leave();
+                end(tr("Stopped after %1 pictures: another session is shown now.").arg(m_series->written()));
+            }
+        });
+        describe();
+    }
 
-PicturesDialog::~PicturesDialog() = default;
+    /// Begins to write what is chosen. Files that are there are replaced.
+    void save(const QString& path) {
+        m_series = std::make_unique<PictureSeries>(m_commands.session(), m_playback,
+                                                   m_viewport.choice().look(), request(path));
+        m_series->setComparison(&m_comparison);
+        const auto showState = [this] {
+            m_state->setText(tr("Writing: %1 of %2").arg(m_series->written()).arg(m_series->request().count));
+        };
+        connect(m_series.get(), &PictureSeries::progressed, this, showState);
+        connect(
+            m_series.get(), &PictureSeries::finished, this,
+            [this](const QString& problem) {
+                const int count = m_series->request().count;
+                end(!problem.isEmpty()
+                        ? tr("%1 of %2 pictures are written. %3")
+                              .arg(QString::number(m_series->written()), QString::number(count), problem)
+                    : count == 1 ? tr("Saved %1").arg(m_series->request().path)
+                                 : tr("Saved %1 pictures, %2 and on")
+                                       .arg(QString::number(count), m_series->request().pathOf(0)));
+            },
+            Qt::QueuedConnection); // the series goes with it
+        showState();
+        describe();
+        m_series->start();
+    }
 
-QString PicturesDialog::stateText() const {
-    return m_state->text();
-}
-
-model::TimeRange PicturesDialog::time() const {
-    const model::SessionView& view = m_commands.session();
-    const auto oldest = view.packet(view.begin());
-    const auto newest = view.end() > 0 ? view.packet(view.end() - 1) : std::nullopt;
-    model::TimeRange time{view.cursorStamp(), view.cursorStamp()};
-    if (m_what->currentIndex() == ThisMoment || !oldest || !newest) {
+private:
+    [[nodiscard]] model::TimeRange time() const {
+        const model::SessionView& view = m_commands.session();
+        const auto oldest = view.packet(view.begin());
+        const auto newest = view.end() > 0 ? view.packet(view.end() - 1) : std::nullopt;
+        model::TimeRange time{view.cursorStamp(), view.cursorStamp()};
+        if (m_what->currentIndex() == ThisMoment || !oldest || !newest) {
+            return time;
+        }
+        time = {oldest->stamp, newest->stamp};
+        if (const auto range = m_what->currentIndex() == TimeOfFigures ? view.range() : std::nullopt) {
+            time = {std::max(time.from, range->from), std::min(time.to, range->to)};
+        }
         return time;
     }
-    time = {oldest->stamp, newest->stamp};
-    if (const auto range = m_what->currentIndex() == TimeOfFigures ? view.range() : std::nullopt) {
-        time = {std::max(time.from, range->from), std::min(time.to, range->to)};
+    [[nodiscard]] PictureRequest request(const QString& path) const {
+        const model::TimeRange span = time();
+        PictureRequest request;
+        request.first = span.from;
+        request.every = log::durationOf(1.0 / m_rate->value());
+        const double seconds = std::max(0.0, log::secondsOf(span.to - span.from));
+        request.count =
+            1 + static_cast<int>(std::min<double>(kMostPictures, std::floor(seconds * m_rate->value())));
+        request.size = m_size->currentData().toSize().expandedTo({1, 1});
+        request.scale = m_size->currentIndex() == 0 ? m_viewport.devicePixelRatioF()
+                                                    : std::max(1.0, request.size.height() / kUsualHeight);
+        request.path = path;
+        return request;
     }
-    return time;
-}
-
-PictureRequest PicturesDialog::request(const QString& path) const {
-    const model::TimeRange span = time();
-    PictureRequest request;
-    request.first = span.from;
-    request.every = log::durationOf(1.0 / m_rate->value());
-    const double seconds = std::max(0.0, log::secondsOf(span.to - span.from));
-    request.count =
-        1 + static_cast<int>(std::min<double>(kMostPictures, std::floor(seconds * m_rate->value())));
-    request.size = m_size->currentData().toSize().expandedTo({1, 1});
-    request.scale = m_size->currentIndex() == 0 ? m_viewport.devicePixelRatioF()
-                                                : std::max(1.0, request.size.height() / kUsualHeight);
-    request.path = path;
-    return request;
-}
-
-void PicturesDialog::describe() {
-    m_rate->setEnabled(m_what->currentIndex() != ThisMoment);
-    const model::TimeRange span = time();
-    const int count = request({}).count;
-    const bool isTooMany = count > kMostPictures;
-    m_about->setText(count == 1  ? tr("One picture.")
-                     : isTooMany ? tr("More than %1 pictures: take a shorter time or a lower rate.")
-                                       .arg(grouped(static_cast<std::uint64_t>(kMostPictures)))
-                                 : tr("%1 pictures of %2 s, each with its number in its name.")
-                                       .arg(grouped(static_cast<std::uint64_t>(count)),
-                                            fixed(log::secondsOf(span.to - span.from), 1)));
-    m_button->setText(m_series != nullptr ? tr("S&top") : tr("&Save as…"));
-    m_button->setEnabled(m_series != nullptr || !isTooMany);
-    for (QWidget* each : {static_cast<QWidget*>(m_what), static_cast<QWidget*>(m_size)}) {
-        each->setEnabled(m_series == nullptr);
+    void describe() {
+        m_rate->setEnabled(m_what->currentIndex() != ThisMoment);
+        const model::TimeRange span = time();
+        const int count = request({}).count;
+        const bool isTooMany = count > kMostPictures;
+        m_about->setText(count == 1  ? tr("One picture.")
+                         : isTooMany ? tr("More than %1 pictures: take a shorter time or a lower rate.")
+                                           .arg(grouped(static_cast<std::uint64_t>(kMostPictures)))
+                                     : tr("%1 pictures of %2 s, each with its number in its name.")
+                                           .arg(grouped(static_cast<std::uint64_t>(count)),
+                                                fixed(log::secondsOf(span.to - span.from), 1)));
+        m_button->setText(m_series != nullptr ? tr("S&top") : tr("&Save as…"));
+        m_button->setEnabled(m_series != nullptr || !isTooMany);
+        for (QWidget* each : {static_cast<QWidget*>(m_what), static_cast<QWidget*>(m_size)}) {
+            each->setEnabled(m_series == nullptr);
+        }
+        m_rate->setEnabled(m_rate->isEnabled() && m_series == nullptr);
     }
-    m_rate->setEnabled(m_rate->isEnabled() && m_series == nullptr);
-}
-
-void PicturesDialog::toggle() {
-    if (m_series != nullptr) {
-        end(tr("Stopped: %1 of %2 pictures are written.")
-                .arg(m_series->written())
-                .arg(m_series->request().count));
-    } else {
-        askWhereToSave();
-    }
-}
-
-void PicturesDialog::askWhereToSave() {
-    const QString path =
-        gui::askWhereToSave(this, windowTitle(), QStringLiteral("viewport.png"), tr("Pictures (*.png)"));
-    if (path.isEmpty()) {
-        return;
-    }
-    const PictureRequest wanted = request(path);
-    for (int number = 0; wanted.count > 1 && number < wanted.count; ++number) {
-        if (QFileInfo::exists(wanted.pathOf(number))) {
-            if (!wantsToReplace(this, windowTitle(), wanted.pathOf(number))) {
-                return;
-            }
-            break; // one answer is for all of them
+    void toggle() {
+        if (m_series != nullptr) {
+            end(tr("Stopped: %1 of %2 pictures are written.")
+                    .arg(m_series->written())
+                    .arg(m_series->request().count));
+        } else {
+            askWhereToSave();
         }
     }
-    save(path);
-}
+    void askWhereToSave() {
+        const QString path =
+            gui::askWhereToSave(this, windowTitle(), QStringLiteral("viewport.png"), tr("Pictures (*.png)"));
+        if (path.isEmpty()) {
+            return;
+        }
+        const PictureRequest wanted = request(path);
+        for (int number = 0; wanted.count > 1 && number < wanted.count; ++number) {
+            if (QFileInfo::exists(wanted.pathOf(number))) {
+                if (!wantsToReplace(this, windowTitle(), wanted.pathOf(number))) {
+                    return;
+                }
+                break; // one answer is for all of them
+            }
+        }
+        save(path);
+    }
+    void end(const QString& text) {
+        m_series.reset();
+        m_state->setText(text);
+        describe();
+    }
 
-void PicturesDialog::save(const QString& path) {
-    m_series = std::make_unique<PictureSeries>(m_commands.session(), m_playback, m_viewport.choice().look(),
-                                               request(path));
-    m_series->setComparison(&m_comparison);
-    const auto showState = [this] {
-        m_state->setText(tr("Writing: %1 of %2").arg(m_series->written()).arg(m_series->request().count));
-    };
-    connect(m_series.get(), &PictureSeries::progressed, this, showState);
-    connect(
-        m_series.get(), &PictureSeries::finished, this,
-        [this](const QString& problem) {
-            const int count = m_series->request().count;
-            end(!problem.isEmpty()
-                    ? tr("%1 of %2 pictures are written. %3")
-                          .arg(QString::number(m_series->written()), QString::number(count), problem)
-                : count == 1 ? tr("Saved %1").arg(m_series->request().path)
-                             : tr("Saved %1 pictures, %2 and on")
-                                   .arg(QString::number(count), m_series->request().pathOf(0)));
-        },
-        Qt::QueuedConnection); // the series goes with it
-    showState();
-    describe();
-    m_series->start();
-}
+    const Commands& m_commands; ///< what is shown
+    Playback& m_playback;
+    const ComparisonState& m_comparison;
+    const ViewportWidget& m_viewport;
+    QComboBox* m_what;
+    QSpinBox* m_rate;
+    QComboBox* m_size;
+    QLabel* m_about;
+    QLabel* m_state;
+    QPushButton* m_button;
+    std::unique_ptr<PictureSeries> m_series; ///< null where nothing is written
+};
 
-void PicturesDialog::end(const QString& text) {
-    m_series.reset();
-    m_state->setText(text);
-    describe();
-    emit finished();
+void showPicturesDialog(const Commands& commands, Playback& playback, const ComparisonState& comparison,
+                        const ViewportWidget& viewport, QWidget* parent) {
+    PicturesDialog(commands, playback, comparison, viewport, parent).exec();
 }
 
 } // namespace posewire::gui

@@ -5,10 +5,8 @@
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
 #include "app/gui/theme/event_watch.h"
-#include "app/gui/theme/icons.h"
-#include "app/gui/theme/plain_text.h"
+#include "app/gui/theme/theme.h"
 #include "app/gui/theme/widgets.h"
-#include "app/gui/window/colour_text.h"
 #include "core/model/body/character_pose.h"
 #include "core/model/session/messages.h"
 #include "core/model/session/roster.h"
@@ -16,6 +14,7 @@
 #include <QAction>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QMenu>
 #include <QPainter>
 #include <QStyle>
 #include <QToolButton>
@@ -38,7 +37,78 @@ QToolButton* buttonOf(QAction* action, QWidget* parent) {
     return button;
 }
 
+/// "Next sample (Right)".
+QString helpOf(const QAction& action) {
+    const QString keys = action.shortcut().toString(QKeySequence::NativeText);
+    return keys.isEmpty() ? action.toolTip() : action.toolTip() + QStringLiteral(" (%1)").arg(keys);
+}
+
 } // namespace
+
+/// Moves through the past: a sample back and on, plays either way, its speed, again and again.
+class TimeControls final : public QWidget {
+public:
+    TimeControls(const TransportBar::Actions& actions, QWidget* parent)
+        : QWidget(parent), m_speeds(actions.speeds), m_row(spacedRow({}, 2, this)) {
+        setObjectName(QStringLiteral("timeControls"));
+        add(actions.back, "step_back");
+        m_playBack = add(actions.playBack, "play_back");
+        m_play = add(actions.play, "play");
+        add(actions.on, "step_on");
+        add(actions.loop, "loop");
+        m_speed = framedButton({}, tr("How fast it is played"), this);
+        m_speed->setAccessibleName(tr("Speed"));
+        m_speed->setMenu(actions.speeds);
+        m_speed->setPopupMode(QToolButton::InstantPopup);
+        m_row->addWidget(m_speed);
+        new EventWatch(this, QEvent::PaletteChange, [this] { restyle(); });
+        restyle();
+    }
+
+    void refresh(const model::Cursor& cursor) {
+        if (cursor.speed != m_shownSpeed) {
+            m_shownSpeed = cursor.speed;
+            m_play->setChecked(cursor.speed > 0);
+            m_playBack->setChecked(cursor.speed < 0);
+            restyle();
+        }
+        for (const QAction* speed : m_speeds->actions()) {
+            if (speed->isChecked()) {
+                m_speed->setText(speed->toolTip() + QStringLiteral(" ▾"));
+            }
+        }
+    }
+
+private:
+    QToolButton* add(QAction* action, const char* icon) {
+        QToolButton* button = framedButton({}, helpOf(*action), this);
+        button->setObjectName(action->objectName() + QStringLiteral("Button"));
+        button->setAccessibleName(action->toolTip());
+        button->setProperty("iconName", QString::fromLatin1(icon));
+        button->setCheckable(action->isCheckable());
+        connect(button, &QToolButton::clicked, action, &QAction::trigger);
+        connect(action, &QAction::changed, button,
+                [button, action] { button->setChecked(action->isChecked()); });
+        m_row->addWidget(button);
+        return button;
+    }
+    void restyle() {
+        for (QToolButton* button : findChildren<QToolButton*>()) {
+            const bool isStopping =
+                (button == m_play && m_shownSpeed > 0) || (button == m_playBack && m_shownSpeed < 0);
+            if (const QString icon = button->property("iconName").toString(); !icon.isEmpty()) {
+                button->setIcon(themedIcon(isStopping ? QStringLiteral("pause") : icon));
+            }
+        }
+    }
+
+    QMenu* m_speeds;
+    QHBoxLayout* m_row;
+    QToolButton* m_playBack;
+    QToolButton* m_play;
+    QToolButton* m_speed;
+    double m_shownSpeed = 0;
+};
 
 TransportBar::TransportBar(model::SessionView& session, const Actions& actions, QWidget* parent)
     : QWidget(parent),
@@ -47,7 +117,7 @@ TransportBar::TransportBar(model::SessionView& session, const Actions& actions, 
       m_record(buttonOf(actions.record, this)),
       m_pause(buttonOf(actions.pause, this)),
       m_live(buttonOf(actions.live, this)),
-      m_past(new TimeControls(actions.time, this)),
+      m_past(new TimeControls(actions, this)),
       m_add(buttonOf(actions.inputs, this)),
       m_relay(new ColourText(ColourText::Look::Pill, this)),
       m_time(plainLabel(this)),

@@ -4,7 +4,6 @@
 #include "app/gui/base/commands.h"
 #include "app/gui/base/program_state.h"
 #include "app/gui/driver/takes.h"
-#include "app/gui/window/time_controls.h"
 #include "core/model/session/session_view.h"
 
 #include <QWidget>
@@ -14,11 +13,13 @@
 class QAction;
 class QHBoxLayout;
 class QLabel;
+class QMenu;
 class QToolButton;
 
 namespace posewire::gui {
 
 class ColourText;
+class TimeControls;
 
 /// The line above the viewport: time stopped or running, which moment is shown, where the data come from.
 class TransportBar final : public QWidget {
@@ -26,14 +27,19 @@ class TransportBar final : public QWidget {
 
 public:
     /// `record` begins and ends a take, `pause` stops and continues, `live` goes to the end, `inputs` is for
-    /// the list of inputs, `relay` is for forwarding, `time` is for the past.
+    /// the list of inputs, `relay` is for forwarding; the others move through the past.
     struct Actions {
         QAction* record;
         QAction* pause;
         QAction* live;
         QAction* inputs;
         QAction* relay;
-        TimeControls::Actions time;
+        QAction* back;
+        QAction* on;
+        QAction* playBack;
+        QAction* play;
+        QAction* loop;
+        QMenu* speeds; ///< one of them is checked
     };
     TransportBar(model::SessionView& session, const Actions& actions, QWidget* parent = nullptr);
 

@@ -5,14 +5,12 @@
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
 #include "app/gui/theme/event_watch.h"
-#include "app/gui/theme/plain_text.h"
 #include "app/gui/theme/widgets.h"
 #include "core/model/session/roster.h"
 #include "core/model/session/verdict.h"
 
 #include <QAccessible>
 #include <QAction>
-#include <QKeyEvent>
 #include <QLabel>
 #include <QPainter>
 #include <QStyle>
@@ -144,14 +142,6 @@ void Headline::paintEvent(QPaintEvent* /*event*/) {
     const bool fits = metrics.horizontalAdvance(text()) <= room.width();
     painter.drawText(room, Qt::AlignVCenter | Qt::AlignLeft,
                      fits ? text() : metrics.elidedText(m_narrow, Qt::ElideRight, room.width()));
-}
-
-void Headline::keyPressEvent(QKeyEvent* event) {
-    if (event->key() == Qt::Key_Return || event->key() == Qt::Key_Enter) {
-        click();
-        return;
-    }
-    QAbstractButton::keyPressEvent(event);
 }
 
 VerdictBar::VerdictBar(model::SessionView& live, const Actions& actions, QWidget* parent)

@@ -33,7 +33,6 @@ public:
 
 protected:
     void paintEvent(QPaintEvent* event) override;
-    void keyPressEvent(QKeyEvent* event) override;
 
 private:
     [[nodiscard]] QString line() const;
@@ -46,7 +45,6 @@ private:
     bool m_isLarge = false;
 };
 
-/// What is shown instead of what is received, if anything.
 struct ShownFile {
     QString name{}; ///< of the file that is open; empty where none is
     bool isShown = false;

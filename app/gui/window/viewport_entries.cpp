@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/window/viewport_entries.h"
+#include "app/gui/window/menus.h"
 
+#include "app/gui/models/text.h"
 #include "app/gui/theme/words.h"
 #include "app/gui/viewport/overlays.h"
 #include "app/gui/window/main_window.h"
+#include "app/gui/window/own_character_dialog.h"
 #include "core/model/session/roster.h"
 
 #include <algorithm>
@@ -55,7 +57,6 @@ void selectCharacter(Window& window) {
     }
 }
 
-/// Entries that differ by what they choose.
 template <int index>
 constexpr ActionInfo selectEntry(const char* id, const char* text, const char* shortcut) {
     return {id, QT_TRANSLATE_NOOP("Action", "&View/&Select character"), text, shortcut,
@@ -65,6 +66,18 @@ template <render::StandardView view>
 constexpr ActionInfo viewEntry(const char* id, const char* text, const char* shortcut) {
     return {id, QT_TRANSLATE_NOOP("Action", "&View/&Camera"), text, shortcut,
             ViewDo::callIn<&Window::viewport, &ViewportWidget::face, view>};
+}
+
+void editOwnCharacter(Window& window) {
+    model::SessionView& session = window.driver().commands().session();
+    QStringList names;
+    for (const model::Character* character : session.roster().listed()) {
+        names += shown(session.roster().displayName(character->key));
+    }
+    names.removeDuplicates();
+    const std::optional<model::CharacterKey>& selected = session.choices().selection.character;
+    const QString name = selected ? shown(session.roster().displayName(*selected)) : QString();
+    OwnCharacterDialog(choiceOf(window).ownCharacters(), names, name, &window).exec();
 }
 
 template <int index>
@@ -198,7 +211,7 @@ const ActionInfo kEntries[] = {
     switchEntry<ViewSwitch::Card>("segmentCard", "&View/O&verlays",
                                   QT_TRANSLATE_NOOP("Action", "Val&ues of a segment")),
     {"ownCharacter", "&View", QT_TRANSLATE_NOOP("Action", "O&wn character…"), "",
-     ViewDo::call<&Window::editOwnCharacter>},
+     ViewDo::call<editOwnCharacter>},
     switchEntry<ViewSwitch::Interpolation>("interpolation", "&View",
                                            QT_TRANSLATE_NOOP("Action", "Interpolate between sa&mples")),
     {"lift", "&View", QT_TRANSLATE_NOOP("Action", "Place bodies &below the floor on it"), "",

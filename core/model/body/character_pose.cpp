@@ -2,6 +2,7 @@
 #include "core/model/body/character_pose.h"
 
 #include "core/model/body/points.h"
+#include "core/model/body/pose_messages.h"
 #include "core/model/body/pose_solver.h"
 
 #include <algorithm>
@@ -328,8 +329,7 @@ bool hasWholePoses(std::uint8_t type) {
 }
 
 bool hasPoses(std::uint8_t type) {
-    return hasWholePoses(type) || type == wire::LinearKinematics::kType ||
-           type == wire::AngularKinematics::kType || type == wire::PointPositions::kType;
+    return std::ranges::find(kPoseTypes, type) != kPoseTypes.end();
 }
 
 bool poseFromMessage(const wire::Datagram& datagram, std::span<const Eigen::Vector3d> nullPose,

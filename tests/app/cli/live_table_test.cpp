@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/cli/live_table.h"
+#include "app/cli/table_writer.h"
 
 #include "app/cli/monitor.h"
 #include "core/model/session/session.h"

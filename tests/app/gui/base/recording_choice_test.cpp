@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/base/recording_choice.h"
+#include "app/gui/base/settings.h"
 
 #include <QFile>
 #include <QFileInfo>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/base/small_json.h"
+#include "app/gui/base/saving.h"
 
 #include <QJsonArray>
 #include <QJsonDocument>

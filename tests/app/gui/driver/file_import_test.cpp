@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/driver/file_import.h"
+#include "app/gui/driver/opened_file.h"
 
 #include "core/model/session/accounts.h"
 #include "core/model/session/messages.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/driver/file_import.h"
+#include "app/gui/driver/opened_file.h"
 
 #include "core/log/output_file.h"
 #include "core/log/pcapng_writer.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "packaging/help/help_html.h"
 
-#include "app/gui/window/texts.h"
+#include "app/gui/window/guide.h"
 
 #include <QFile>
 #include <QRegularExpression>

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/help/help_window.h"
 
-#include "app/gui/help/markdown_view.h"
 #include "app/gui/theme/theme.h"
-#include "app/gui/window/texts.h"
+#include "app/gui/window/guide.h"
 
 #include <QAbstractTextDocumentLayout>
 #include <QApplication>

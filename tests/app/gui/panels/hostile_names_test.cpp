@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/models/packet_model.h"
-#include "app/gui/theme/plain_text.h"
+#include "app/gui/theme/theme.h"
 #include "tests/app/gui/panels/panel_stage.h"
 #include "tests/support/hostile_text.h"
 

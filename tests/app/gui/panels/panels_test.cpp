@@ -264,7 +264,7 @@ TEST_F(PanelsTest, EndedSendersFoldAwayAndCanBeForgotten) {
     EXPECT_TRUE(ended->isVisible());
     EXPECT_EQ(ended->accessibleName(), "2 ended senders");
     const std::uint64_t datagrams = m_stage.session.accounts().allSenders().datagrams;
-    panel->forgetEnded();
+    panel->findChild<QToolButton*>("forgetEnded")->click();
     EXPECT_FALSE(ended->isVisible());
     EXPECT_EQ(m_stage.session.roster().senders().size(), 1U);
     EXPECT_EQ(m_stage.session.accounts().allSenders().datagrams, datagrams);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/viewport/hands.h"
+#include "app/gui/viewport/bodies.h"
 
 #include "core/model/body/segments.h"
 

@@ -4,7 +4,6 @@
 
 #include "app/gui/models/shown_character.h"
 #include "app/gui/viewport/camera_motion.h"
-#include "app/gui/viewport/labels.h"
 #include "app/gui/viewport/picking.h"
 #include "core/model/session/messages.h"
 #include "core/model/session/roster.h"

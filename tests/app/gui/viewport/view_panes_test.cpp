@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/viewport/view_panes.h"
+#include "app/gui/viewport/view_look.h"
 
 #include "app/gui/viewport/pose_banner.h"
 #include "app/gui/viewport/segment_card.h"

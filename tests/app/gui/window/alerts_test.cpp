@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/models/text.h"
+#include "app/gui/theme/widgets.h"
 #include "app/gui/window/alerts.h"
-#include "app/gui/window/colour_text.h"
 #include "app/gui/window/health_bar.h"
 #include "app/gui/window/health_popup.h"
-#include "app/gui/window/report_saving.h"
+#include "app/gui/window/menus.h"
 #include "core/model/session/accounts.h"
 #include "tests/app/gui/models/stage.h"
 
@@ -139,7 +139,7 @@ protected:
     [[nodiscard]] QWidget* open() {
         m_bar.resize(900, 30);
         m_bar.show();
-        QTest::keyClick(m_bar.firstEntry(), Qt::Key_Return);
+        QTest::keyClick(m_bar.firstEntry(), Qt::Key_Space);
         return m_bar.findChild<QWidget*>("healthPopup");
     }
 
@@ -185,7 +185,7 @@ TEST_F(HealthBarTest, SaysWhyAndEachLineLeadsToItsPackets) {
     ASSERT_FALSE(lines.empty());
     EXPECT_TRUE(lines.first()->text().contains(QStringLiteral("lost"), Qt::CaseInsensitive))
         << lines.first()->text().toStdString();
-    QTest::keyClick(lines.first(), Qt::Key_Return);
+    QTest::keyClick(lines.first(), Qt::Key_Space);
     ASSERT_TRUE(m_stage.session.choices().selection.packet.has_value());
     EXPECT_EQ(m_stage.session.accounts().digests().find(*m_stage.session.choices().selection.packet)->gap,
               3U);
@@ -218,12 +218,12 @@ TEST_F(HealthBarTest, ShowsTheWorstFirstAndAllInAList) {
     m_bar.show();
     m_bar.refresh({});
     const int width = m_bar.firstEntry()->width();
-    QTest::keyClick(m_bar.firstEntry(), Qt::Key_Return);
+    QTest::keyClick(m_bar.firstEntry(), Qt::Key_Space);
     EXPECT_EQ(m_stage.session.choices().selection.character, m_stage.key(17));
     m_bar.findChild<QWidget*>("healthPopup")->close();
     auto* more = m_bar.findChild<QAbstractButton*>("more");
     ASSERT_TRUE(more->isVisible());
-    QTest::keyClick(more, Qt::Key_Return);
+    QTest::keyClick(more, Qt::Key_Space);
     auto* list = m_bar.findChild<QWidget*>("healthList");
     ASSERT_NE(list, nullptr);
     auto* table = list->findChild<QAbstractItemView*>();

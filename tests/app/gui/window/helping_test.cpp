@@ -4,8 +4,10 @@
 #include "app/gui/theme/help_link.h"
 #include "app/gui/theme/widgets.h"
 #include "app/gui/viewport/viewport_overlay.h"
+#include "app/gui/window/docks.h"
+#include "app/gui/window/guide.h"
 #include "app/gui/window/main_window.h"
-#include "app/gui/window/recording_dialog.h"
+#include "app/gui/window/recording_dialogs.h"
 #include "core/log/clock.h"
 
 #include <QAbstractSpinBox>
@@ -99,7 +101,7 @@ TEST_F(HelpingTest, F1OpensThePageOfThePartThatHasTheKeyboard) {
     QAction* here = window.findChild<QAction*>("helpHere");
     EXPECT_EQ(here->shortcut(), QKeySequence("F1"));
     for (const char* name : {"packets", "characters", "statistics"}) {
-        window.showDock(name);
+        window.docks().show(name);
         auto* dock = window.findChild<QDockWidget*>(name);
         focus(*dock->titleBarWidget()->findChild<QToolButton*>("helpButton"));
         here->trigger();
@@ -129,16 +131,16 @@ TEST_F(HelpingTest, TheMenuOpensTheGuideItsCausesAndItsShortcuts) {
 TEST_F(HelpingTest, TheFirstStepsAreOfferedOnce) {
     auto* about = window.findChild<QToolButton*>("messageHelp");
     window.say("trouble", HelpTopic::SettingsUnusable);
-    window.offerFirstSteps();
+    window.guide().offerFirstSteps();
     about->click();
     EXPECT_EQ(place(), placeOf(HelpTopic::SettingsUnusable)) << "the offer waits for the next start";
     window.say({});
-    window.offerFirstSteps();
+    window.guide().offerFirstSteps();
     about->click();
     EXPECT_EQ(place(), "index#first-steps");
     EXPECT_TRUE(parseSettings(jsonOf(window.settings()))->isGuideOffered) << "the next run knows";
     window.say({});
-    window.offerFirstSteps();
+    window.guide().offerFirstSteps();
     EXPECT_TRUE(about->isHidden());
 }
 

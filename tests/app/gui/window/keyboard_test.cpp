@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/window/keyboard.h"
 
 #include "app/gui/panels/filter_bar.h"
+#include "app/gui/theme/widgets.h"
 #include "app/gui/window/command_palette.h"
+#include "app/gui/window/docks.h"
 #include "app/gui/window/main_window.h"
 #include "core/log/clock.h"
 
@@ -58,7 +59,8 @@ TEST_F(KeyboardTest, SpaceAndEnterPressTheButtonThatHasTheFocusAndDoNotPause) {
         QPushButton push(&m_window);
         QToolButton tool(&m_window);
         QCheckBox box(&m_window);
-        for (QAbstractButton* button : std::initializer_list<QAbstractButton*>{&push, &tool, &box}) {
+        ColourText entry(ColourText::Look::Plain, &m_window);
+        for (QAbstractButton* button : std::initializer_list<QAbstractButton*>{&push, &tool, &box, &entry}) {
             int presses = 0;
             QObject::connect(button, &QAbstractButton::clicked, &m_window, [&] { ++presses; });
             button->show();
@@ -116,10 +118,10 @@ TEST_F(KeyboardTest, GoesAlongWithADockThatIsShownOverTheOneThatHadIt) {
     ASSERT_NE(command("Faults"), nullptr);
     command("Faults")->action->trigger();
     EXPECT_TRUE(isIn("faults")) << "asked for by its name";
-    m_window.showDock(QStringLiteral("packets"));
+    m_window.docks().show(QStringLiteral("packets"));
     EXPECT_TRUE(isIn("packets")) << "else keys would go to a dock that nobody sees";
     m_window.viewport().setFocus();
-    m_window.showDock(QStringLiteral("events"));
+    m_window.docks().show(QStringLiteral("events"));
     EXPECT_EQ(m_window.focusWidget(), &m_window.viewport()) << "which is seen as before";
 }
 

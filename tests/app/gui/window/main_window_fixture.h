@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/gui/window/docks.h"
 #include "app/gui/window/main_window.h"
 
 #include <QAction>

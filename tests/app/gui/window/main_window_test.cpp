@@ -7,8 +7,6 @@
 #include "app/gui/panels/table_view.h"
 #include "app/gui/theme/theme.h"
 #include "app/gui/theme/widgets.h"
-#include "app/gui/window/colour_text.h"
-#include "app/gui/window/docks.h"
 #include "app/gui/window/health_bar.h"
 #include "app/gui/window/menus.h"
 #include "app/gui/window/transport_bar.h"
@@ -157,7 +155,7 @@ TEST_F(MainWindowTest, DockAllBringsFloatingDocksBack) {
     const auto window = makeWindow();
     dock(*window, "statistics")->setFloating(true);
     dock(*window, "statistics")->move(-5000, -5000);
-    window->dockAll();
+    window->docks().dockAll();
     EXPECT_FALSE(dock(*window, "statistics")->isFloating());
 }
 
@@ -165,7 +163,7 @@ TEST_F(MainWindowTest, ResetLayoutOpensWhatWasClosedAndDocksWhatFloats) {
     const auto window = makeWindow();
     dock(*window, "characters")->close();
     dock(*window, "trackers")->setFloating(true);
-    window->resetLayout();
+    action(*window, "resetLayout")->trigger();
     EXPECT_FALSE(dock(*window, "characters")->isHidden());
     EXPECT_FALSE(dock(*window, "trackers")->isFloating());
 }
@@ -478,7 +476,7 @@ TEST_F(MainWindowTest, ADockThatTheLayoutDoesNotPlaceComesAsATabAndCoversNoOther
     window->useLayout(QStringLiteral("Check"));
     QTest::qWait(1);
     for (const char* name : {"packets", "statistics", "metadata"}) {
-        window->showDock(QLatin1String(name));
+        window->docks().show(QLatin1String(name));
         QTest::qWait(1);
         const QRect opened = dock(*window, name)->geometry();
         EXPECT_TRUE(window->rect().contains(opened)) << name;
@@ -526,10 +524,10 @@ TEST_F(MainWindowTest, RefreshesDocksInSightAlsoWhereTheirContentCoversThem) {
     window->useLayout("Debug");
     QTest::qWait(1);
     const auto isRefreshed = [&](const char* name) {
-        auto* title = dock(*window, name)->findChild<DockTitle*>();
-        title->setSummary("of the last tick");
+        auto* summary = dock(*window, name)->titleBarWidget()->findChild<ElidedLabel*>();
+        summary->setText({}, "of the last tick");
         emit driver.tableTick();
-        return title->findChild<ElidedLabel*>()->text() != "of the last tick";
+        return summary->text() != "of the last tick";
     };
     auto* panel = dock(*window, "characters")->findChild<Panel*>();
     auto* cover = new QWidget(panel);

@@ -5,6 +5,7 @@
 #include "app/gui/panels/table_view.h"
 #include "app/gui/panels/timecode_panel.h"
 #include "app/gui/theme/widgets.h"
+#include "app/gui/window/docks.h"
 #include "app/gui/window/main_window.h"
 #include "app/net/datagram_sender.h"
 #include "core/performer/performer.h"
@@ -91,7 +92,7 @@ protected:
 
 TEST_F(PagesTest, TheClockOnTheFullScreenRunsWhileItsDockIsClosed) {
     receive(0, 2);
-    m_window.showDock("timecode");
+    m_window.docks().show("timecode");
     auto* panel = shownPart<TimecodePanel>("timecode");
     panel->setFullScreen(true);
     emit m_driver.tableTick();
@@ -104,7 +105,7 @@ TEST_F(PagesTest, TheClockOnTheFullScreenRunsWhileItsDockIsClosed) {
 
 TEST_F(PagesTest, TheClockOnTheFullScreenShowsWhatIsLiveWhileAFileIsShown) {
     receive(0, 2);
-    m_window.showDock("timecode");
+    m_window.docks().show("timecode");
     auto* panel = shownPart<TimecodePanel>("timecode");
     panel->setFullScreen(true);
     openFile();
@@ -158,7 +159,7 @@ TEST_F(PagesTest, EndGoesBackToLiveFromEveryList) {
          {std::pair<const char*, QWidget*>{"packets", shownPart<PacketView>("packets")},
           {"events", shownPart<TableView>("events")},
           {"faults", shownPart<TableView>("faults")}}) {
-        m_window.showDock(name);
+        m_window.docks().show(name);
         list->setFocus();
         m_driver.playback().setPaused(true);
         QTest::keyClick(list, Qt::Key_End);

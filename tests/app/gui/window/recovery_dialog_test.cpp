@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/window/recovery_dialog.h"
+#include "app/gui/window/recording_dialogs.h"
 
 #include "app/gui/driver/session_driver.h"
 #include "core/log/recording.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/window/replay_dialog.h"
+#include "app/gui/window/recording_dialogs.h"
 
 #include "tests/app/net/net_fixture.h"
 

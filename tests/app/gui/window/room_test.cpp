@@ -2,6 +2,7 @@
 // Every layout in the least room: 1920 × 1080 at 200 %.
 #include "app/gui/base/dock_layout.h"
 #include "app/gui/panels/table_view.h"
+#include "app/gui/window/docks.h"
 #include "app/gui/window/main_window.h"
 #include "app/net/datagram_sender.h"
 #include "core/model/session/roster.h"
@@ -151,7 +152,7 @@ TEST_F(RoomTest, EveryDockShowsItsTitleAndItsFirstRowsAt1280By720) {
         QTest::qWait(20);
         for (auto* dock : m_window.findChildren<QDockWidget*>(Qt::FindDirectChildrenOnly)) {
             SCOPED_TRACE((layout + ' ' + dock->objectName()).toStdString());
-            m_window.showDock(dock->objectName());
+            m_window.docks().show(dock->objectName());
             QTest::qWait(5);
             m_driver.tick();
             emit m_driver.tableTick();

@@ -18,14 +18,10 @@ protected:
     Stage m_stage;
     QObject m_actions;
     QMenu m_speeds;
-    TransportBar m_bar{
-        m_stage.session,
-        {named("record"),
-         named("pause"),
-         named("live"),
-         named("inputs"),
-         named("relay"),
-         {named("back"), named("on"), named("playBack"), named("play"), named("loop"), &m_speeds}}};
+    TransportBar m_bar{m_stage.session,
+                       {named("record"), named("pause"), named("live"), named("inputs"), named("relay"),
+                        named("back"), named("on"), named("playBack"), named("play"), named("loop"),
+                        &m_speeds}};
 };
 
 TEST_F(TransportBarTest, TheClockGoesOnWhenTheFirstCharacterFallsSilent) {

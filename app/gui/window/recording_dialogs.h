@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/gui/base/commands.h"
+#include "app/gui/base/settings.h"
+#include "app/gui/driver/replaying.h"
+
+#include <QDialog>
+
+#include <future>
+
+class QCheckBox;
+class QComboBox;
+class QDoubleSpinBox;
+class QFormLayout;
+class QLabel;
+class QLineEdit;
+class QPushButton;
+class QSpinBox;
+class QTimer;
+class QTreeWidget;
+
+namespace posewire::gui {
+
+class History;
+class RangeBox;
+
+class RecordingDialog final : public QDialog {
+    Q_OBJECT
+
+public:
+    RecordingDialog(const RecordingChoice& choice, QWidget* parent);
+
+    [[nodiscard]] RecordingChoice choice() const;
+
+private:
+    QSpinBox* addNumber(QFormLayout& form, const QString& label, const QString& unit, const QString& none,
+                        int value, int most);
+    void chooseFolder();
+    void check();
+
+    QLineEdit* m_folder;
+    QLineEdit* m_pattern;
+    QSpinBox* m_preRoll;
+    QSpinBox* m_megabytes;
+    QSpinBox* m_minutes;
+    QSpinBox* m_free;
+    QLabel* m_next;
+    QPushButton* m_ok;
+};
+
+/// What was received until Posewire was killed, the power failed or the like: files of the history on disk
+/// that nobody has saved, to be opened, saved or discarded.
+class RecoveryDialog final : public QDialog {
+    Q_OBJECT
+
+public:
+    RecoveryDialog(History& history, QWidget* parent);
+
+    [[nodiscard]] bool isEmpty() const;
+    /// Copies the selected file, on a thread of its own.
+    void save(const QString& path);
+
+    void done(int result) override;
+
+signals:
+    void openRequested(const QString& path);
+    /// It is closed, and saves nothing any more: what it was still saving then is at its end, as `text` says.
+    void over(const QString& text);
+
+private:
+    void fill();
+    [[nodiscard]] QString selected() const;
+    void open();
+    void askWhereToSave();
+    void discard();
+    void watchSaving();
+    void showState(const QString& message);
+
+    History& m_history;
+    QTreeWidget* m_list;
+    QPushButton* m_open;
+    QPushButton* m_save;
+    QPushButton* m_discard;
+    QLabel* m_message;
+    QTimer* m_watch;
+    QString m_target;
+    std::future<QString> m_saving; ///< with what went wrong
+};
+
+/// Sends what is shown to the network again: where to, what of it and how fast; and how that goes.
+class ReplayDialog final : public QDialog {
+    Q_OBJECT
+
+public:
+    ReplayDialog(Replaying& replaying, const Commands& commands, QWidget* parent);
+
+    /// What the button does: begins, or ends what runs.
+    void toggle();
+
+private:
+    void begin();
+    void refresh();
+
+    Replaying& m_replaying;
+    const Commands& m_commands; ///< what is shown
+    QLineEdit* m_target;
+    QComboBox* m_transport;
+    RangeBox* m_range;
+    QDoubleSpinBox* m_speed;
+    QCheckBox* m_loop;
+    QLabel* m_state;
+    QPushButton* m_button;
+    QString m_problem; ///< why it did not begin
+};
+
+/// "Sending to 10.0.0.7:9763: 43 %, 5 883 datagrams", and what went wrong.
+[[nodiscard]] QString replayText(const net::Replay& replay);
+
+} // namespace posewire::gui
