@@ -3,7 +3,7 @@
 
 #include "app/cli/input_output.h"
 #include "app/usage/command_line.h"
-#include "core/log/file_contents.h"
+#include "core/log/byte_io.h"
 
 #include <functional>
 #include <string>

@@ -7,7 +7,6 @@
 #include "app/usage/usage.h"
 #include "core/export/motion/motion_export.h"
 #include "core/log/byte_io.h"
-#include "core/log/file_contents.h"
 #include "core/log/file_names.h"
 #include "core/log/packet_log.h"
 #include "core/log/pcapng_writer.h"

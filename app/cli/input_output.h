@@ -2,7 +2,6 @@
 #pragma once
 
 #include "core/log/byte_io.h"
-#include "core/log/file_contents.h"
 #include "core/log/output_file.h"
 
 #include <cstdint>

@@ -7,7 +7,6 @@
 #include "app/system/interruption.h"
 #include "app/system/standard_streams.h"
 #include "core/export/reports.h"
-#include "core/export/verdict_json.h"
 #include "core/log/packet_log.h"
 #include "core/log/recording.h"
 #include "core/log/time.h"

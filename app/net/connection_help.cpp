@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/net/connection_help.h"
 
-#include "core/log/ip_address.h"
+#include "core/log/ip_packet.h"
 #include "core/model/text.h"
 #include "core/wire/text.h"
 

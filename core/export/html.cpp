@@ -2,7 +2,6 @@
 #include "core/export/html.h"
 
 #include "core/model/foreign_text.h"
-#include "core/model/text.h"
 
 #include <algorithm>
 #include <array>
@@ -161,10 +160,6 @@ std::string legend(const SvgPlot& plot) {
 
 std::string escaped(std::string_view text) {
     return model::htmlText(model::visibleText(text));
-}
-
-std::string grouped(std::uint64_t number) {
-    return model::grouped(number);
 }
 
 std::string fixed(double number, int places) {

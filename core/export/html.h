@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/model/text.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -15,8 +17,7 @@ namespace posewire::exporting {
 /// is a ForeignText has html(), which is clipped.
 [[nodiscard]] std::string escaped(std::string_view text);
 
-/// A number as people read it: "12,345".
-[[nodiscard]] std::string grouped(std::uint64_t number);
+using model::grouped;
 /// With `places` digits after the point; a dash where it is not finite.
 [[nodiscard]] std::string fixed(double number, int places);
 

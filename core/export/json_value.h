@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <concepts>
 #include <cstdint>
 #include <initializer_list>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -48,5 +50,13 @@ private:
     std::variant<std::monostate, bool, std::int64_t, std::uint64_t, double, std::string, List, Object>
         m_value;
 };
+
+/// What `toJson` makes of each item.
+template <class Item, class ToJson>
+JsonValue listOf(const std::vector<Item>& items, ToJson toJson) {
+    JsonValue::List list;
+    std::ranges::transform(items, std::back_inserter(list), toJson);
+    return list;
+}
 
 } // namespace posewire::exporting

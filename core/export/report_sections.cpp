@@ -2,7 +2,7 @@
 #include "core/export/report_sections.h"
 
 #include "core/export/html.h"
-#include "core/export/session_reading.h"
+#include "core/export/reports.h"
 #include "core/model/accounting/attribution.h"
 #include "core/model/accounting/count_history.h"
 #include "core/model/session/accounts.h"
@@ -69,7 +69,7 @@ Series seriesOf(std::span<const model::Stream* const> streams, const ReportSteps
             sum += counts;
             most = std::max(most, counts.samples);
             if (counts.samples != 0) {
-                jitterMs = std::fmax(jitterMs, accounting.jitterMsAt(startOf(steps, step + 1)));
+                jitterMs = std::fmax(jitterMs, accounting.history().jitterMsAt(startOf(steps, step + 1)));
             }
         }
         series.rate.push_back(rateOf(most, steps, step));

@@ -57,13 +57,6 @@ std::string secondsText(log::WallTime wall) {
            std::string(9 - decimals.size(), '0') + decimals;
 }
 
-template <class Item, class ToJson>
-JsonValue listOf(const std::vector<Item>& items, ToJson toJson) {
-    JsonValue::List list;
-    std::ranges::transform(items, std::back_inserter(list), toJson);
-    return list;
-}
-
 /// "1 2 4".
 template <class ToText>
 std::string joined(const std::vector<std::uint8_t>& values, ToText&& toText) {

@@ -3,7 +3,6 @@
 
 #include "core/export/html.h"
 #include "core/export/report_sections.h"
-#include "core/export/session_reading.h"
 #include "core/model/session/accounts.h"
 #include "core/model/session/losses.h"
 #include "core/model/session/roster.h"

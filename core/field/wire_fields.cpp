@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "core/field/field.h"
-
-#include "core/field/item_segment.h"
+#include "core/model/body/character_pose.h"
+#include "core/model/body/points.h"
+#include "core/model/body/segments.h"
 #include "core/wire/form.h"
+#include "core/wire/layouts.h"
+#include "core/wire/text.h"
 #include "core/wire/type_table.h"
 
 #include <algorithm>
@@ -64,6 +67,107 @@ Value readCount(const Datagram& datagram, std::size_t, std::size_t) {
 template <class T, auto List, auto Member>
 Value readListed(const Datagram& datagram, std::size_t item, std::size_t component) {
     return valueOf((bodyOf<T>(datagram).*List)[item].*Member, component);
+}
+
+constexpr model::SegmentLayout kAll{model::kBodySegmentCount, model::kMaxPropCount,
+                                    model::kFingerSegmentCount};
+
+int numberAt(const model::SegmentPlace& place) {
+    constexpr std::array<int, 4> kBefore{0, kAll.body, kAll.body + kAll.props,
+                                         kAll.body + kAll.props + model::kHandSegmentCount};
+    return kBefore[static_cast<std::size_t>(place.kind)] + place.index + 1;
+}
+
+/// The numbers of an item that have to do with segments.
+struct ItemIds {
+    std::optional<std::uint32_t> segment{}; ///< as on the wire; of a joint that of its child
+    std::optional<std::uint32_t> point{};
+    std::optional<std::string_view> name{}; ///< of an item without a number
+    bool isUnityOrder = false;
+    bool isJoint = false;
+};
+
+template <Form F, class Item>
+ItemIds idsOf(const Item& item) {
+    ItemIds ids;
+    wire::forEachField<Item, F>([&]<class FieldType>(const FieldType& field) {
+        using enum wire::RefersTo;
+        using Member = wire::MemberValue<FieldType::kMember>;
+        if constexpr (std::is_unsigned_v<Member>) {
+            const std::uint32_t id = item.*FieldType::kMember;
+            switch (field.about.refersTo) {
+            case UnitySegment:
+                ids.isUnityOrder = true;
+                [[fallthrough]];
+            case Segment:
+            case Tracker:
+            case Prop:
+                ids.segment = id;
+                break;
+            case JointEnd:
+                ids.segment = id >> 8;
+                ids.isJoint = true;
+                break;
+            case Point:
+                ids.point = id;
+                break;
+            default:
+                break;
+            }
+        } else if constexpr (std::is_same_v<Member, std::string>) {
+            ids.name = item.*FieldType::kMember;
+        }
+    });
+    return ids;
+}
+
+/// Points are numbered 256 × segment + point, in revision E 100 × segment + point. The few ids that could be
+/// either are taken as the first point of the datagram is.
+double pointSegment(std::uint32_t id, std::uint32_t firstId) {
+    using enum model::PointIdCoding;
+    const auto by256 = model::knownPoint(By256, id);
+    const auto by100 = model::knownPoint(By100, id);
+    const bool isOld = by256 && by100 ? !model::knownPoint(By256, firstId) : by100.has_value();
+    return isOld ? by100->segmentId : id >> 8;
+}
+
+/// The number that a name means (see segmentNumber), since the ids of props and fingers differ between
+/// revisions; 0 where the item has no name. `item`: its place in the datagram.
+double namedSegment(const ItemIds& ids, const model::ItemPlaces& places, std::size_t item) {
+    if (!ids.segment) {
+        return ids.name ? segmentNumber(*ids.name).value_or(0) : 0;
+    }
+    const std::uint32_t id = *ids.segment;
+    const bool isOfBody = id >= 1 && id <= model::kBodySegmentCount;
+    if (ids.isUnityOrder) {
+        return isOfBody ? model::unityOrder()[id - 1] + 1 : 0;
+    }
+    if (ids.isJoint) {
+        return isOfBody ? id : 0;
+    }
+    const int position = places.positionOf(item, id);
+    const auto at = model::placeOf(isOfBody ? model::SegmentLayout() : places.layout, position);
+    return at ? numberAt(*at) : 0;
+}
+
+/// The wire's own number; items without one count from 1.
+template <Form F, class Item>
+double segmentNumberOf(const std::vector<Item>& items, std::size_t item) {
+    const ItemIds ids = idsOf<F>(items[item]);
+    if (ids.point) {
+        return pointSegment(*ids.point, *idsOf<F>(items.front()).point);
+    }
+    return ids.segment ? *ids.segment : static_cast<double>(item + 1);
+}
+
+template <Form F, class Item>
+double namedSegment(const wire::Header& header, const std::vector<Item>& items, std::size_t item) {
+    const ItemIds ids = idsOf<F>(items[item]);
+    if (ids.point) {
+        return segmentNumberOf<F>(items, item);
+    }
+    const auto places = model::itemPlaces(header, items.size(), idsOf<F>(items.front()).segment);
+    return namedSegment(ids, places, item);
 }
 
 template <class T, Form ItemForm, auto List>
@@ -269,6 +373,20 @@ const Found& walked() {
     return found;
 }
 
+/// In any case, and with spaces or without.
+bool isSpelled(std::string_view known, std::string_view name) {
+    for (const char letter : name) {
+        if (letter == ' ') {
+            continue;
+        }
+        if (known.empty() || wire::lower(known.front()) != wire::lower(letter)) {
+            return false;
+        }
+        known.remove_prefix(1);
+    }
+    return known.empty();
+}
+
 } // namespace
 
 std::size_t shapeOf(const Datagram& datagram) {
@@ -294,6 +412,25 @@ std::vector<FieldInfo> wireFields() {
         field.text = together(draft, [](const wire::About& about) { return about.text; });
     }
     return fields;
+}
+
+std::span<const std::string_view> segmentNames() {
+    static const auto names = [] {
+        std::array<std::string_view, model::kMaxSegmentCount> all;
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            all[i] = model::segmentName(kAll, static_cast<int>(i));
+        }
+        return all;
+    }();
+    return names;
+}
+
+std::optional<double> segmentNumber(std::string_view name) {
+    const auto names = segmentNames();
+    const auto found =
+        std::ranges::find_if(names, [&](std::string_view known) { return isSpelled(known, name); });
+    return found == names.end() ? std::nullopt
+                                : std::optional(static_cast<double>(found - names.begin() + 1));
 }
 
 } // namespace posewire::field

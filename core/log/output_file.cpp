@@ -9,7 +9,6 @@
 #include <filesystem>
 #include <optional>
 #include <system_error>
-#include <vector>
 
 namespace posewire::log {
 namespace {

@@ -6,7 +6,6 @@
 #include "core/log/time.h"
 
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <span>
 #include <string>

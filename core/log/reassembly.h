@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/log/file_contents.h"
+#include "core/log/byte_io.h"
 #include "core/log/ip_packet.h"
 #include "core/log/recording_file.h"
 #include "core/log/tcp_framer.h"

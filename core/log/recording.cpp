@@ -5,7 +5,6 @@
 #include "core/log/packet_log.h"
 
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 #include <system_error>
 #include <utility>

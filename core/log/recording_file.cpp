@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/log/recording_file.h"
 
-#include "core/log/pcapng_writer.h"
 #include "core/log/reassembly.h"
 #include "core/log/tcp_framer.h"
 #include "core/wire/byte_order.h"

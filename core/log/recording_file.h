@@ -2,7 +2,6 @@
 #pragma once
 
 #include "core/log/byte_io.h"
-#include "core/log/file_contents.h"
 #include "core/log/packet.h"
 #include "core/log/pcapng_writer.h"
 #include "core/log/time.h"

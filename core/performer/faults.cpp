@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/performer/faults.h"
 
-#include "core/performer/datagram_damage.h"
 #include "core/wire/byte_order.h"
 #include "core/wire/codec.h"
 #include "core/wire/type_table.h"
@@ -127,41 +126,10 @@ std::optional<std::string> findProblem(const FaultSettings& settings) {
     return std::nullopt;
 }
 
-LossPattern::LossPattern(const FaultSettings& settings, const KeyedRandom& random)
-    : m_random(random),
-      m_burstChance(burstChance(settings.drop, settings.burst)),
-      m_burst(settings.burst),
-      m_model(settings.gilbertElliott) {}
-
-bool LossPattern::loses() {
-    ++m_asked;
-    if (m_model) {
-        return losesByState();
-    }
-    if (m_leftOfBurst == 0 && m_random.uniform(m_asked) < m_burstChance) {
-        m_leftOfBurst = m_burst;
-    }
-    if (m_leftOfBurst == 0) {
-        return false;
-    }
-    --m_leftOfBurst;
-    return true;
-}
-
-bool LossPattern::losesByState() {
-    const double change = m_isBad ? m_model->toGood : m_model->toBad;
-    if (m_random.uniform(2 * m_asked) < change) {
-        m_isBad = !m_isBad;
-    }
-    const double passes = m_isBad ? m_model->passesInBad : m_model->passesInGood;
-    return m_random.uniform(2 * m_asked + 1) >= passes;
-}
-
 Faults::Faults(const FaultSettings& settings)
     : m_settings(settings),
       m_random(KeyedRandom(settings.seed).fork(0xfa17)),
       m_quiet(quietTimes(settings)),
-      m_loss(settings, m_random.fork(Loss)),
       m_delivery(log::Duration(static_cast<std::int64_t>(1e9 / settings.rateHz)), m_quiet,
                  !settings.isRecorded) {}
 
@@ -222,7 +190,7 @@ void Faults::offer(std::vector<std::byte> datagram, log::Duration due) {
 
 void Faults::send(Sending sending) {
     if (!m_settings.splits) {
-        deliver(std::move(sending), ++m_datagrams);
+        deliver(std::move(sending));
         return;
     }
     // A sample that is sent again after a short restart has the same parts again.
@@ -230,7 +198,7 @@ void Faults::send(Sending sending) {
     const KeyedRandom random = m_random.fork(Parts).fork(256U * origin.type + origin.character);
     const std::size_t parts = 2 + random.bits(origin.sample) % 3;
     for (auto& part : splitSample(sending.bytes, parts)) {
-        deliver({std::move(part), sending.due, sending.origin, sending.isReadable}, ++m_datagrams);
+        deliver({std::move(part), sending.due, sending.origin, sending.isReadable});
     }
 }
 
@@ -261,11 +229,29 @@ double Faults::holdMs(std::uint64_t key) const {
     return std::min(time.uniform(key, 110.0, 200.0) * periodMs, 3000.0);
 }
 
-void Faults::deliver(Sending sending, std::uint64_t key) {
-    ++m_tally.offered;
+bool Faults::loses(std::uint64_t key) {
+    const KeyedRandom random = m_random.fork(Loss);
+    if (const auto& model = m_settings.gilbertElliott) {
+        if (random.uniform(2 * key) < (m_isBad ? model->toGood : model->toBad)) {
+            m_isBad = !m_isBad;
+        }
+        return random.uniform(2 * key + 1) >= (m_isBad ? model->passesInBad : model->passesInGood);
+    }
+    if (m_leftOfBurst == 0 && random.uniform(key) < burstChance(m_settings.drop, m_settings.burst)) {
+        m_leftOfBurst = m_settings.burst;
+    }
+    if (m_leftOfBurst == 0) {
+        return false;
+    }
+    --m_leftOfBurst;
+    return true;
+}
+
+void Faults::deliver(Sending sending) {
+    const std::uint64_t key = ++m_tally.offered;
     const log::Duration passed = sending.due;
     const bool isQuiet = m_quiet.contains(passed);
-    if (const bool loses = m_loss.loses(); loses && !isQuiet) {
+    if (const bool isLost = loses(key); isLost && !isQuiet) {
         ++m_tally.dropped;
         m_delivery.notePassed(passed);
         return;

@@ -62,26 +62,6 @@ struct FaultSettings {
 /// What is wrong with the settings, as one sentence; empty when Faults can be made of them.
 std::optional<std::string> findProblem(const FaultSettings& settings);
 
-/// Which datagrams of one sender a network loses: single ones, bursts, or after Gilbert and Elliott.
-class LossPattern {
-public:
-    LossPattern(const FaultSettings& settings, const KeyedRandom& random);
-
-    /// Whether the next datagram is lost. Call it once for each, in order.
-    bool loses();
-
-private:
-    bool losesByState();
-
-    KeyedRandom m_random;
-    double m_burstChance; ///< of a burst to begin
-    int m_burst;
-    int m_leftOfBurst = 0;
-    std::optional<GilbertElliott> m_model;
-    bool m_isBad = false;
-    std::uint64_t m_asked = 0;
-};
-
 /// What was done to the datagrams of one sender.
 struct FaultTally {
     std::uint64_t offered = 0;    ///< after division into parts
@@ -120,7 +100,9 @@ private:
     void restartAt(log::Duration due, Sending& sending);
     void send(Sending sending);
     void damage(Sending& sending, std::uint64_t key);
-    void deliver(Sending sending, std::uint64_t key);
+    /// Whether the next datagram is lost: single ones, bursts, or after Gilbert and Elliott.
+    bool loses(std::uint64_t key);
+    void deliver(Sending sending);
     void sendCopy(const Sending& sending, std::uint64_t key);
     [[nodiscard]] double holdMs(std::uint64_t key) const;
     [[nodiscard]] bool happens(double probability, const KeyedRandom& random, std::uint64_t key) const {
@@ -130,13 +112,13 @@ private:
     FaultSettings m_settings;
     KeyedRandom m_random;
     QuietTimes m_quiet;
-    LossPattern m_loss;
     Delivery m_delivery;
     std::vector<Sending> m_ready;
     std::optional<std::uint32_t> m_reductionSample; ///< first one of the reduced rate
     std::uint32_t m_shift = 0;                      ///< off every counter, since the restart
     std::uint32_t m_epoch = 0;
-    std::uint64_t m_datagrams = 0;
+    int m_leftOfBurst = 0;
+    bool m_isBad = false; ///< state of the GilbertElliott model
     FaultTally m_tally;
 };
 

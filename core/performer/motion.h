@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/performer/body_pose.h"
+#include "core/performer/kinematics.h"
 
 #include <cstdint>
 #include <limits>

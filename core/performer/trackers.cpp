@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/performer/trackers.h"
 
-#include "core/performer/body_pose.h"
-
 #include <cmath>
 #include <numbers>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/performer/body_pose.h"
 #include "core/performer/curves.h"
+#include "core/performer/kinematics.h"
 
 #include <array>
 #include <vector>

@@ -4,7 +4,6 @@
 #include "core/model/text.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace posewire::words {
 

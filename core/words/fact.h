@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/words/kinds.h"
-
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -14,6 +12,124 @@
 /// What happened, as kind and values: everybody decides by these, and only the table of words makes text of
 /// them.
 namespace posewire::words {
+
+/// What can be said: a row each in the table of words.
+enum class Kind : std::uint8_t {
+    Nothing,
+    Text,
+    Samples,
+    Messages,
+    Datagrams,
+    Packets,
+    Gaps,
+    Streams,
+    Characters,
+    Share,
+    Types,
+    OfSender,
+    Port,
+    Lost,
+    Incomplete,
+    CauseThisComputer,
+    CauseNetwork,
+    CauseSender,
+    CauseUnknown,
+    // When something happened.
+    Since,
+    ToTheEnd,
+    At,
+    FromTo,
+    Dated,
+    // Incidents.
+    SenderStarted,
+    Loss,
+    LostHere,
+    Outage,
+    Reordered,
+    Duplicated,
+    Malformed,
+    NotMxtp,
+    Restarted,
+    OtherPort,
+    StepChanged,
+    StepIrregular,
+    RateChanged,
+    TypesEnded,
+    TimeCodeJumped,
+    TimeCodeFrozen,
+    TimeCodeWasFrozen,
+    TwoSenders,
+    Contradiction,
+    SendsCounts,
+    SendsNoCounts,
+    SendsTypeSinceJ,
+    CountsComeAndGo,
+    ReadInOtherUnit,
+    UnitChanged,
+    MetadataChanged,
+    NullPoseChanged,
+    Overtaken,
+    RelayStopped,
+    RecordingEnded,
+    ClockSet,
+    LossLimit,
+    JitterLimit,
+    GapLimit,
+    AgeLimit,
+    RateLimit,
+    NotYetHere,
+    TypesMissing,
+    // What a loss rests on.
+    NoLongerListed,
+    WaitingForLate,
+    NoEvidence,
+    DroppedHere,
+    NotListening,
+    OvertakenBetween,
+    SampleDamaged,
+    PartNextToGap,
+    PartOfSample,
+    PartOfMessage,
+    AsStreamBegan,
+    OtherStream,
+    NotSentByTcp,
+    CutOff,
+    Paused,
+    SenderPaused,
+    // Verdicts.
+    NoDataYet,
+    NoPoseYet,
+    Good,
+    NotGood,
+    NotQuiteGood,
+    Over,
+    GoingOn,
+    Behind,
+    NoPose,
+    PoseDoubt,
+    // Poses that were not sent as they are shown.
+    OrientationsFitted,
+    PositionsFitted,
+    BodyFitted,
+    NoPositions,
+    NoOrientations,
+    SegmentsSolved,
+    SegmentsAssumed,
+    TurnsAssumed,
+    LongerThanScale,
+    ShorterThanScale,
+    BonesMeasured,
+    ReferenceBody,
+    PlacedOnFloor,
+    SentBelowFloor,
+    TrackedObjects,
+    Objects,
+    PartlyAssumed,
+    PartlySolved,
+    WrongScale,
+    AssumedBody,
+};
+inline constexpr std::size_t kKinds = 108;
 
 /// A number with so many decimals; `isTrimmed`: without zeros at its end, as somebody set a limit.
 struct Number {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "core/export/comparison/alignment.h"
-#include "core/export/comparison/character_pairs.h"
 #include "core/export/comparison/pose_comparison.h"
 
 #include <QString>

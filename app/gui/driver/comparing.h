@@ -5,7 +5,7 @@
 #include "app/gui/base/commands.h"
 #include "app/gui/base/comparison.h"
 #include "app/gui/driver/opened_file.h"
-#include "core/export/comparison/comparison_csv.h"
+#include "core/export/comparison/pose_comparison.h"
 
 #include <QObject>
 

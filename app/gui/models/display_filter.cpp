@@ -6,7 +6,7 @@
 #include "app/gui/models/shown_character.h"
 #include "app/gui/theme/words.h"
 #include "core/filter/completion.h"
-#include "core/model/accounting/gap.h"
+#include "core/model/accounting/attribution.h"
 #include "core/model/incidents/thresholds.h"
 #include "core/model/session/accounts.h"
 #include "core/model/session/roster.h"

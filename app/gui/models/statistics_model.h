@@ -3,7 +3,7 @@
 
 #include "app/gui/models/stream_tree_model.h"
 #include "core/log/time.h"
-#include "core/model/accounting/range_figures.h"
+#include "core/model/accounting/stream_figures.h"
 #include "core/model/session/losses.h"
 
 #include <QList>

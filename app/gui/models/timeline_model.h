@@ -3,7 +3,7 @@
 
 #include "app/gui/models/shown_character.h"
 #include "app/gui/theme/character_mark.h"
-#include "core/model/accounting/range_figures.h"
+#include "core/model/accounting/stream_figures.h"
 #include "core/model/session/losses.h"
 #include "core/model/session/session_view.h"
 

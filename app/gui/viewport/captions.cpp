@@ -6,7 +6,7 @@
 #include "app/gui/models/text.h"
 #include "app/gui/theme/words.h"
 #include "app/net/connection_help.h"
-#include "core/log/ip_address.h"
+#include "core/log/ip_packet.h"
 #include "core/model/body/character_pose.h"
 #include "core/model/session/messages.h"
 #include "core/model/session/roster.h"

@@ -3,8 +3,8 @@
 
 #include "app/gui/models/text.h"
 #include "app/gui/theme/theme.h"
-#include "core/model/body/ground_contact.h"
 #include "core/model/body/points.h"
+#include "core/model/body/pose_solver.h"
 #include "core/model/session/messages.h"
 
 #include <algorithm>

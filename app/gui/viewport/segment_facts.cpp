@@ -5,7 +5,7 @@
 #include "app/gui/models/text.h"
 #include "app/gui/theme/words.h"
 #include "core/model/body/joint_angles.h"
-#include "core/model/body/source_text.h"
+#include "core/model/body/provenance.h"
 #include "core/model/session/messages.h"
 #include "core/model/session/roster.h"
 

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "core/export/comparison/alignment.h"
 
+#include "core/model/accounting/sample_window.h"
+#include "core/model/session/roster.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <string_view>
 
 namespace posewire::exporting {
@@ -124,6 +128,79 @@ bool Partners::isCommon(const SampleMoment& moment) const {
     const double wanted = measure(*m_first, moment) + m_alignment.offset;
     return !places.empty() && wanted >= places.front().first - m_tolerance &&
            wanted <= places.back().first + m_tolerance;
+}
+
+tl::expected<Timetable, log::FileError> Timetable::of(const feed::PoseSource& source,
+                                                      const ExportProgress& progress) {
+    Timetable table;
+    const auto survey =
+        surveyMotion(source, feed::PoseContent::Segments, progress, [&table](const feed::PoseSample& sample) {
+            if (sample.character == 0) {
+                table.add(sample.pose, sample.beginsRun);
+            }
+        });
+    if (!survey) {
+        return tl::unexpected(survey.error());
+    }
+    if (!survey->characters.empty()) {
+        table.m_step = survey->characters.front().step;
+        table.m_rateHz = survey->characters.front().rateHz;
+    }
+    return table;
+}
+
+void Timetable::add(const model::CharacterPose& pose, bool beginsRun) {
+    if (m_samples.size() == kMost) {
+        m_isCut = true;
+        return;
+    }
+    m_samples.push_back(momentOf(pose));
+    if (beginsRun || m_runs.empty()) {
+        m_runs.push_back(
+            {pose.packet, pose.sample, log::millisecondsOf(pose.stamp - m_samples.front().stamp)});
+    }
+}
+
+double Timetable::millisecondsOf(const SampleMoment& moment) const {
+    if (m_samples.empty()) {
+        return 0;
+    }
+    if (m_step == 0 || m_rateHz <= 0) {
+        return log::millisecondsOf(moment.stamp - m_samples.front().stamp);
+    }
+    const auto next = std::ranges::upper_bound(m_runs, moment.packet, {}, &Run::packet);
+    const Run& run = next == m_runs.begin() ? *next : *std::prev(next);
+    return run.milliseconds + model::distance(moment.sample, run.sample) * periodMs() / m_step;
+}
+
+std::vector<CharacterPair> pairCharacters(const model::SessionView& first, const model::SessionView& second) {
+    const std::vector<const model::Character*> ours = first.atNow().roster().listed();
+    std::vector<const model::Character*> theirs = second.atNow().roster().listed();
+    std::map<model::CharacterKey, model::CharacterKey> partners;
+    const auto pairWhere = [&](auto&& isSame) {
+        for (const model::Character* one : ours) {
+            const auto other = std::ranges::find_if(
+                theirs, [&](const model::Character* candidate) { return isSame(one->key, candidate->key); });
+            if (other != theirs.end() && !partners.contains(one->key)) {
+                partners.emplace(one->key, (*other)->key);
+                theirs.erase(other);
+            }
+        }
+    };
+    pairWhere([&](const model::CharacterKey& one, const model::CharacterKey& other) {
+        return first.roster().displayName(one) == second.roster().displayName(other);
+    });
+    pairWhere([](const model::CharacterKey& one, const model::CharacterKey& other) {
+        return one.character == other.character;
+    });
+    pairWhere([](const model::CharacterKey&, const model::CharacterKey&) { return true; });
+    std::vector<CharacterPair> pairs;
+    for (const model::Character* one : ours) {
+        if (const auto found = partners.find(one->key); found != partners.end()) {
+            pairs.emplace_back(*found);
+        }
+    }
+    return pairs;
 }
 
 } // namespace posewire::exporting

@@ -1,18 +1,67 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/export/comparison/timetable.h"
+#include "core/export/motion/motion_reader.h"
+#include "core/model/session/session_view.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <string>
 #include <utility>
 #include <vector>
 
 /// Which sample of one recording belongs to which of another.
 namespace posewire::exporting {
+
+/// When a sample was made, by everything that may tell.
+struct SampleMoment {
+    std::uint32_t sample = 0;
+    std::uint32_t timeCode = 0; ///< ms
+    log::Stamp stamp{};         ///< when it was received
+    std::uint64_t packet = 0;   ///< that completed it
+};
+
+[[nodiscard]] inline SampleMoment momentOf(const model::CharacterPose& pose) {
+    return {pose.sample, pose.timeCode, pose.stamp, pose.packet};
+}
+
+/// The samples of a character that hold a pose, in the order of their counters.
+class Timetable {
+public:
+    /// Further ones are left out: 24 bytes each. Two hours at 240 Hz.
+    static constexpr std::size_t kMost = 2'000'000;
+
+    /// Of the first character of the source. Fails as cancelled only.
+    [[nodiscard]] static tl::expected<Timetable, log::FileError> of(const feed::PoseSource& source,
+                                                                    const ExportProgress& progress);
+
+    [[nodiscard]] const std::vector<SampleMoment>& samples() const { return m_samples; }
+    [[nodiscard]] bool isCut() const { return m_isCut; }
+    [[nodiscard]] std::uint32_t step() const { return m_step; } ///< of the counters; 0 where there is none
+    [[nodiscard]] double rateHz() const { return m_rateHz; }    ///< 0 where it is not known
+    /// Between two samples, in ms; 0 where it is not known.
+    [[nodiscard]] double periodMs() const { return m_rateHz > 0 ? 1000 / m_rateHz : 0; }
+
+    /// Since the first sample, in ms: by counters, so that no jitter is in it, through restarts by when it
+    /// was received. Of a sample that came after the last one of the table as well.
+    [[nodiscard]] double millisecondsOf(const SampleMoment& moment) const;
+
+private:
+    /// Samples between two restarts.
+    struct Run {
+        std::uint64_t packet = 0; ///< of its first sample
+        std::uint32_t sample = 0;
+        double milliseconds = 0;
+    };
+    void add(const model::CharacterPose& pose, bool beginsRun);
+
+    std::vector<SampleMoment> m_samples;
+    std::vector<Run> m_runs;
+    std::uint32_t m_step = 0;
+    double m_rateHz = 0;
+    bool m_isCut = false;
+};
 
 enum class AlignBy : std::uint8_t {
     TimeCode, ///< of the headers
@@ -67,5 +116,12 @@ private:
     using Places = std::vector<std::pair<double, std::uint32_t>>;
     std::shared_ptr<const Places> m_places; ///< by measure: places in the second timetable
 };
+
+using CharacterPair = std::pair<model::CharacterKey, model::CharacterKey>;
+
+/// Which character of the one session is the same as which of the other: those with the same name, then those
+/// with the same ID, then the others in order. Each has one partner at most; in the order of the first.
+[[nodiscard]] std::vector<CharacterPair> pairCharacters(const model::SessionView& first,
+                                                        const model::SessionView& second);
 
 } // namespace posewire::exporting

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "core/export/comparison/pose_comparison.h"
 
-#include "core/export/comparison/spread.h"
+#include "core/export/motion/motion_writer.h"
+#include "core/export/sheets.h"
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <limits>
+#include <memory>
+#include <optional>
 
 namespace posewire::exporting {
 namespace {
@@ -97,8 +101,7 @@ public:
         m_result.last = std::max(m_result.last, at);
         m_isFirst = false;
         if (pair.second == nullptr) {
-            const SampleMoment moment{pair.first->sample, pair.first->timeCode, at, pair.first->packet};
-            ++(m_task.partners.isCommon(moment) ? m_result.alone : m_result.outside);
+            ++(m_task.partners.isCommon(momentOf(*pair.first)) ? m_result.alone : m_result.outside);
         } else if (pair.difference == nullptr) {
             ++m_result.apart;
         } else {
@@ -133,6 +136,103 @@ private:
     bool m_isFirst = true;
 };
 
+/// The samples of the second recording by their place in its timetable. They are read once in their order;
+/// where the first recording goes back, further than what is kept, from the beginning again.
+class SecondSamples {
+public:
+    explicit SecondSamples(const feed::PoseSource& source) : m_source(source) { restart(); }
+
+    /// Null where it cannot be read any more. Valid until the next call.
+    const model::CharacterPose* at(std::size_t place) {
+        if (place < m_first) {
+            if (m_restarts++ == kMostRestarts) {
+                return nullptr;
+            }
+            restart();
+        }
+        while (place >= m_first + m_kept.size()) {
+            forget(place);
+            if (!m_poses->advance(m_keep)) {
+                return nullptr;
+            }
+        }
+        forget(place);
+        return place < m_first + m_kept.size() ? &m_kept[place - m_first] : nullptr;
+    }
+
+private:
+    static constexpr std::size_t kBack = 256; ///< samples that are kept behind the one that is asked for
+    static constexpr int kMostRestarts = 1000;
+
+    void restart() {
+        m_first = 0;
+        m_kept.clear();
+        m_poses = std::make_unique<feed::PoseFeed>(m_source, feed::PoseContent::Segments);
+    }
+
+    void forget(std::size_t place) {
+        while (!m_kept.empty() && m_first + kBack < place) {
+            m_kept.pop_front();
+            ++m_first;
+        }
+    }
+
+    const feed::PoseSource& m_source;
+    std::unique_ptr<feed::PoseFeed> m_poses;
+    const feed::TakePose m_keep = [this](const feed::PoseSample& sample) {
+        if (sample.character == 0) {
+            m_kept.push_back(sample.pose);
+        }
+    };
+    std::deque<model::CharacterPose> m_kept;
+    std::size_t m_first = 0; ///< place of the oldest that is kept
+    int m_restarts = 0;
+};
+
+constexpr double kSmallest = 1e-3; ///< what is less is in the first bin
+constexpr double kInDoubling = 128;
+constexpr std::size_t kBins = 3600; ///< up to 1e-3 · 2^28
+
+std::size_t binOf(double value) {
+    const double place = value <= kSmallest ? 0 : 1 + kInDoubling * std::log2(value / kSmallest);
+    return static_cast<std::size_t>(std::min(place, static_cast<double>(kBins - 1)));
+}
+
+double middleOf(std::size_t bin) {
+    return bin == 0 ? 0 : kSmallest * std::exp2((static_cast<double>(bin) - 0.5) / kInDoubling);
+}
+
+std::string decimalCell(double value, int decimals) {
+    std::string text;
+    appendFixed(value, decimals, text);
+    return text;
+}
+
+std::vector<std::string> titles(std::span<const SegmentFigures> segments) {
+    std::vector<std::string> cells{"time", "sample", "timeCode", "otherSample", "otherTimeCode"};
+    for (const SegmentFigures& one : segments) {
+        const std::string name(model::segmentName(model::kAllSegments, one.slot));
+        cells.push_back(name + " mm");
+        cells.push_back(name + " degrees");
+    }
+    return cells;
+}
+
+std::vector<std::string> csvRow(const ComparedPair& pair, std::span<const SegmentFigures> segments,
+                                log::Stamp begin) {
+    std::vector<std::string> cells{decimalCell(log::secondsOf(pair.first->stamp - begin), 4),
+                                   std::to_string(pair.first->sample), std::to_string(pair.first->timeCode)};
+    cells.push_back(pair.second != nullptr ? std::to_string(pair.second->sample) : std::string());
+    cells.push_back(pair.second != nullptr ? std::to_string(pair.second->timeCode) : std::string());
+    for (const SegmentFigures& one : segments) {
+        const model::SegmentDifference* difference =
+            pair.difference != nullptr ? pair.difference->find(one.slot) : nullptr;
+        cells.push_back(difference != nullptr ? decimalCell(difference->millimetres, 2) : std::string());
+        cells.push_back(difference != nullptr ? decimalCell(difference->degrees, 3) : std::string());
+    }
+    return cells;
+}
+
 } // namespace
 
 const SegmentFigures* MotionComparison::worst() const {
@@ -152,6 +252,82 @@ tl::expected<MotionComparison, log::FileError> compareMotion(const ComparisonTas
     MotionComparison result = comparing.conclude();
     result.passedOver = *walked;
     return result;
+}
+
+tl::expected<std::uint64_t, log::FileError> walkPairs(const ComparisonTask& task,
+                                                      const std::function<void(const ComparedPair&)>& visit,
+                                                      const ExportProgress& progress) {
+    SecondSamples second(task.second);
+    model::PoseDifference difference;
+    return walkMotion(
+        task.first, feed::PoseContent::Segments,
+        [&](const feed::PoseSample& sample) {
+            if (sample.character != 0) {
+                return;
+            }
+            ComparedPair pair{&sample.pose};
+            if (const auto partner = task.partners.of(momentOf(sample.pose))) {
+                pair.second = second.at(*partner);
+            }
+            const bool isCompared =
+                pair.second != nullptr && differenceOf(sample.pose, *pair.second, task.frame, difference);
+            pair.difference = isCompared ? &difference : nullptr;
+            visit(pair);
+        },
+        progress);
+}
+
+void Spread::add(double value) {
+    if (!std::isfinite(value)) {
+        return;
+    }
+    if (m_bins.empty()) {
+        m_bins.resize(kBins);
+    }
+    m_least = m_count == 0 ? value : std::min(m_least, value);
+    m_most = m_count == 0 ? value : std::max(m_most, value);
+    ++m_count;
+    m_sum += value;
+    ++m_bins[binOf(value)];
+}
+
+double Spread::quantile(double share) const {
+    const auto wanted = static_cast<std::uint64_t>(share * static_cast<double>(m_count));
+    std::uint64_t below = 0;
+    for (std::size_t bin = 0; bin < m_bins.size(); ++bin) {
+        below += m_bins[bin];
+        if (below > wanted || (below == m_count && below != 0)) {
+            return std::clamp(middleOf(bin), m_least, m_most);
+        }
+    }
+    return 0;
+}
+
+tl::expected<void, log::FileError> writeComparisonCsv(const ComparisonTask& task,
+                                                      std::span<const SegmentFigures> segments,
+                                                      const std::string& path, const log::OutputRules& rules,
+                                                      const ExportProgress& progress) {
+    auto sink = log::createWholeFile(path, rules);
+    if (!sink) {
+        return tl::unexpected(sink.error());
+    }
+    MotionOutput out(std::move(*sink));
+    out.write(csvLine(titles(segments)));
+    std::optional<log::Stamp> begin;
+    const auto walked = walkPairs(
+        task,
+        [&](const ComparedPair& pair) {
+            begin = begin.value_or(pair.first->stamp);
+            out.write(csvLine(csvRow(pair, segments, *begin)));
+        },
+        [&](double share) { return !out.hasFailed() && (!progress || progress(share)); });
+    if (!walked && !out.hasFailed()) {
+        return tl::unexpected(walked.error());
+    }
+    if (walked && *walked != 0) {
+        out.fail(path + ": the log dropped part of the range while it was written; choose a later beginning");
+    }
+    return out.finish();
 }
 
 } // namespace posewire::exporting

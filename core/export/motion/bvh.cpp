@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "core/export/motion/bvh.h"
+#include "core/export/motion/writers.h"
 
 #include "core/export/motion/skeleton.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace posewire::exporting {

@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: MIT
-#include "core/export/motion/gltf.h"
+#include "core/export/motion/writers.h"
 
 #include "core/export/json_value.h"
-#include "core/export/motion/key_columns.h"
+#include "core/export/motion/skeleton.h"
+#include "core/log/scratch.h"
 
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <functional>
+#include <limits>
 #include <map>
+#include <span>
+#include <string_view>
+#include <vector>
 
 namespace posewire::exporting {
 namespace {
@@ -46,6 +52,98 @@ void appendWord(std::uint64_t value, std::string& bytes) {
 void turnToYUp(std::vector<std::array<float, 3>>& vectors) {
     for (std::array<float, 3>& one : vectors) {
         one = model::toFloats(model::yUpFromZUp(model::toVector(one)));
+    }
+}
+
+/// Floats that are written one by one and wanted all together at the end. They lie in a scratch: a range of
+/// hours takes no memory.
+class FloatColumn {
+public:
+    explicit FloatColumn(std::shared_ptr<log::Scratch> scratch) : m_scratch(std::move(scratch)) {}
+
+    void add(float value);
+    [[nodiscard]] std::uint64_t size() const { return m_size; }
+    /// All of them as bytes, piece by piece, as they lie in memory.
+    template <class Visitor>
+    void visit(Visitor&& visitor) const {
+        for (std::size_t i = 0; i < m_blocks.size(); ++i) {
+            const std::uint64_t left = m_size - i * kBlock;
+            visitor(
+                std::string_view(reinterpret_cast<const char*>(m_blocks[i].get()),
+                                 sizeof(float) * (left < kBlock ? static_cast<std::size_t>(left) : kBlock)));
+        }
+    }
+
+private:
+    static constexpr std::size_t kBlock = 4096; ///< floats
+
+    std::shared_ptr<log::Scratch> m_scratch;
+    std::vector<std::shared_ptr<std::byte[]>> m_blocks;
+    std::uint64_t m_size = 0;
+};
+
+/// The keys of one character: times, and for each joint its position and its rotation relative to its parent.
+/// Y-up; rotations x y z w, each on the side of the one before, so that players turn the short way.
+class KeyColumns {
+public:
+    KeyColumns(const Skeleton& skeleton, const std::shared_ptr<log::Scratch>& scratch);
+
+    void add(double seconds, std::span<const model::SegmentPose> local);
+
+    [[nodiscard]] std::uint64_t count() const { return m_times.size(); }
+    /// Of the first key and of the last; each is later than the one before.
+    [[nodiscard]] float firstTime() const { return m_first; }
+    [[nodiscard]] float lastTime() const { return m_last; }
+    [[nodiscard]] const FloatColumn& times() const { return m_times; }
+    [[nodiscard]] const FloatColumn& positions(std::size_t joint) const { return m_positions[joint]; }
+    [[nodiscard]] const FloatColumn& rotations(std::size_t joint) const { return m_rotations[joint]; }
+
+private:
+    FloatColumn m_times;
+    std::vector<FloatColumn> m_positions;
+    std::vector<FloatColumn> m_rotations;
+    std::vector<Eigen::Quaterniond> m_newest; ///< by joint
+    float m_first = 0;
+    float m_last = 0;
+};
+
+void FloatColumn::add(float value) {
+    const std::size_t place = static_cast<std::size_t>(m_size % kBlock);
+    if (place == 0) {
+        m_blocks.push_back(m_scratch->bytes(kBlock * sizeof(float)));
+    }
+    std::memcpy(m_blocks.back().get() + place * sizeof(float), &value, sizeof(float));
+    ++m_size;
+}
+
+KeyColumns::KeyColumns(const Skeleton& skeleton, const std::shared_ptr<log::Scratch>& scratch)
+    : m_times(scratch),
+      m_positions(skeleton.joints.size(), FloatColumn(scratch)),
+      m_rotations(skeleton.joints.size(), FloatColumn(scratch)),
+      m_newest(skeleton.joints.size(), Eigen::Quaterniond::Identity()) {}
+
+void KeyColumns::add(double seconds, std::span<const model::SegmentPose> local) {
+    float time = static_cast<float>(seconds);
+    if (count() == 0) {
+        m_first = time;
+    } else if (time <= m_last) {
+        time = std::nextafter(m_last, std::numeric_limits<float>::infinity());
+    }
+    m_last = time;
+    m_times.add(time);
+    for (std::size_t i = 0; i < local.size(); ++i) {
+        const Eigen::Vector3d position = model::yUpFromZUp(local[i].position);
+        for (const double value : {position.x(), position.y(), position.z()}) {
+            m_positions[i].add(static_cast<float>(value));
+        }
+        Eigen::Quaterniond turn = model::yUpFromZUp(local[i].orientation);
+        if (turn.dot(m_newest[i]) < 0) {
+            turn.coeffs() = -turn.coeffs();
+        }
+        m_newest[i] = turn;
+        for (const double value : {turn.x(), turn.y(), turn.z(), turn.w()}) {
+            m_rotations[i].add(static_cast<float>(value));
+        }
     }
 }
 

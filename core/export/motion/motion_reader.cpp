@@ -1,14 +1,133 @@
 // SPDX-License-Identifier: MIT
 #include "core/export/motion/motion_reader.h"
 
+#include "core/model/accounting/probation.h"
 #include "core/model/accounting/sample_window.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace posewire::exporting {
 namespace {
 
 using model::distance;
+
+/// Of counters of one run that follow one another: see feed::SampleOrder.
+constexpr std::size_t kMostDifference = model::Probation::kMostBack + model::Probation::kMostForward;
+
+/// Sums of one character while it is surveyed.
+class Surveying {
+public:
+    explicit Surveying(CharacterSurvey& survey) : m_survey(survey) {}
+
+    void add(const feed::PoseSample& sample) {
+        const model::CharacterPose& pose = sample.pose;
+        if (m_samples++ == 0) {
+            m_survey.first = pose.stamp;
+            m_survey.firstPose = pose;
+        } else if (sample.beginsRun) {
+            ++m_survey.restarts;
+            endRun();
+        } else {
+            const auto difference = static_cast<std::size_t>(distance(pose.sample, m_newest.sample));
+            ++m_differences[std::min(difference, kMostDifference)];
+        }
+        if (sample.beginsRun) {
+            m_begin = momentOf(pose);
+        }
+        m_newest = momentOf(pose);
+        m_survey.last = std::max(m_survey.last, pose.stamp);
+        widen(pose.layout);
+        note(sample.markers);
+    }
+
+    void conclude() {
+        endRun();
+        m_survey.step = step();
+        m_survey.frames = m_samples;
+        for (std::size_t i = 1; m_survey.step != 0 && i < m_differences.size(); ++i) {
+            m_survey.gaps += m_differences[i] * (std::max<std::size_t>(i / m_survey.step, 1) - 1);
+        }
+        m_survey.frames += m_survey.gaps;
+        m_survey.rateHz = rate();
+    }
+
+private:
+    struct Moment {
+        std::uint32_t sample = 0;
+        std::uint32_t timeCode = 0;
+        log::Stamp stamp{};
+    };
+    static Moment momentOf(const model::CharacterPose& pose) {
+        return {pose.sample, pose.timeCode, pose.stamp};
+    }
+
+    void endRun() {
+        m_counted += distance(m_newest.sample, m_begin.sample);
+        m_received += log::secondsOf(m_newest.stamp - m_begin.stamp);
+        m_coded += 1e-3 * distance(m_newest.timeCode, m_begin.timeCode);
+    }
+
+    void widen(const model::SegmentLayout& layout) {
+        model::SegmentLayout& all = m_survey.layout;
+        all.body = std::max(all.body, std::min(layout.body, model::kBodySegmentCount));
+        all.props = std::max(all.props, std::min(layout.props, model::kMaxPropCount));
+        all.fingers = std::max(all.fingers, std::min(layout.fingers, model::kFingerSegmentCount));
+    }
+
+    void note(const std::vector<feed::Marker>& markers) {
+        std::vector<std::uint32_t>& known = m_survey.markerIds;
+        for (std::size_t i = 0; i < markers.size(); ++i) {
+            const bool isInPlace = i < known.size() && known[i] == markers[i].id;
+            if (!isInPlace && known.size() < CharacterSurvey::kMostMarkers &&
+                std::ranges::find(known, markers[i].id) == known.end()) {
+                known.push_back(markers[i].id);
+            }
+        }
+    }
+
+    /// By the rule of model::findStep(), over the whole range.
+    [[nodiscard]] std::uint32_t step() const {
+        std::uint64_t all = 0;
+        std::size_t best = 0;
+        for (std::size_t i = 1; i < m_differences.size(); ++i) {
+            all += m_differences[i];
+            best = m_differences[i] > m_differences[best] ? i : best;
+        }
+        std::uint64_t multiples = 0;
+        for (std::size_t i = best; best != 0 && i < m_differences.size(); i += best) {
+            multiples += m_differences[i];
+        }
+        const bool isStep = m_differences[best] * 10 >= all * 4 && multiples * 10 >= all * 9;
+        return isStep ? static_cast<std::uint32_t>(best) : 0;
+    }
+
+    /// By time codes where they run as the clock does, since these know no jitter.
+    [[nodiscard]] double rate() const {
+        constexpr double kNear = 0.02;
+        constexpr double kWhole = 0.005;
+        if (m_counted <= 0 || (m_received <= 0 && m_coded <= 0)) {
+            return 0;
+        }
+        const bool isCoded = m_coded > 0.5 && (m_received <= 0 ||
+                                               std::abs(m_coded / m_received - 1) < kNear || m_received < 1);
+        const double seconds = isCoded || m_received <= 0 ? m_coded : m_received;
+        const double frames = m_survey.step != 0 ? static_cast<double>(m_counted) / m_survey.step
+                                                 : static_cast<double>(m_samples - 1 - m_survey.restarts);
+        const double hz = frames / seconds;
+        const double whole = std::round(hz);
+        return whole >= 1 && std::abs(hz / whole - 1) < kWhole ? whole : hz;
+    }
+
+    CharacterSurvey& m_survey;
+    std::uint64_t m_samples = 0;
+    Moment m_begin; ///< of the run
+    Moment m_newest;
+    std::int64_t m_counted = 0; ///< counters from the first to the last of each run
+    double m_received = 0;      ///< seconds, likewise
+    double m_coded = 0;
+    std::vector<std::uint64_t> m_differences = std::vector<std::uint64_t>(kMostDifference + 1); ///< how often
+};
 
 /// Puts gaps between the samples of a character, and times to all.
 class Framing {
@@ -33,16 +152,14 @@ public:
         if (!sample.beginsRun && step != 0 && m_survey->rateHz > 0) {
             seconds = m_runBegin + distance(sample.pose.sample, m_runSample) * period() / step;
         }
-        seconds = m_isFirst ? seconds : std::max(seconds, m_frame.seconds + kLeast);
+        seconds = m_frame.run == 0 ? seconds : std::max(seconds, m_frame.seconds + kLeast);
         if (sample.beginsRun) {
             m_runBegin = seconds;
             m_runSample = sample.pose.sample;
         }
-        m_isFirst = false;
-        m_frame.beginsRun = sample.beginsRun;
+        m_frame.run += sample.beginsRun ? 1 : 0;
         m_frame.markers = sample.markers;
         tell(sample.pose.sample, seconds, &sample.pose);
-        m_frame.beginsRun = false;
         m_frame.markers = {};
     }
 
@@ -64,10 +181,36 @@ private:
     MotionFrame m_frame; ///< the newest
     double m_runBegin = 0;
     std::uint32_t m_runSample = 0;
-    bool m_isFirst = true;
 };
 
 } // namespace
+
+tl::expected<MotionSurvey, log::FileError> surveyMotion(const feed::PoseSource& source,
+                                                        feed::PoseContent content,
+                                                        const ExportProgress& progress,
+                                                        const feed::TakePose& take) {
+    MotionSurvey survey;
+    survey.characters.resize(source.characters.size());
+    std::vector<Surveying> sums(survey.characters.begin(), survey.characters.end());
+    const auto walked = walkMotion(
+        source, content,
+        [&](const feed::PoseSample& sample) {
+            sums[sample.character].add(sample);
+            if (take) {
+                take(sample);
+            }
+        },
+        progress);
+    if (!walked) {
+        return tl::unexpected(walked.error());
+    }
+    std::ranges::for_each(sums, &Surveying::conclude);
+    survey.first = log::Stamp::max();
+    for (const CharacterSurvey& one : survey.characters) {
+        survey.first = one.frames != 0 ? std::min(survey.first, one.first) : survey.first;
+    }
+    return survey;
+}
 
 tl::expected<std::uint64_t, log::FileError> walkMotion(const feed::PoseSource& source,
                                                        feed::PoseContent content, const feed::TakePose& take,

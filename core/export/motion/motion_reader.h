@@ -21,7 +21,7 @@ struct MotionFrame {
     double seconds = 0; ///< since the first sample of all characters: by counters, through restarts by stamps
     const model::CharacterPose* pose = nullptr; ///< null in a gap; without segments where markers are read
     std::span<const feed::Marker> markers{};
-    bool beginsRun = false; ///< the first one, or the first after a restart
+    std::uint64_t run = 0; ///< counts from 1: a restart of the sender begins the next
 
     [[nodiscard]] bool isGap() const { return pose == nullptr; }
 };

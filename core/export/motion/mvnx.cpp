@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/export/motion/mvnx.h"
+#include "core/export/motion/writers.h"
 
 #include "core/model/body/joint_angles.h"
 #include "core/model/body/points.h"
@@ -9,7 +9,6 @@
 #include <array>
 #include <chrono>
 #include <span>
-#include <utility>
 
 namespace posewire::exporting {
 namespace {

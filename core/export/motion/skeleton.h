@@ -50,7 +50,8 @@ private:
     std::vector<model::SegmentPose> m_world;
 };
 
-/// Position of a segment in another layout; -1 where it has none.
-[[nodiscard]] int positionIn(const model::SegmentLayout& layout, const model::SegmentPlace& place);
+/// The pose of a segment, by its position in another layout; null if the sample lacks it.
+[[nodiscard]] const model::SegmentPose* poseAt(const model::CharacterPose& pose,
+                                               const model::SegmentLayout& layout, int position);
 
 } // namespace posewire::exporting

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/export/motion/tables.h"
+#include "core/export/motion/writers.h"
 
 #include "core/export/json_value.h"
 #include "core/export/motion/skeleton.h"
@@ -21,18 +21,6 @@ std::string receiptText(const MotionTask& task, const MotionFrame& frame) {
                : std::string();
 }
 
-/// Counts the runs of each character.
-class Runs {
-public:
-    explicit Runs(std::size_t characters) : m_counts(characters) {}
-    std::uint64_t of(const MotionFrame& frame) {
-        return m_counts[frame.character] += frame.beginsRun ? 1 : 0;
-    }
-
-private:
-    std::vector<std::uint64_t> m_counts;
-};
-
 SegmentLayout widest(const MotionTask& task) {
     SegmentLayout all{0, 0, 0};
     for (const std::size_t place : task.characters) {
@@ -45,8 +33,7 @@ SegmentLayout widest(const MotionTask& task) {
 
 class CsvWriter final : public MotionWriter {
 public:
-    explicit CsvWriter(const MotionTask& task)
-        : m_task(task), m_layout(widest(task)), m_runs(task.source.characters.size()) {
+    explicit CsvWriter(const MotionTask& task) : m_task(task), m_layout(widest(task)) {
         for (const feed::PoseCharacter& character : task.source.characters) {
             std::string cell = csvLine(std::vector{character.name.csv()});
             cell.resize(cell.size() - 2); // the end of the line
@@ -69,7 +56,7 @@ public:
 
     void add(const MotionFrame& frame, MotionOutput& out) override {
         m_line = m_begins[frame.character];
-        m_line += std::to_string(m_runs.of(frame)) + ',' + std::to_string(frame.sample) + ',';
+        m_line += std::to_string(frame.run) + ',' + std::to_string(frame.sample) + ',';
         appendFixed(frame.seconds, 6, m_line);
         m_line += ',';
         if (frame.isGap()) {
@@ -89,17 +76,14 @@ private:
     static constexpr std::size_t kCells = 7; ///< of a segment
 
     void addSegment(const model::CharacterPose& pose, int column) {
-        const auto place = model::placeOf(m_layout, column);
-        const int position = place ? positionIn(pose.layout, *place) : -1;
-        const auto index = static_cast<std::size_t>(std::max(position, 0));
-        if (position < 0 || index >= pose.segments.size() || !pose.isPresent(index)) {
+        const SegmentPose* segment = poseAt(pose, m_layout, column);
+        if (segment == nullptr) {
             m_line.append(kCells, ',');
             return;
         }
-        const SegmentPose& segment = pose.segments[index];
-        const Eigen::Quaterniond& turn = segment.orientation;
-        for (const double value : {segment.position.x(), segment.position.y(), segment.position.z(), turn.w(),
-                                   turn.x(), turn.y(), turn.z()}) {
+        const Eigen::Quaterniond& turn = segment->orientation;
+        for (const double value : {segment->position.x(), segment->position.y(), segment->position.z(),
+                                   turn.w(), turn.x(), turn.y(), turn.z()}) {
             m_line += ',';
             appendNumber(value, m_line);
         }
@@ -108,13 +92,12 @@ private:
     const MotionTask& m_task;
     SegmentLayout m_layout;
     std::vector<std::string> m_begins; ///< of the lines of each character
-    Runs m_runs;
     std::string m_line;
 };
 
 class JsonLinesWriter final : public MotionWriter {
 public:
-    explicit JsonLinesWriter(const MotionTask& task) : m_task(task), m_runs(task.source.characters.size()) {
+    explicit JsonLinesWriter(const MotionTask& task) : m_task(task) {
         for (const feed::PoseCharacter& character : task.source.characters) {
             // The bytes that were sent; not where they are so many that each sample would be drowned in them.
             const bool isShort = character.name.exact().size() <= model::ForeignText::kMostBytes;
@@ -126,8 +109,7 @@ public:
 
     void add(const MotionFrame& frame, MotionOutput& out) override {
         m_line = m_begins[frame.character];
-        m_line +=
-            std::to_string(m_runs.of(frame)) + ",\"sample\":" + std::to_string(frame.sample) + ",\"time\":";
+        m_line += std::to_string(frame.run) + ",\"sample\":" + std::to_string(frame.sample) + ",\"time\":";
         appendFixed(frame.seconds, 6, m_line);
         if (frame.isGap()) {
             m_line += ",\"segments\":null}\n";
@@ -175,7 +157,6 @@ private:
 
     const MotionTask& m_task;
     std::vector<std::string> m_begins;
-    Runs m_runs;
     std::string m_line;
 };
 

@@ -1,20 +1,25 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/log/packet.h"
 #include "core/log/time.h"
-#include "core/model/accounting/gap.h"
-#include "core/model/accounting/stream.h"
+#include "core/model/accounting/loss_evidence.h"
 #include "core/model/accounting/stream_counts.h"
 
 #include <cstdint>
 #include <deque>
 #include <optional>
-#include <string>
-#include <unordered_map>
 #include <vector>
 
 namespace posewire::model {
+
+/// Samples of a stream that are not there yet, and not yet lost.
+struct PendingLoss {
+    log::StreamKey stream;
+    std::uint64_t samples = 0;
+    log::Stamp from{};
+    log::Stamp to{};
+    bool isUnderWay = false; ///< the rest of the newest sample, after which nothing came: it may just come
+};
 
 /// Samples of a stream that are lost for good, as far as is known, or of which only a part came.
 struct Loss {
@@ -53,14 +58,12 @@ public:
     static constexpr std::size_t kMostGaps = 65'536;
     /// What memoryBytes() can become, about.
     static constexpr std::size_t kMostBytes = std::size_t{32} << 20;
-    /// A shorter silence of a sender is no pause.
-    static constexpr log::Duration kPause = std::chrono::milliseconds(250);
 
     /// The sink outlives this.
     explicit Attribution(LossSink& sink) : m_sink(&sink) {}
 
     /// The stream outlives this, or is retired with its sender before it goes.
-    void addStream(Stream& stream, const log::SenderInfo& info);
+    void addStream(const Stream& stream, const log::SenderInfo& info) { m_evidence.addStream(stream, info); }
     /// What is yet to be judged of the sender's streams stays as it is.
     void retire(log::SenderId sender);
 
@@ -71,11 +74,13 @@ public:
     /// Time passes without packets: judges what is due.
     void advance(log::Stamp stamp);
     /// Packets just below one were passed over: whatever they were of is missing for that.
-    void takeOvertaken(std::uint64_t packet, std::uint64_t count);
+    void takeOvertaken(std::uint64_t packet, std::uint64_t count) { m_evidence.takeOvertaken(packet, count); }
     /// Each datagram of a type that counts samples.
-    void takeSampled(log::SenderId sender, log::Stamp stamp);
+    void takeSampled(log::SenderId sender, log::Stamp stamp) { m_evidence.takeSampled(sender, stamp); }
     /// One that has a header and cannot be decoded.
-    void takeMalformed(const log::Packet& packet, const wire::Header& header);
+    void takeMalformed(const log::Packet& packet, const wire::Header& header) {
+        m_evidence.takeMalformed(packet, header);
+    }
     /// What waits of the stream is judged before its accounting forgets it.
     static void expectJudgement(Stream& stream);
     /// A verdict of the stream's accounting.
@@ -84,14 +89,11 @@ public:
     /// Calls f(const PendingLoss&) for gaps and for samples of which a part is missing.
     template <class Function>
     void forEachPending(Function&& f) const {
-        for (const auto* dues : {&m_due, &m_held}) {
-            for (const Due& due : *dues) {
-                const Gap* gap = due.stream != nullptr ? find(due.gap) : nullptr;
-                if (gap != nullptr && gap->lost != 0) {
-                    f(PendingLoss{gap->stream, gap->lost, gap->fromStamp, gap->toStamp});
-                }
+        forEachWaiting([&](const Gap& gap) {
+            if (gap.lost != 0) {
+                f(PendingLoss{gap.stream, gap.lost, gap.fromStamp, gap.toStamp});
             }
-        }
+        });
         for (const Partial& partial : m_partials) {
             if (partial.stream != nullptr && partial.stream->accounting.isIncomplete(partial.sample)) {
                 f(PendingLoss{partial.stream->key, 1, partial.stamp, partial.stamp, partial.nextPacket == 0});
@@ -127,13 +129,6 @@ public:
     void clearRecounts() { m_recounts.clear(); }
 
 private:
-    struct Sender {
-        std::vector<const Stream*> streams; ///< those that count samples
-        log::Transport transport = log::Transport::Udp;
-        std::uint16_t localPort = 0;
-        log::Stamp lastStamp{};
-        std::deque<TimeRange> silences;
-    };
     /// A sample of which only a part has come yet.
     struct Partial {
         Stream* stream = nullptr; ///< null if it was judged, or retired
@@ -145,97 +140,58 @@ private:
         LossCause cause = LossCause::Unknown;
         std::uint64_t incident = 0;
     };
-    struct Drop {
-        std::uint64_t packet = 0; ///< the first after them
-        std::uint64_t count = 0;
-        std::optional<std::uint16_t> localPort{}; ///< nothing: of the log, not looked at in time
-        bool isClosed = false; ///< the port was not listened to; nobody knows how many there were
-    };
-    /// What this computer lost between two packets.
-    struct LostHere {
-        std::uint64_t dropped = 0;
-        std::uint64_t overtaken = 0;
-        bool isClosed = false; ///< what came meanwhile had nobody to take it
-
-        [[nodiscard]] bool isAny() const { return dropped + overtaken != 0 || isClosed; }
-    };
-    struct Damage {
-        log::StreamKey stream;
-        std::uint32_t sample = 0;
-        std::uint64_t packet = 0;
-    };
-    /// A gap and the stream it is of.
-    struct Due {
-        std::uint64_t gap = 0;
-        Stream* stream = nullptr;    ///< null if it was judged, or retired
-        std::uint64_t datagrams = 0; ///< of the stream until then
-    };
-
     /// A message of types 10 to 13 that lacked something when its first part came.
     struct OpenMessage {
-        Stream* stream = nullptr; ///< null if it was retired
-        log::Stamp stamp{};
-        std::uint64_t packet = 0;
+        Stream* stream;
+        log::Stamp stamp;
+        std::uint64_t packet;
     };
-
     /// A stream whose step has changed.
     struct Rest {
-        Stream* stream = nullptr; ///< null if it was retired
-        log::Stamp stamp{};
+        Stream* stream;
+        log::Stamp stamp;
     };
 
+    /// Calls f(const Gap&) for the gaps that are yet to be judged.
+    template <class Function>
+    void forEachWaiting(Function&& f) const {
+        for (std::uint64_t number = m_firstDue; number < m_firstGap + m_gaps.size(); ++number) {
+            if (const Gap& gap = m_gaps[number - m_firstGap]; gap.waiting != nullptr) {
+                f(gap);
+            }
+        }
+        for (const std::uint64_t number : m_held) {
+            if (const Gap& gap = m_gaps[number - m_firstGap]; gap.waiting != nullptr) {
+                f(gap);
+            }
+        }
+    }
     void judgeEarly(Stream& stream, std::uint64_t packet);
     void judgeDue(log::Stamp stamp, std::uint64_t packet, bool isAll = false);
-    void judgeHeld(log::Stamp stamp, bool isAll);
-    void judge(Due& due);
+    void judge(Gap& gap);
     void judge(Partial& partial, std::uint64_t packet);
-    void judge(OpenMessage& message, std::uint64_t packet);
-    void judgeMessage(Stream& stream, log::Stamp stamp, std::uint64_t fromPacket, std::uint64_t toPacket);
-    void noteSpacing(Stream& stream, const Verdict& verdict);
-    [[nodiscard]] bool mayBeStep(const Due& due, log::Stamp stamp) const;
-    /// Counts it, and tells it. Returns its incident.
-    std::uint64_t attribute(Stream& stream, Loss loss);
+    /// The rest of a sample or message is lost, by the packets up to `lastPacket`.
+    void lose(const Partial& partial, std::uint64_t lastPacket, std::uint64_t toPacket, words::Fact evidence);
     void attributeRest(Stream& stream);
-    [[nodiscard]] static Loss lossOf(const Gap& gap, std::uint64_t samples);
-    void learnPatience(const Gap& gap, log::Stamp stamp);
     void takePartial(Stream& stream, const Verdict& verdict);
-    void takeMessage(Stream& stream, const Verdict& verdict);
-    void complete(Stream& stream, std::uint32_t sample);
-    [[nodiscard]] LossCause causeOfPartial(const log::StreamKey& stream, std::uint64_t fromPacket,
-                                           std::uint64_t toPacket) const;
     void recount(Gap& gap, Stream& stream);
     const Gap* recount(Stream& stream, std::optional<std::uint32_t> around);
-    void findCause(Gap& gap, const Stream& stream) const;
-    /// Datagrams of a port behind one packet, up to another.
-    [[nodiscard]] LostHere lostHere(std::uint64_t fromPacket, std::uint64_t toPacket,
-                                    std::uint16_t localPort) const;
-    [[nodiscard]] const Damage* damageWithin(const Gap& gap) const;
-    [[nodiscard]] bool hasPaused(const Gap& gap, const Sender& sender) const;
-    [[nodiscard]] const Gap* cutBeside(const Gap& gap, const Sender& sender) const;
-    [[nodiscard]] Gap* find(std::uint64_t number) {
-        return number < m_firstGap ? nullptr : &m_gaps[number - m_firstGap];
-    }
-    [[nodiscard]] const Gap* find(std::uint64_t number) const {
-        return number < m_firstGap ? nullptr : &m_gaps[number - m_firstGap];
-    }
 
     LossSink* m_sink;
     log::Duration m_patience = kPatience;
     std::optional<log::Stamp> m_lateSeen; ///< the last sample that came later than it was waited for
     std::uint64_t m_lastPacket = 0;
-    std::unordered_map<log::SenderId, Sender> m_senders;
+    LossEvidence m_evidence;
     std::deque<Gap> m_gaps;
     std::uint64_t m_firstGap = 0;
-    std::deque<Due> m_due;          ///< yet to be judged, oldest first
-    std::deque<Due> m_held;         ///< likewise, but they may turn out to be a new step
-    log::Stamp m_nextHeld{};        ///< when these are looked at again
-    std::deque<OpenMessage> m_open; ///< yet to be judged, oldest first
-    std::deque<Rest> m_rests;       ///< yet to be looked at, oldest first
-    std::deque<Partial> m_partials; ///< yet to be judged, oldest first
+    std::uint64_t m_firstDue = 0;     ///< gaps from this number on were not due yet
+    std::deque<std::uint64_t> m_held; ///< gaps that were, but may turn out to be a new step, oldest first
+    log::Stamp m_nextHeld{};          ///< when these are looked at again
+    std::deque<OpenMessage> m_open;   ///< yet to be judged, oldest first
+    std::deque<Rest> m_rests;         ///< yet to be looked at, oldest first
+    std::deque<Partial> m_partials;   ///< yet to be judged, oldest first
     std::uint64_t m_firstPartial = 0;
     std::deque<Partial> m_judgedPartials; ///< the newest ones
-    std::deque<Drop> m_drops;
-    std::deque<Damage> m_damages;
     std::vector<Recount> m_recounts;
 };
 

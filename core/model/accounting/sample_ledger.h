@@ -40,7 +40,9 @@ public:
         m_present.setMost(samples, history);
         m_before.setMost(samples, history);
     }
-    [[nodiscard]] std::size_t memoryBytes() const { return m_present.memoryBytes() + m_before.memoryBytes(); }
+    [[nodiscard]] std::size_t memoryBytes() const {
+        return m_present.window().memoryBytes() + m_before.window().memoryBytes();
+    }
 
     /// All but datagrams and bytes.
     [[nodiscard]] StreamCounts counts() const;

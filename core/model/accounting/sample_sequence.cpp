@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/accounting/sample_sequence.h"
 
-#include <algorithm>
-
 namespace posewire::model {
 namespace {
 
@@ -37,6 +35,61 @@ void noteBurst(const std::optional<LossBursts::Burst>& burst, CountHistory* hist
     }
 }
 
+using Differences = std::span<const std::uint32_t>;
+
+Differences newest(Differences differences, std::size_t most = kStepDifferences) {
+    return differences.size() > most ? differences.last(most) : differences;
+}
+
+/// `equal`, `multiples`: the least shares, in percent.
+bool isStep(Differences differences, std::uint32_t step, std::size_t equal, std::size_t multiples) {
+    const auto isMultiple = [step](std::uint32_t value) { return value == step || value % step == 0; };
+    const auto isShare = [&](std::size_t percent, std::ptrdiff_t count) {
+        return 100 * static_cast<std::size_t>(count) >= percent * differences.size();
+    };
+    return isShare(equal, std::ranges::count(differences, step)) &&
+           isShare(multiples, std::ranges::count_if(differences, isMultiple));
+}
+
+/// The smallest of equally frequent ones.
+std::uint32_t mostFrequent(Differences differences) {
+    std::array<std::uint32_t, kStepDifferences> values{};
+    const auto end = std::ranges::copy(differences, values.begin()).out;
+    std::sort(values.begin(), end);
+    std::uint32_t best = 0;
+    std::ptrdiff_t most = 0;
+    for (auto from = values.begin(); from != end;) {
+        const auto to = std::upper_bound(from, end, *from);
+        if (to - from > most) {
+            most = to - from;
+            best = *from;
+        }
+        from = to;
+    }
+    return best;
+}
+
+constexpr std::uint32_t kMostUnlikely = 8;
+
+/// What is usual before a change, or after it.
+struct Side {
+    std::uint32_t step = 0;
+    std::uint32_t usual = 0; ///< if there is no step
+
+    /// How much a difference speaks against it: the more, the more samples would be lost, and most where it
+    /// is no multiple of the step.
+    [[nodiscard]] std::uint32_t unlikeliness(std::uint32_t difference) const {
+        if (difference == (step == 0 ? usual : step)) {
+            return 0;
+        }
+        if (step == 0) {
+            return 2;
+        }
+        return difference % step != 0 ? 2 * kMostUnlikely
+                                      : std::min(2 * (difference / step - 1), kMostUnlikely);
+    }
+};
+
 } // namespace
 
 std::int64_t SampleSequence::Run::lost() const {
@@ -67,22 +120,12 @@ void SampleSequence::addTo(StreamCounts& counts) const {
     counts.lost += static_cast<std::uint64_t>(lostNow());
 }
 
-/// The run that a position lies in; the first that it would extend where it lies between two.
-const SampleSequence::Run* SampleSequence::runAt(std::int64_t position) const {
-    for (std::size_t i = m_runCount; i-- > 0;) {
-        if (position >= m_runs[i].first) {
-            return &m_runs[i];
-        }
-    }
-    return nullptr;
-}
-
-/// The same for a sample that is to be counted in: the run is extended where it lies outside.
+/// The run that a sample is counted in, extended if it lies outside: the first that it would extend if it
+/// lies between two.
 SampleSequence::Run& SampleSequence::runFor(std::int64_t position) {
     for (std::size_t i = m_runCount; i-- > 0;) {
         Run& run = m_runs[i];
-        const bool isBelow = position < run.first;
-        if (!isBelow) {
+        if (position >= run.first) {
             run.last = std::max(run.last, position);
             return run;
         }
@@ -102,7 +145,10 @@ bool SampleSequence::overlaps(std::uint32_t low, std::uint32_t high, std::int32_
 
 Placement SampleSequence::place(const Datagram& datagram, CountHistory* history) {
     if (m_window.empty()) {
-        begin(datagram);
+        m_window.insert(0, datagram.sample, datagram.stamp);
+        m_highest = m_first = datagram.sample;
+        m_runs[0] = {m_highest, m_highest, 0, 0, 0};
+        m_runCount = 1;
         return mark(datagram, 0, history);
     }
     const auto place = m_window.find(datagram.sample);
@@ -116,14 +162,6 @@ Placement SampleSequence::place(const Datagram& datagram, CountHistory* history)
         return {};
     }
     return fill(datagram, place.index, history);
-}
-
-void SampleSequence::begin(const Datagram& datagram) {
-    m_window.insert(0, datagram.sample, datagram.stamp);
-    m_highest = datagram.sample;
-    m_first = datagram.sample;
-    m_runs[0] = {m_highest, m_highest, 0, 0, 0};
-    m_runCount = 1;
 }
 
 /// Counts the datagram of a sample that is in the window, and in its run if it is the sample's first.
@@ -189,7 +227,8 @@ Placement SampleSequence::advance(const Datagram& datagram, CountHistory* histor
     if (difference != step) {
         reconsiderStep(history);
     }
-    settle(settling(), history);
+    // This far behind the highest, losses are taken for settled.
+    settle(std::max<std::size_t>(m_window.most() / 8, kStepHistory), history);
     return placement;
 }
 
@@ -236,14 +275,23 @@ void SampleSequence::reconsiderStep(CountHistory* history) {
         return;
     }
     const std::int64_t totalBefore = lostNow();
-    const LostByEntry before = lostAfter(first);
+    // What seems lost before each of the newest entries.
+    const auto lostAfter = [this](std::size_t entry) {
+        std::array<std::int64_t, kStepHistory> lost{};
+        const Run* run = nullptr;
+        for (std::size_t i = entry + 1; i < m_window.size(); ++i) {
+            lost[i - entry - 1] = static_cast<std::int64_t>(lostBefore(i, run));
+        }
+        return lost;
+    };
+    const auto before = lostAfter(first);
     changeStep(step);
     std::int64_t rest = lostNow() - totalBefore;
     if (history == nullptr || rest == 0) {
         return;
     }
     // What seemed lost, or did not, is corrected at the time when it seemed so.
-    const LostByEntry after = lostAfter(first);
+    const auto after = lostAfter(first);
     for (std::size_t i = 0; i < differences.size; ++i) {
         if (after[i] != before[i]) {
             const std::int64_t lost = after[i] - before[i];
@@ -260,7 +308,10 @@ void SampleSequence::reconsiderStep(CountHistory* history) {
 /// change on.
 void SampleSequence::changeStep(std::uint32_t step) {
     if (isTransitionTo(step)) {
-        joinNewestRuns();
+        const Run& joined = m_runs[--m_runCount];
+        newestRun().last = joined.last;
+        newestRun().samples += joined.samples;
+        newestRun().incomplete += joined.incomplete;
         if (newestRun().step == step) {
             return;
         }
@@ -298,23 +349,6 @@ bool SampleSequence::isTransitionTo(std::uint32_t step) const {
            holdsStep(differences.all().subspan(begin, place - begin), before.step);
 }
 
-void SampleSequence::joinNewestRuns() {
-    const Run joined = newestRun();
-    --m_runCount;
-    newestRun().last = joined.last;
-    newestRun().samples += joined.samples;
-    newestRun().incomplete += joined.incomplete;
-}
-
-SampleSequence::LostByEntry SampleSequence::lostAfter(std::size_t first) const {
-    LostByEntry result{};
-    const Run* run = nullptr;
-    for (std::size_t i = first + 1; i < m_window.size(); ++i) {
-        result[i - first - 1] = static_cast<std::int64_t>(lostBefore(i, run));
-    }
-    return result;
-}
-
 /// Ends the newest run before an entry of the window, which begins the next.
 void SampleSequence::splitRun(std::size_t firstEntry, std::uint32_t step) {
     if (m_runCount == kRuns) {
@@ -342,7 +376,10 @@ std::uint64_t SampleSequence::lostBefore(std::size_t index, const Run*& run) con
     const std::int64_t to = position(m_window[index].sample);
     const std::int64_t from = position(m_window[index - 1].sample);
     if (run == nullptr || to < run->first || to > run->last) {
-        run = runAt(to);
+        run = nullptr; // the newest that begins before it
+        for (std::size_t i = m_runCount; run == nullptr && i-- > 0;) {
+            run = to >= m_runs[i].first ? &m_runs[i] : nullptr;
+        }
     }
     return run == nullptr || from < run->first ? 0 : lostWithin(to - from, run->step);
 }
@@ -419,6 +456,44 @@ void SampleSequence::clear(CountHistory* history) {
     window.clear();
     *this = {};
     m_window = std::move(window);
+}
+
+std::uint32_t findStep(Differences differences) {
+    const Differences looked = newest(differences);
+    if (looked.empty()) {
+        return 0;
+    }
+    const std::uint32_t step = mostFrequent(looked);
+    return isStep(looked, step, 40, 90) ? step : 0;
+}
+
+bool holdsStep(Differences differences, std::uint32_t step) {
+    return isStep(newest(differences), step, 20, 60);
+}
+
+std::uint32_t nextStep(Differences differences, std::uint32_t held) {
+    const bool isHeld = held != 0 && differences.size() >= kStepDifferences && holdsStep(differences, held);
+    return isHeld ? held : findStep(differences);
+}
+
+std::size_t placeOfChange(Differences differences, std::uint32_t before, std::uint32_t after) {
+    const Side old{before, 0};
+    const Side next{after, mostFrequent(newest(differences, kStepDifferences / 2))};
+    std::int64_t score = 0;
+    std::int64_t least = INT64_MAX;
+    std::size_t place = 0;
+    for (std::size_t i = 0; i < differences.size(); ++i) {
+        const std::int64_t own = next.unlikeliness(differences[i]);
+        const std::int64_t other = old.unlikeliness(differences[i]);
+        // Relative to all being behind; the one at the place may be of either, or of neither.
+        const std::int64_t here = score - own + std::min({own, other, std::int64_t{kMostUnlikely}});
+        if (here <= least) {
+            least = here;
+            place = i;
+        }
+        score += other - own;
+    }
+    return place;
 }
 
 } // namespace posewire::model

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/accounting/stream.h"
 
-#include <algorithm>
-
 namespace posewire::model {
 namespace {
 

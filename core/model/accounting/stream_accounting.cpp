@@ -11,6 +11,45 @@ namespace {
 constexpr std::uint64_t kUncertain = 128;
 constexpr TimeRange kEver{log::Stamp::min(), log::Stamp::max()};
 
+/// True if a counter is ahead by what was passed over at most.
+bool isAfterPassedOver(std::uint64_t packets, const SampleSequence& present, std::uint32_t sample) {
+    if (packets == 0 || present.empty()) {
+        return false;
+    }
+    const std::int32_t moved = distance(sample, present.highest());
+    return moved > 0 && static_cast<std::uint64_t>(moved) <= (packets + 1) * std::max(present.step(), 1U);
+}
+
+/// `isMoved`: the counter restarted among those that waited, so that what was expected before is now past.
+Placement carryOut(const Probation::Waiting& datagram, Probation::Outcome outcome, bool isMoved,
+                   SampleLedger& ledger, CountHistory* history) {
+    switch (outcome) {
+    case Probation::Outcome::Restarted:
+        ledger.restart(datagram.datagram.stamp, history);
+        return ledger.place(datagram.datagram, history);
+    case Probation::Outcome::Begun:
+        return ledger.place(datagram.datagram, history);
+    case Probation::Outcome::Expected:
+        return isMoved ? ledger.placeBefore(datagram.datagram, history)
+                       : ledger.place(datagram.datagram, history);
+    case Probation::Outcome::Alone:
+        break;
+    }
+    return ledger.placeAlone(datagram.datagram, history);
+}
+
+/// With what is in doubt decided as it would be if nothing followed.
+SampleLedger inHindsight(SampleLedger ledger, const Probation& probation) {
+    Probation::Decision decision;
+    probation.decide(ledger, true, decision);
+    bool isMoved = false;
+    for (std::size_t i = 0; i < decision.decided; ++i) {
+        carryOut(probation.waiting()[i], decision.outcomes[i], isMoved, ledger, nullptr);
+        isMoved = isMoved || decision.outcomes[i] == Probation::Outcome::Restarted;
+    }
+    return ledger;
+}
+
 } // namespace
 
 bool MessageRounds::add(log::Stamp stamp, std::uint8_t datagram, bool isLast) {
@@ -69,17 +108,8 @@ std::size_t StreamAccounting::memoryBytes() const {
            m_verdicts.capacity() * sizeof(Verdict);
 }
 
-bool StreamAccounting::isAfterPassedOver(const SampleLedger::Datagram& datagram) const {
-    if (m_passedOver == 0 || m_ledger.present().empty()) {
-        return false;
-    }
-    const std::int64_t moved = distance(datagram.sample, m_ledger.present().highest());
-    const std::uint64_t most = (m_passedOver + 1) * std::max(m_ledger.present().step(), 1U);
-    return moved > 0 && static_cast<std::uint64_t>(moved) <= most;
-}
-
 void StreamAccounting::takeSample(const Probation::Waiting& datagram) {
-    const bool isExplained = isAfterPassedOver(datagram.datagram);
+    const bool isExplained = isAfterPassedOver(m_passedOver, m_ledger.present(), datagram.datagram.sample);
     m_passedOver = 0;
     if (m_probation.empty() && (isExplained || Probation::isExpected(m_ledger, datagram.datagram))) {
         settle(datagram, Probation::Outcome::Expected, false);
@@ -106,24 +136,6 @@ void StreamAccounting::endDoubt(bool isEnd) {
         isMoved = isMoved || decision.outcomes[i] == Probation::Outcome::Restarted;
     }
     m_probation.drop(decision.decided);
-}
-
-/// `isMoved`: the counter restarted among those that waited, so that what was expected before is now past.
-Placement StreamAccounting::carryOut(const Probation::Waiting& datagram, Probation::Outcome outcome,
-                                     bool isMoved, SampleLedger& ledger, CountHistory* history) {
-    switch (outcome) {
-    case Probation::Outcome::Restarted:
-        ledger.restart(datagram.datagram.stamp, history);
-        return ledger.place(datagram.datagram, history);
-    case Probation::Outcome::Begun:
-        return ledger.place(datagram.datagram, history);
-    case Probation::Outcome::Expected:
-        return isMoved ? ledger.placeBefore(datagram.datagram, history)
-                       : ledger.place(datagram.datagram, history);
-    case Probation::Outcome::Alone:
-        break;
-    }
-    return ledger.placeAlone(datagram.datagram, history);
 }
 
 void StreamAccounting::settle(const Probation::Waiting& datagram, Probation::Outcome outcome, bool isMoved) {
@@ -170,23 +182,12 @@ void StreamAccounting::settle(const Probation::Waiting& datagram, Probation::Out
     m_lastSample = verdict.stamp;
 }
 
-SampleLedger StreamAccounting::ledgerInHindsight() const {
-    SampleLedger ledger = m_ledger;
-    Probation::Decision decision;
-    m_probation.decide(ledger, true, decision);
-    bool isMoved = false;
-    for (std::size_t i = 0; i < decision.decided; ++i) {
-        carryOut(m_probation.waiting()[i], decision.outcomes[i], isMoved, ledger, nullptr);
-        isMoved = isMoved || decision.outcomes[i] == Probation::Outcome::Restarted;
-    }
-    return ledger;
-}
-
 StreamCounts StreamAccounting::counts(const Range& range) const {
     if (range) {
         return countsBetween(range->from, range->to);
     }
-    StreamCounts counts = m_probation.empty() ? m_ledger.counts() : ledgerInHindsight().counts();
+    StreamCounts counts =
+        m_probation.empty() ? m_ledger.counts() : inHindsight(m_ledger, m_probation).counts();
     counts.datagrams = m_datagrams;
     counts.bytes = m_bytes;
     if (!m_countsSamples) {

@@ -12,7 +12,6 @@
 
 #include <bitset>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -111,7 +110,6 @@ public:
     [[nodiscard]] StreamCounts counts(const Range& range = {}) const;
     [[nodiscard]] StreamCounts countsBetween(log::Stamp from, log::Stamp to) const;
     [[nodiscard]] InterArrival interArrival(const Range& range = {}) const;
-    [[nodiscard]] double jitterMsAt(log::Stamp to) const { return m_history.jitterMsAt(to); }
     /// A burst counts where it ended.
     [[nodiscard]] LossPattern lossPattern(const Range& range = {}) const;
     /// The jitter at the end of the range; skew and drift from its beginning or the newest restart in it on.
@@ -121,8 +119,7 @@ public:
     [[nodiscard]] log::Duration resolution(log::Stamp from = log::Stamp::min()) const {
         return m_history.width(from);
     }
-    /// Where a range that begins or ends at a stamp does so in fact.
-    [[nodiscard]] log::Stamp roundedUp(log::Stamp stamp) const { return m_history.roundedUp(stamp); }
+    [[nodiscard]] const CountHistory& history() const { return m_history; }
 
     /// The first sample of this stream between two counters, both exclusive, that came in a span of time and
     /// is one of every `step` after the first.
@@ -154,10 +151,6 @@ private:
     void takeSample(const Probation::Waiting& datagram);
     void endDoubt(bool isEnd);
     void settle(const Probation::Waiting& datagram, Probation::Outcome outcome, bool isMoved);
-    static Placement carryOut(const Probation::Waiting& datagram, Probation::Outcome outcome, bool isMoved,
-                              SampleLedger& ledger, CountHistory* history);
-    [[nodiscard]] bool isAfterPassedOver(const SampleLedger::Datagram& datagram) const;
-    [[nodiscard]] SampleLedger ledgerInHindsight() const;
 
     bool m_countsSamples;
     AccountingDepth m_depth;

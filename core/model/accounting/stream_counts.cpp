@@ -2,7 +2,6 @@
 #include "core/model/accounting/stream_counts.h"
 
 #include <algorithm>
-#include <array>
 
 namespace posewire::model {
 

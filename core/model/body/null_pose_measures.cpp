@@ -2,7 +2,6 @@
 #include "core/model/body/null_pose_measures.h"
 
 #include "core/model/body/points.h"
-#include "core/model/body/reference_body.h"
 
 #include <algorithm>
 #include <cmath>

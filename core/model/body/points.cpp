@@ -2,7 +2,6 @@
 #include "core/model/body/points.h"
 
 #include <algorithm>
-#include <array>
 
 namespace posewire::model {
 namespace {

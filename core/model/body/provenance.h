@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <string>
 
 namespace posewire::model {
 
@@ -25,5 +26,9 @@ struct SegmentSource {
     [[nodiscard]] constexpr Provenance weaker() const { return std::min(position, orientation); }
     friend constexpr bool operator==(const SegmentSource&, const SegmentSource&) = default;
 };
+
+/// Where a segment's pose comes from, in a few words: "Sent", "Position sent, orientation solved, turn about
+/// itself assumed".
+[[nodiscard]] std::string sourceText(const SegmentSource& source);
 
 } // namespace posewire::model

@@ -7,7 +7,6 @@
 #include <Eigen/Geometry>
 
 #include <array>
-#include <cstdint>
 
 /// Every change of space and unit between the wire and the rest of the program.
 ///

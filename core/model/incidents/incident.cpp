@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/incidents/incident.h"
 
-#include "core/model/incidents/incident_kinds.h"
-
-#include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace posewire::model {

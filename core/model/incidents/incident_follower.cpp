@@ -2,9 +2,7 @@
 #include "core/model/incidents/incident_follower.h"
 
 #include <algorithm>
-#include <span>
 #include <tuple>
-#include <utility>
 
 namespace posewire::model {
 namespace {
@@ -47,6 +45,32 @@ log::Duration patienceWith(std::span<Stream* const> streams, log::Duration least
     return fastestHz > 0 ? std::max(least, log::durationOf(samples / fastestHz)) : kFirst;
 }
 
+/// Streams of a character that are missing while others go on: they may be late, lost or ended. `newest`:
+/// when the newest sample of all came.
+void checkStalled(std::span<Stream* const> streams, log::Stamp newest, log::Stamp stamp) {
+    const bool goesOn = newest != log::Stamp() && stamp - newest < IncidentFollower::kSilent;
+    for (Stream* stream : streams) {
+        const log::Duration silent = newest - stream->accounting.lastStamp();
+        stream->isStalled = goesOn && !stream->hasEnded && stream->isEstablished() &&
+                            silent > IncidentFollower::kSilent &&
+                            silent > patienceWith(std::span(&stream, 1), IncidentFollower::kSilent, 3);
+    }
+}
+
+/// This computer dropped so many datagrams.
+Occurrence dropsAt(std::uint64_t count, Occurrence where) {
+    where.cause = LossCause::ThisComputer;
+    where.count = 0;
+    where.value = static_cast<double>(count);
+    return where;
+}
+
+/// Of the outage that a loss is of, by the last silence of its character; 0 for none.
+std::uint64_t outageOf(const Loss& loss, const Silence& silence) {
+    const log::Duration common = std::min(silence.to, loss.to) - std::max(silence.from, loss.from);
+    return common > kNone && 2 * common >= loss.to - loss.from ? silence.incident : 0;
+}
+
 /// Of a datagram that cannot be decoded, also where its header has no readable type: as it stands there.
 std::optional<std::uint8_t> characterOf(const log::Packet& packet,
                                         const std::optional<wire::Header>& header) {
@@ -86,7 +110,7 @@ void IncidentFollower::takePacket(const log::Packet& packet, const PacketDigest&
         m_nextWatch = packet.stamp + kWatch;
     }
     if (packet.kernelDropsBefore != 0) {
-        takeDrops(packet.kernelDropsBefore, occurrenceOf(IncidentKind::Local, packet));
+        m_incidents.report(dropsAt(packet.kernelDropsBefore, occurrenceOf(IncidentKind::Local, packet)));
     }
     if (digest.kind == PacketKind::Malformed) {
         Occurrence one = occurrenceOf(IncidentKind::Malformed, packet);
@@ -101,15 +125,9 @@ void IncidentFollower::takePacket(const log::Packet& packet, const PacketDigest&
     }
 }
 
-void IncidentFollower::takeDrops(std::uint64_t count, Occurrence where) {
-    where.cause = LossCause::ThisComputer;
-    where.count = 0;
-    where.value = static_cast<double>(count);
-    m_incidents.report(where);
-}
-
 void IncidentFollower::takeDropsUnseen(std::uint64_t count, const log::Packet& next) {
-    takeDrops(count, Occurrence::at(IncidentKind::Local, log::kNoSender, next.stamp, next.number));
+    m_incidents.report(
+        dropsAt(count, Occurrence::at(IncidentKind::Local, log::kNoSender, next.stamp, next.number)));
 }
 
 void IncidentFollower::takeOvertaken(std::uint64_t packet, std::uint64_t count, log::Stamp stamp) {
@@ -227,7 +245,13 @@ void IncidentFollower::takeVerdict(Stream& stream, const Verdict& verdict) {
     if (countsSamples(stream.key.type)) {
         Character& character = m_characters[{stream.key.sender, stream.key.character}];
         character.timeCodes.take(stream, verdict, character.lastSilence, m_incidents);
-        noteStep(stream, verdict);
+        if (const std::optional<Occurrence> change = stepChange(stream, verdict)) {
+            m_incidents.report(*change);
+            if (change->detail.kind == words::Kind::StepChanged) {
+                excuse(stream.key, verdict.stamp);
+                stream.usualHz = 0;
+            }
+        }
     }
     if (!verdict.isRestart) {
         return;
@@ -242,29 +266,6 @@ void IncidentFollower::takeVerdict(Stream& stream, const Verdict& verdict) {
         character.restart = verdict.stamp;
         m_incidents.report(occurrenceOf(IncidentKind::Restart, stream.key, verdict));
     }
-}
-
-void IncidentFollower::noteStep(Stream& stream, const Verdict& verdict) {
-    const std::optional<Occurrence> change = stepChange(stream, verdict);
-    if (!change) {
-        return;
-    }
-    m_incidents.report(*change);
-    if (change->detail.kind == words::Kind::StepChanged) {
-        excuse(stream.key, verdict.stamp);
-        stream.usualHz = 0;
-    }
-}
-
-/// Of the outage that a loss is of; 0 for none.
-std::uint64_t IncidentFollower::outageOf(const Loss& loss) const {
-    const auto found = m_characters.find({loss.stream.sender, loss.stream.character});
-    if (found == m_characters.end() || found->second.lastSilence.incident == 0) {
-        return 0;
-    }
-    const Silence& silence = found->second.lastSilence;
-    const log::Duration common = std::min(silence.to, loss.to) - std::max(silence.from, loss.from);
-    return common > kNone && 2 * common >= loss.to - loss.from ? silence.incident : 0;
 }
 
 std::uint64_t IncidentFollower::takeLoss(const Loss& loss) {
@@ -282,7 +283,10 @@ std::uint64_t IncidentFollower::takeLoss(const Loss& loss) {
     one.cause = loss.cause;
     one.detail = loss.evidence;
     excuse(loss.stream, loss.to);
-    if (const std::uint64_t number = outageOf(loss)) {
+    const auto found = m_characters.find({loss.stream.sender, loss.stream.character});
+    const std::uint64_t number =
+        found != m_characters.end() ? outageOf(loss, found->second.lastSilence) : std::uint64_t{0};
+    if (number != 0) {
         const Incident* outage = m_incidents.find(number);
         if (outage != nullptr && outage->cause.value_or(loss.cause) == loss.cause) {
             one.kind = IncidentKind::Outage;
@@ -424,7 +428,7 @@ void IncidentFollower::check(log::Stamp stamp) {
     for (auto* entry : m_expected) {
         auto& [key, character] = *entry;
         const log::Duration silent = character.silenceAt(stamp);
-        character.checkStalled(stamp);
+        checkStalled(character.streams, character.lastSampled, stamp);
         checkTakenOver(key, character, stamp);
         if (character.outage == 0) {
             checkSilence(key, character, stamp);
@@ -437,16 +441,6 @@ void IncidentFollower::check(log::Stamp stamp) {
             one.value = log::secondsOf(silent);
             m_incidents.addTo(character.outage, one);
         }
-    }
-}
-
-/// Streams that are missing while others of their character go on: they may be late, lost or ended.
-void IncidentFollower::Character::checkStalled(log::Stamp stamp) {
-    const bool goesOn = lastSampled != log::Stamp() && stamp - lastSampled < kSilent;
-    for (Stream* stream : streams) {
-        const log::Duration silent = lastSampled - stream->accounting.lastStamp();
-        stream->isStalled = goesOn && !stream->hasEnded && stream->isEstablished() && silent > kSilent &&
-                            silent > patienceWith(std::span(&stream, 1), kSilent, 3);
     }
 }
 

@@ -6,14 +6,12 @@
 #include "core/model/accounting/attribution.h"
 #include "core/model/accounting/packet_digest.h"
 #include "core/model/incidents/changes.h"
-#include "core/model/incidents/claims.h"
 #include "core/model/incidents/incidents.h"
 #include "core/model/incidents/thresholds.h"
 
 #include <cstdint>
 #include <map>
 #include <optional>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -100,9 +98,7 @@ private:
         [[nodiscard]] log::Duration silenceAt(log::Stamp stamp) const {
             return lastSampled == log::Stamp() ? log::Duration() : stamp - lastSampled;
         }
-        void checkStalled(log::Stamp stamp);
     };
-    void takeDrops(std::uint64_t count, Occurrence where);
     void check(log::Stamp stamp);
     void checkSilence(const CharacterKey& key, Character& character, log::Stamp stamp);
     void checkEnded(log::Stamp stamp);
@@ -110,9 +106,7 @@ private:
     void fallSilent(const CharacterKey& key, Character& character, log::Stamp stamp);
     void resume(const CharacterKey& key, Character& character, log::Stamp stamp);
     void noteSampled(const log::Packet& packet, const wire::Header& header, Stream& stream);
-    void noteStep(Stream& stream, const Verdict& verdict);
     void checkTakenOver(const CharacterKey& key, Character& character, log::Stamp stamp);
-    [[nodiscard]] std::uint64_t outageOf(const Loss& loss) const;
     void excuse(const log::StreamKey& key, log::Stamp from);
 
     Incidents m_incidents;

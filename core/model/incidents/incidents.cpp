@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/incidents/incidents.h"
 
-#include "core/model/incidents/incident_kinds.h"
-
 #include <algorithm>
 #include <utility>
 
@@ -186,28 +184,28 @@ Incident::Part* Incidents::partOf(Incident& incident, const Occurrence& one) {
 
 void Incidents::takeBack(std::uint64_t number, const Incident::Part& part, std::uint64_t samples,
                          std::uint64_t gaps) {
-    const auto place = placeOf(number);
-    if (place == m_incidents.end() || place->number != number) {
+    Incident* const incident = findOwn(number);
+    if (incident == nullptr) {
         return;
     }
     const auto take = [](std::uint64_t& from, std::uint64_t less) { from -= std::min(from, less); };
-    take(place->samples, samples);
-    take(place->count, gaps);
-    for (Incident::Part& own : place->parts) {
+    take(incident->samples, samples);
+    take(incident->count, gaps);
+    for (Incident::Part& own : incident->parts) {
         if (own.character == part.character && own.type == part.type) {
             take(own.samples, samples);
             take(own.count, gaps);
             own.lastMany = own.samples < Incident::kManySamples ? std::nullopt : own.lastMany;
         }
     }
-    m_parts -= std::erase_if(place->parts, [](const Incident::Part& own) {
+    m_parts -= std::erase_if(incident->parts, [](const Incident::Part& own) {
         return own.samples == 0 && own.count == 0 && own.type.has_value();
     });
-    changed(*place);
-    const bool isNothing =
-        place->kind == IncidentKind::Loss || (place->kind == IncidentKind::Local && place->value == 0);
-    if (isNothing && place->samples == 0) {
-        erase(place);
+    changed(*incident);
+    const bool isNothing = incident->kind == IncidentKind::Loss ||
+                           (incident->kind == IncidentKind::Local && incident->value == 0);
+    if (isNothing && incident->samples == 0) {
+        erase(number);
     }
 }
 
@@ -238,22 +236,22 @@ void Incidents::noteShares(std::uint64_t number, const std::vector<double>& inWi
 }
 
 void Incidents::takeBackPart(std::uint64_t number, std::uint8_t character) {
-    const auto place = placeOf(number);
-    if (place == m_incidents.end() || place->number != number) {
+    Incident* const incident = findOwn(number);
+    if (incident == nullptr) {
         return;
     }
-    std::vector<Incident::Part>& parts = place->parts;
+    std::vector<Incident::Part>& parts = incident->parts;
     const std::size_t gone =
         std::erase_if(parts, [&](const Incident::Part& part) { return part.character == character; });
     m_parts -= gone;
-    place->count -= std::min<std::uint64_t>(place->count, gone);
+    incident->count -= std::min<std::uint64_t>(incident->count, gone);
     if (!parts.empty()) {
-        place->firstStamp = std::ranges::min(parts, {}, &Incident::Part::from).from;
-        changed(*place);
+        incident->firstStamp = std::ranges::min(parts, {}, &Incident::Part::from).from;
+        changed(*incident);
         return;
     }
     m_next = number + 1 == m_next ? number : m_next; // as if it had never been
-    erase(place);
+    erase(number);
 }
 
 void Incidents::end(std::uint64_t number, log::Stamp stamp) {
@@ -339,9 +337,10 @@ void Incidents::advance(log::Stamp stamp) {
     });
 }
 
-void Incidents::erase(std::deque<Incident>::iterator place) {
+void Incidents::erase(std::uint64_t number) {
+    const auto place = placeOf(number);
     m_parts -= place->parts.size();
-    std::erase_if(m_current, [&](const auto& current) { return current.second == place->number; });
+    std::erase_if(m_current, [&](const auto& current) { return current.second == number; });
     m_incidents.erase(place);
     ++m_version;
 }
@@ -350,7 +349,7 @@ void Incidents::erase(std::deque<Incident>::iterator place) {
 void Incidents::forget() {
     while (m_incidents.size() > kMost || m_parts > kMostParts) {
         const auto oldest = std::ranges::find(m_incidents, false, &Incident::isCurrent);
-        erase(oldest == m_incidents.end() ? m_incidents.begin() : oldest);
+        erase((oldest == m_incidents.end() ? m_incidents.front() : *oldest).number);
     }
 }
 

@@ -90,7 +90,7 @@ private:
     [[nodiscard]] Incident* findOwn(std::uint64_t number);
     [[nodiscard]] std::deque<Incident>::iterator placeOf(std::uint64_t number);
     void changed(Incident& incident) { incident.version = ++m_version; }
-    void erase(std::deque<Incident>::iterator place);
+    void erase(std::uint64_t number);
     void forget();
 
     std::deque<Incident> m_incidents; ///< by growing number

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/log/stream_index.h"
-#include "core/model/accounting/gap.h"
+#include "core/model/accounting/attribution.h"
 #include "core/model/accounting/packet_digest.h"
 #include "core/model/accounting/stream_counts.h"
 #include "core/model/session/roster.h"

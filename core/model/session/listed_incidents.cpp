@@ -2,10 +2,10 @@
 #include "core/model/session/listed_incidents.h"
 
 #include "core/log/clock.h"
-#include "core/log/ip_address.h"
+#include "core/log/ip_packet.h"
+#include "core/model/accounting/attribution.h"
 #include "core/model/accounting/count_history.h"
-#include "core/model/accounting/gap.h"
-#include "core/model/incidents/incident_kinds.h"
+#include "core/model/incidents/incident.h"
 #include "core/model/session/accounts.h"
 #include "core/model/session/losses.h"
 #include "core/model/session/roster.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/model/accounting/range_figures.h"
 #include "core/model/accounting/stream_figures.h"
 #include "core/model/session/session_view.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/session/messages.h"
 
-#include "core/model/accounting/range_figures.h"
+#include "core/model/accounting/stream_figures.h"
 #include "core/model/body/null_pose_findings.h"
 #include "core/model/session/decoded.h"
 #include "core/model/session/ingest.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/model/incidents/loss_limit.h"
+#include "core/model/incidents/thresholds.h"
 #include "core/model/session/fault_matrix.h"
 #include "core/model/session/listed_incidents.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/session/sender.h"
 
-#include "core/log/ip_address.h"
+#include "core/log/ip_packet.h"
 #include "core/wire/text.h"
 #include "core/wire/type_table.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/export/verdict_json.h"
+#include "core/export/reports.h"
 
 #include "tests/core/model/session/session_fixture.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/field/units.h"
+#include "core/field/field.h"
 #include "core/filter/completion.h"
 #include "tests/core/filter/filter_fixture.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/log/file_contents.h"
+#include "core/log/byte_io.h"
 
 #include "core/log/recording_file.h"
 #include "tests/support/stream_source.h"

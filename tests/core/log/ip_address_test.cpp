@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/log/ip_address.h"
+#include "core/log/ip_packet.h"
 
 #include <gmock/gmock.h>
 

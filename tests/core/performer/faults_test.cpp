@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/core/performer/faulty_performance.h"
 
-#include "core/performer/datagram_damage.h"
+#include "core/performer/sending.h"
 #include "core/wire/type_table.h"
 
 #include <gmock/gmock.h>

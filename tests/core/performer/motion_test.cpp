@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/performer/motion.h"
 
-#include "core/performer/body_pose.h"
+#include "core/performer/kinematics.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "core/performer/body_pose.h"
 #include "core/performer/character.h"
 #include "core/performer/kinematics.h"
 #include "core/performer/walk_clip.h"

@@ -13,7 +13,7 @@
 #include "core/export/protocol_reference.h"
 #include "core/filter/filter.h"
 #include "core/log/packet_log.h"
-#include "core/model/incidents/incident_kinds.h"
+#include "core/model/incidents/incident.h"
 #include "core/model/session/session.h"
 
 #include <QDir>

@@ -4,7 +4,7 @@
 #include "app/gui/models/shown_character.h"
 #include "core/filter/filter.h"
 #include "core/model/session/accounts.h"
-#include "core/performer/datagram_damage.h"
+#include "core/performer/sending.h"
 #include "tests/app/gui/models/stage.h"
 
 #include <QAbstractItemModelTester>

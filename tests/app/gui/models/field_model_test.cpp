@@ -3,7 +3,7 @@
 #include "app/gui/models/field_text.h"
 #include "app/gui/models/packet_choice.h"
 #include "core/model/body/joint_angles.h"
-#include "core/performer/datagram_damage.h"
+#include "core/performer/sending.h"
 #include "tests/app/gui/models/stage.h"
 #include "tests/support/golden.h"
 

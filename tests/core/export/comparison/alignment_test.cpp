@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/export/comparison/alignment.h"
 
-#include "core/export/comparison/character_pairs.h"
 #include "core/wire/codec.h"
 #include "tests/core/export/comparison/recordings.h"
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/export/comparison/pose_comparison.h"
 
-#include "core/export/comparison/comparison_csv.h"
-#include "core/export/comparison/spread.h"
 #include "core/wire/codec.h"
 #include "tests/core/export/comparison/recordings.h"
 #include "tests/support/temporary_folder.h"

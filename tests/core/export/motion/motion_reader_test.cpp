@@ -32,8 +32,9 @@ protected:
     }
     static std::vector<std::uint32_t> runsOf(const std::vector<Frame>& frames) {
         std::vector<std::uint32_t> samples;
+        std::map<std::size_t, std::uint64_t> runs; // by character
         for (const Frame& frame : frames) {
-            if (frame.frame.beginsRun) {
+            if (std::exchange(runs[frame.frame.character], frame.frame.run) != frame.frame.run) {
                 samples.push_back(frame.frame.sample);
             }
         }
@@ -105,7 +106,8 @@ TEST_F(MotionReaderTest, BeginsANewRunWhereCountersAreSetBack) {
     EXPECT_EQ(frames.size(), 250U);
     EXPECT_THAT(gapsOf(frames), IsEmpty());
     EXPECT_THAT(runsOf(frames), ElementsAre(1, 1));
-    EXPECT_TRUE(frames[200].frame.beginsRun);
+    EXPECT_EQ(frames[199].frame.run, 1U);
+    EXPECT_EQ(frames[200].frame.run, 2U);
     EXPECT_NEAR(frames[200].frame.seconds, 5.0, 1e-3); // the pause is kept
 }
 
@@ -117,7 +119,8 @@ TEST_F(MotionReaderTest, FollowsACharacterThroughARestartOfItsSender) {
     EXPECT_EQ(one.characters[0].parts.size(), 2U);
     const auto frames = framesOf(one);
     EXPECT_EQ(frames.size(), 120U);
-    EXPECT_TRUE(frames[60].frame.beginsRun);
+    EXPECT_EQ(frames[59].frame.run, 1U);
+    EXPECT_EQ(frames[60].frame.run, 2U);
 }
 
 TEST_F(MotionReaderTest, BelievesNoSingleCounterThatJumps) {

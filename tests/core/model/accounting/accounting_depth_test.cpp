@@ -62,7 +62,7 @@ void expectSameCounts(const StreamAccounting& a, const StreamAccounting& b) {
     EXPECT_EQ(one.step, other.step);
     EXPECT_EQ(one.longestGapSamples, other.longestGapSamples);
     EXPECT_EQ(a.lossPattern().bursts, b.lossPattern().bursts);
-    EXPECT_EQ(a.jitterMsAt(log::Stamp::max()), b.jitterMsAt(log::Stamp::max()));
+    EXPECT_EQ(a.history().jitterMsAt(log::Stamp::max()), b.history().jitterMsAt(log::Stamp::max()));
 }
 
 constexpr AccountingDepth kShallow = AccountingDepth::of(4'096);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/model/accounting/range_figures.h"
+#include "core/model/accounting/stream_figures.h"
 
 #include "tests/core/model/accounting/arrivals.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/model/body/ground_contact.h"
+#include "core/model/body/pose_solver.h"
 
 #include <gtest/gtest.h>
 

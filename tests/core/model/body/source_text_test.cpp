@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/model/body/source_text.h"
+#include "core/model/body/provenance.h"
 
 #include <gtest/gtest.h>
 

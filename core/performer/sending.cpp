@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/performer/datagram_damage.h"
+#include "core/performer/sending.h"
 
 #include "core/wire/codec.h"
 #include "core/wire/type_table.h"

@@ -10,6 +10,14 @@ WallTime SystemClock::wall() const {
 }
 
 Moment SystemClock::monotonic() const {
+#ifdef CLOCK_BOOTTIME
+    // The steady clock of the library stops while the computer sleeps, and the wall clock does not: waking up
+    // would look like a clock that was set.
+    timespec now{};
+    if (::clock_gettime(CLOCK_BOOTTIME, &now) == 0) {
+        return Moment(std::chrono::seconds(now.tv_sec) + Duration(now.tv_nsec));
+    }
+#endif
     return std::chrono::time_point_cast<Duration>(std::chrono::steady_clock::now());
 }
 

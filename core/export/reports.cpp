@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: MIT
+#include "core/export/reports.h"
+
+#include "core/export/html.h"
+#include "core/export/json_value.h"
+#include "core/model/session/accounts.h"
+#include "core/model/session/memory_figures.h"
+#include "core/model/session/messages.h"
+#include "core/model/session/roster.h"
+#include "core/model/session/verdict.h"
+#include "core/wire/type_table.h"
+#include "core/words/say.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+namespace posewire::exporting {
+namespace {
+
+JsonValue timeJson(const model::SessionView& session, log::Stamp stamp) {
+    return log::nanosecondsOf(session.wallOf(stamp));
+}
+
+JsonValue causeJson(const std::optional<model::LossCause>& cause) {
+    if (!cause) {
+        return {};
+    }
+    constexpr std::array<std::string_view, model::kLossCauses> kNames{"thisComputer", "network", "sender",
+                                                                      "unknown"};
+    return kNames[static_cast<std::size_t>(*cause)];
+}
+
+JsonValue characterJson(const model::SessionView& session, const model::CharacterKey& key,
+                        const model::TakeVerdict& verdict) {
+    const model::Incident* incident =
+        verdict.incident ? session.verdicts().incidents().find(*verdict.incident) : nullptr;
+    return {{"source", std::string(session.roster().addressOf(key.sender).exact())},
+            {"id", key.character},
+            {"name", std::string(session.roster().displayName(key).exact())},
+            {"state", model::nameOf(verdict.state)},
+            {"cause", incident != nullptr ? causeJson(incident->cause) : JsonValue()}};
+}
+
+double rounded(double value, int decimals) {
+    const double perUnit = std::pow(10.0, decimals);
+    return std::isfinite(value) ? std::round(value * perUnit) / perUnit : 0.0;
+}
+
+JsonValue valueJson(const model::StreamFigures& figures, const model::FigureRow& row) {
+    const bool isWhole =
+        row.style.form == model::FigureForm::Count || row.style.form == model::FigureForm::Counter;
+    return isWhole ? JsonValue(figures.count(row.figure))
+                   : JsonValue(rounded(figures[row.figure], row.style.digits.json));
+}
+
+JsonValue streamJson(const model::StreamFigures& figures) {
+    JsonValue json{{"type", wire::typeDigits(figures.key().type)}};
+    for (const model::FigureRow& row : model::figureTable()) {
+        if (row.key.empty()) {
+            continue;
+        }
+        if (row.figure == model::Figure::Skew) {
+            json["clock"]["from"] = figures.isFromTimeCode() ? "time code" : "sample counter";
+        }
+        const std::size_t dot = row.key.find('.');
+        JsonValue& object = dot == std::string_view::npos ? json : json[row.key.substr(0, dot)];
+        object[row.key.substr(dot + 1)] = valueJson(figures, row);
+    }
+    return json;
+}
+
+JsonValue streamsJson(const model::SessionView& session, const model::CharacterKey& key) {
+    JsonValue::List list;
+    for (const model::Stream* stream : streamsByType(session, key)) {
+        list.push_back(streamJson(model::figuresOf(*stream)));
+    }
+    return list;
+}
+
+/// The name that was sent; empty where there was none.
+std::string sentName(const model::SessionView& session, const model::CharacterKey& key) {
+    const model::MetadataTag* tag = session.messages().metadata(key).find("name");
+    return tag != nullptr ? std::string(tag->values.back().text.exact()) : std::string();
+}
+
+JsonValue charactersJson(const model::SessionView& session, const model::Sender& sender,
+                         const model::TakeVerdicts& verdicts) {
+    std::vector<model::CharacterKey> keys;
+    for (const model::Character* character : sender.characters) {
+        keys.push_back(character->key);
+    }
+    std::ranges::sort(keys);
+    JsonValue::List characters;
+    for (const model::CharacterKey& key : keys) {
+        JsonValue character{{"id", key.character},
+                            {"name", sentName(session, key)},
+                            {"streams", streamsJson(session, key)},
+                            {"state", model::nameOf(verdicts.characters.at(key).state)}};
+        if (!session.roster().find(key)->isConfirmed) {
+            character["unconfirmed"] = true;
+        }
+        characters.push_back(std::move(character));
+    }
+    return characters;
+}
+
+JsonValue senderJson(const model::SessionView& session, const model::Sender& sender,
+                     const model::TakeVerdicts& verdicts) {
+    return {{"address", sender.info.address},
+            {"transport", log::nameOf(sender.info.transport)},
+            {"datagrams", sender.datagrams - sender.malformed - sender.foreign},
+            {"bytes", sender.bytes - sender.skippedBytes - sender.foreignBytes},
+            {"malformed", sender.malformed},
+            {"skippedBytes", sender.skippedBytes},
+            {"characters", charactersJson(session, sender, verdicts)},
+            {"localPort", sender.info.localPort},
+            {"kernelDropped", sender.kernelDrops}};
+}
+
+JsonValue memoryJson(const model::MemoryFigures& memory) {
+    JsonValue json{{"sum", memory.sum()}, {"budget", memory.budget()}};
+    for (const model::MemoryFigures::Part& part : memory.parts) {
+        json[part.key] = part.bytes;
+    }
+    return json;
+}
+
+} // namespace
+
+std::vector<const model::Stream*> streamsByType(const model::SessionView& session,
+                                                const model::CharacterKey& key) {
+    const model::Character* character = session.roster().find(key);
+    std::vector<const model::Stream*> streams;
+    if (character != nullptr) {
+        streams = character->streams;
+    }
+    std::ranges::sort(streams, {}, [](const model::Stream* stream) { return stream->key.type; });
+    return streams;
+}
+
+std::string figureText(const model::StreamFigures& figures, model::Figure figure, int decimals) {
+    switch (model::rowOf(figure).style.form) {
+    case model::FigureForm::Count:
+        return grouped(figures.count(figure));
+    case model::FigureForm::Counter:
+        return std::to_string(figures.count(figure));
+    case model::FigureForm::Share:
+        return fixed(100 * figures.orZero(figure), decimals);
+    default:
+        return fixed(figures.orZero(figure), decimals);
+    }
+}
+
+bool hasSentMxtp(const model::Sender& sender) {
+    return sender.datagrams > sender.foreign || sender.skippedBytes != 0;
+}
+
+JsonValue verdictJson(const model::SessionView& session, const model::TakeVerdict& verdict) {
+    const bool isNone = verdict.state == model::TakeVerdict::State::None;
+    return {{"state", model::nameOf(verdict.state)},
+            {"text", say(verdict.said, words::Form::Headline)},
+            {"sinceNs", isNone ? JsonValue() : timeJson(session, verdict.since)}};
+}
+
+JsonValue incidentJson(const model::SessionView& session, const model::ListedIncident& listed) {
+    const model::Incident& incident = listed.incident;
+    const bool isOver = listed.state == model::ListedIncident::State::Over;
+    const words::Fact fact = factOf(session, listed);
+    return {{"id", incident.number},
+            {"kind", model::wordOf(incident.kind)},
+            {"cause", causeJson(incident.cause)},
+            {"state", model::nameOf(listed.state)},
+            {"beginNs", timeJson(session, incident.firstStamp)},
+            {"endNs", isOver ? timeJson(session, incident.lastStamp) : JsonValue()},
+            {"source", incident.sender == log::kNoSender
+                           ? JsonValue()
+                           : JsonValue(std::string(session.roster().addressOf(incident.sender).exact()))},
+            {"characters", listOf(incident.characters(), [](std::uint8_t id) { return JsonValue(id); })},
+            {"types",
+             listOf(incident.types(), [](std::uint8_t type) { return JsonValue(wire::typeDigits(type)); })},
+            {"samples", incident.samples},
+            {"count", incident.count},
+            {"text", say(fact, words::Form::Headline)},
+            {"evidence", say(fact, words::Form::Sentence)}};
+}
+
+JsonValue incidentsJson(const model::SessionView& session) {
+    JsonValue::List list;
+    for (const model::ListedIncident& listed : model::listedIncidents(session)) {
+        list.push_back(incidentJson(session, listed));
+    }
+    return list;
+}
+
+std::optional<std::string> VerdictLines::lineAt(const model::SessionView& session, log::Stamp now) {
+    const model::TakeVerdict verdict = model::verdictOf(session, model::recentSpan(session));
+    return isDue(verdict, now) ? std::optional(line(session, now, verdict, changesOf(session)))
+                               : std::nullopt;
+}
+
+bool VerdictLines::skipLine(const model::SessionView& session, log::Stamp now) {
+    const model::TakeVerdict verdict = model::verdictOf(session, model::recentSpan(session));
+    const bool wasDue = isDue(verdict, now);
+    if (wasDue) {
+        await(verdict, now);
+    }
+    return wasDue;
+}
+
+std::optional<std::string> VerdictLines::lastLine(const model::SessionView& session, log::Stamp now) {
+    const model::TakeVerdict verdict = model::verdictOf(session, model::recentSpan(session));
+    const Changes changes = changesOf(session);
+    const bool isTold =
+        m_newest == now && changes.changed.empty() && changes.gone.empty() && sayTheSame(verdict, m_verdict);
+    return isTold ? std::nullopt : std::optional(line(session, now, verdict, changes));
+}
+
+bool VerdictLines::isDue(const model::TakeVerdict& verdict, log::Stamp now) const {
+    return !m_next || now >= *m_next || !sayTheSame(verdict, m_verdict);
+}
+
+/// The next line.
+void VerdictLines::await(const model::TakeVerdict& verdict, log::Stamp now) {
+    if (!m_next || now >= *m_next) {
+        m_next = std::max(m_next.value_or(now) + m_interval, now);
+    }
+    m_verdict = verdict;
+}
+
+std::string VerdictLines::line(const model::SessionView& session, log::Stamp now,
+                               const model::TakeVerdict& verdict, const Changes& changes) {
+    await(verdict, now);
+    m_newest = now;
+    JsonValue::List characters;
+    const std::vector<const model::Character*> listed = session.atNow().roster().listed();
+    const model::TakeVerdicts verdicts = model::verdictsOf(session, model::recentSpan(session), listed);
+    for (const model::Character* character : listed) {
+        characters.push_back(characterJson(session, character->key, verdicts.characters.at(character->key)));
+    }
+    JsonValue object{{"timeNs", timeJson(session, now)},
+                     {"verdict", verdictJson(session, verdict)},
+                     {"characters", std::move(characters)},
+                     {"incidents", changes.changed}};
+    if (!changes.gone.empty()) {
+        object["gone"] = listOf(changes.gone, [](std::uint64_t number) { return JsonValue(number); });
+    }
+    return object.text();
+}
+
+VerdictLines::Changes VerdictLines::changesOf(const model::SessionView& session) {
+    Changes changes;
+    std::map<std::uint64_t, std::uint64_t> told;
+    for (const model::ListedIncident& listed : model::listedIncidents(session)) {
+        JsonValue json = incidentJson(session, listed);
+        const std::uint64_t sum = std::hash<std::string>{}(json.text());
+        const auto before = m_told.find(listed.incident.number);
+        if (before == m_told.end() || before->second != sum) {
+            changes.changed.push_back(std::move(json));
+        }
+        told[listed.incident.number] = sum;
+    }
+    for (const auto& [number, sum] : m_told) {
+        if (!told.contains(number)) {
+            changes.gone.push_back(number);
+        }
+    }
+    m_told = std::move(told);
+    return changes;
+}
+
+std::string monitorReport(const model::SessionView& session, const MonitorFacts& facts) {
+    const model::SenderTotals all = session.accounts().allSenders();
+    const model::RetiredTotals& retired = session.accounts().retired();
+    std::vector<const model::Character*> everyone;
+    for (const model::Character& character : session.roster().characters()) {
+        everyone.push_back(&character);
+    }
+    const model::TakeVerdicts verdicts = model::verdictsOf(session, {}, everyone);
+    JsonValue::List senders;
+    JsonValue::List foreignSenders;
+    for (const model::Sender& sender : session.roster().senders()) {
+        if (hasSentMxtp(sender)) {
+            senders.push_back(senderJson(session, sender, verdicts));
+        }
+        if (sender.foreign != 0) {
+            foreignSenders.push_back({{"address", sender.info.address},
+                                      {"datagrams", sender.foreign},
+                                      {"firstBytes", sender.foreignText()}});
+        }
+    }
+    JsonValue report{{"durationS", rounded(facts.durationS, 3)},
+                     {"local", JsonValue{{"kernelDropped", all.kernelDrops},
+                                         {"receiveBufferBytes", facts.receiveBufferBytes},
+                                         {"overtaken", session.accounts().overtaken()},
+                                         {"refusedDatagrams", facts.refusedDatagrams}}},
+                     {"foreignDatagrams", all.foreign},
+                     {"sources", std::move(senders)},
+                     {"foreignSources", std::move(foreignSenders)},
+                     {"retired", JsonValue{{"sources", retired.senders},
+                                           {"streams", retired.streams},
+                                           {"datagrams", retired.wellFormed()},
+                                           {"malformed", retired.malformed},
+                                           {"samples", retired.samples},
+                                           {"lost", retired.lost}}},
+                     {"exceeded", JsonValue::List(facts.exceeded.begin(), facts.exceeded.end())},
+                     {"verdict", verdictJson(session, verdicts.all)},
+                     {"incidents", incidentsJson(session)}};
+    if (facts.hasMemory) {
+        report["memory"] = memoryJson(session.memory());
+    }
+    return report.text();
+}
+
+} // namespace posewire::exporting
