@@ -4,6 +4,7 @@
 #include "app/gui/base/saving.h"
 #include "app/gui/plots/time_plot.h"
 #include "app/gui/theme/event_watch.h"
+#include "app/gui/theme/language.h"
 #include "app/gui/theme/theme.h"
 #include "app/gui/viewport/own_characters.h"
 #include "app/gui/viewport/presenter.h"
@@ -193,6 +194,7 @@ int main(int argc, char** argv) {
         tellVerbosely();
     }
     QApplication application(argc, argv);
+    useLanguage(options->language);
     SettingsFile file(options->settingsFile);
     QString problem;
     const Settings settings = startSettings(file, *options, &problem);

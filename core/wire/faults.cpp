@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstddef>
-#include <utility>
 
 namespace posewire::wire {
 namespace {
@@ -18,99 +17,114 @@ constexpr bool followTheEnum(const std::array<Row, N>& rows) {
     return true;
 }
 
+/// "{offset}", "{need}", "{have}" and "{count}" are figures of the fault.
 struct ErrorRow {
     ErrorCode code;
     std::string_view name;
-    std::string_view text;
-    std::string_view figures; ///< "#" for what is needed and for what is there
+    const char* text;
 };
 
-constexpr std::string_view kBytes = "needs # bytes, has #";
-
 constexpr std::array<ErrorRow, kErrorCodeCount> kErrors{{
-    {ErrorCode::HeaderTruncated, "headerTruncated", "the header is cut off", kBytes},
-    {ErrorCode::BadMagic, "badMagic", "does not begin with \"MXTP\"", ""},
-    {ErrorCode::BadType, "badType", "\"MXTP\" is not followed by two digits", ""},
-    {ErrorCode::PayloadTruncated, "payloadTruncated", "shorter than its header announces", kBytes},
-    {ErrorCode::ItemsTruncated, "itemsTruncated", "the announced items do not fit in the payload", kBytes},
-    {ErrorCode::FieldTruncated, "fieldTruncated", "a field runs past the end", kBytes},
-    {ErrorCode::BadLength, "badLength", "the length of a string is negative or leads past the end",
-     "says # bytes, has #"},
+    {ErrorCode::HeaderTruncated, "headerTruncated",
+     "the header is cut off (byte {offset}: needs {need} bytes, has {have})"},
+    {ErrorCode::BadMagic, "badMagic", "does not begin with \"MXTP\" (byte {offset})"},
+    {ErrorCode::BadType, "badType", "\"MXTP\" is not followed by two digits (byte {offset})"},
+    {ErrorCode::PayloadTruncated, "payloadTruncated",
+     "shorter than its header announces (byte {offset}: needs {need} bytes, has {have})"},
+    {ErrorCode::ItemsTruncated, "itemsTruncated",
+     "the announced items do not fit in the payload (byte {offset}: needs {need} bytes, has {have})"},
+    {ErrorCode::FieldTruncated, "fieldTruncated",
+     "a field runs past the end (byte {offset}: needs {need} bytes, has {have})"},
+    {ErrorCode::BadLength, "badLength",
+     "the length of a string is negative or leads past the end (byte {offset}: says {need} bytes, has "
+     "{have})"},
     {ErrorCode::CountTooLarge, "countTooLarge",
-     "a count is larger than the format allows or the rest of the datagram can hold",
-     "says # items, has room for #"},
-    {ErrorCode::BadSequence, "badSequence", "a string is not valid UTF-8", ""},
-    {ErrorCode::UnterminatedText, "unterminatedText", "a string has no terminating zero", ""},
-    {ErrorCode::TooLong, "tooLong", "longer than a datagram can be", "needs # bytes, has room for #"},
+     "a count is larger than the format allows or the rest of the datagram can hold (byte {offset}: says "
+     "{need} items, has room for {have})"},
+    {ErrorCode::BadSequence, "badSequence", "a string is not valid UTF-8 (byte {offset})"},
+    {ErrorCode::UnterminatedText, "unterminatedText", "a string has no terminating zero (byte {offset})"},
+    {ErrorCode::TooLong, "tooLong",
+     "longer than a datagram can be (byte {offset}: needs {need} bytes, has room for {have})"},
 }};
 static_assert(followTheEnum(kErrors));
 
 struct NoticeRow {
     NoticeCode code;
     std::string_view name;
-    std::string_view text;
-    std::string_view counted; ///< what the count counts, in the plural; empty if it is always one
+    const char* text;
+    const char* one = nullptr;
 };
 
 constexpr std::array<NoticeRow, kNoticeCodeCount> kNotices{{
-    {NoticeCode::UnknownType, "unknownType", "message type not known, payload kept as bytes", ""},
-    {NoticeCode::UnknownLayout, "unknownLayout", "type 04 in a layout that is not published, kept as bytes",
-     ""},
-    {NoticeCode::TrailingBytes, "trailingBytes", "bytes after the last field", "bytes"},
-    {NoticeCode::SizeDisagrees, "sizeDisagrees", "longer than the payload size in the header", "bytes"},
+    {NoticeCode::UnknownType, "unknownType", "message type not known, payload kept as bytes (byte {offset})"},
+    {NoticeCode::UnknownLayout, "unknownLayout",
+     "type 04 in a layout that is not published, kept as bytes (byte {offset})"},
+    {NoticeCode::TrailingBytes, "trailingBytes", "bytes after the last field (byte {offset}, {count} bytes)",
+     "bytes after the last field (byte {offset}, {count} byte)"},
+    {NoticeCode::SizeDisagrees, "sizeDisagrees",
+     "longer than the payload size in the header (byte {offset}, {count} bytes)",
+     "longer than the payload size in the header (byte {offset}, {count} byte)"},
     {NoticeCode::CountDisagrees, "countDisagrees",
-     "body, props and fingers do not add up to the number of items", ""},
-    {NoticeCode::ReservedUsed, "reservedUsed", "reserved header bytes are not zero", ""},
-    {NoticeCode::NotFinite, "notFinite", "not a finite number", "values"},
-    {NoticeCode::NotUnitQuaternion, "notUnitQuaternion", "quaternion is not of unit length", "quaternions"},
-    {NoticeCode::SegmentOutOfRange, "segmentOutOfRange", "segment ID is not in 1 to 67", "segments"},
-    {NoticeCode::UnknownTag, "unknownTag", "tag not known", "tags"},
-    {NoticeCode::LineWithoutTag, "lineWithoutTag", "line that is not \"tag:value\"", "lines"},
-    {NoticeCode::LengthDisagrees, "lengthDisagrees", "length before the time code is not 12", ""},
-    {NoticeCode::NotATimeCode, "notATimeCode", "time code is not HH:MM:SS.mmm", ""},
+     "body, props and fingers do not add up to the number of items (byte {offset})"},
+    {NoticeCode::ReservedUsed, "reservedUsed", "reserved header bytes are not zero (byte {offset})"},
+    {NoticeCode::NotFinite, "notFinite", "not a finite number (byte {offset}, {count} values)",
+     "not a finite number (byte {offset}, {count} value)"},
+    {NoticeCode::NotUnitQuaternion, "notUnitQuaternion",
+     "quaternion is not of unit length (byte {offset}, {count} quaternions)",
+     "quaternion is not of unit length (byte {offset}, {count} quaternion)"},
+    {NoticeCode::SegmentOutOfRange, "segmentOutOfRange",
+     "segment ID is not in 1 to 67 (byte {offset}, {count} segments)",
+     "segment ID is not in 1 to 67 (byte {offset}, {count} segment)"},
+    {NoticeCode::UnknownTag, "unknownTag", "tag not known (byte {offset}, {count} tags)",
+     "tag not known (byte {offset}, {count} tag)"},
+    {NoticeCode::LineWithoutTag, "lineWithoutTag",
+     "line that is not \"tag:value\" (byte {offset}, {count} lines)",
+     "line that is not \"tag:value\" (byte {offset}, {count} line)"},
+    {NoticeCode::LengthDisagrees, "lengthDisagrees", "length before the time code is not 12 (byte {offset})"},
+    {NoticeCode::NotATimeCode, "notATimeCode", "time code is not HH:MM:SS.mmm (byte {offset})"},
 }};
 static_assert(followTheEnum(kNotices));
 
+void fill(std::string& text, std::string_view name, std::int64_t figure) {
+    if (const std::size_t at = text.find(name); at != std::string::npos) {
+        text.replace(at, name.size(), std::to_string(figure));
+    }
+}
+
 } // namespace
+
+std::string inEnglish(const char* text, const char* one, std::uint32_t number) {
+    return one != nullptr && number == 1 ? one : text;
+}
 
 std::string_view errorName(ErrorCode code) {
     return kErrors[static_cast<std::size_t>(code)].name;
 }
 
-std::string errorText(const WireError& error) {
-    const ErrorRow& row = kErrors[static_cast<std::size_t>(error.code)];
-    if (error.code == ErrorCode::TooLong && error.need == 0) {
-        return "a string that ends at a zero has a zero inside";
-    }
-    std::string text(row.text);
-    text += " (byte " + std::to_string(error.offset) + (row.figures.empty() ? "" : ": ");
+std::string errorText(const WireError& error, FaultLanguage language) {
+    const bool isZeroInside = error.code == ErrorCode::TooLong && error.need == 0;
+    std::string text = language(isZeroInside ? "a string that ends at a zero has a zero inside"
+                                             : kErrors[static_cast<std::size_t>(error.code)].text,
+                                nullptr, error.need);
+    fill(text, "{offset}", error.offset);
     // A length has a sign.
-    const std::string need = error.code == ErrorCode::BadLength
-                                 ? std::to_string(static_cast<std::int32_t>(error.need))
-                                 : std::to_string(error.need);
-    bool isFirst = true;
-    for (const char letter : row.figures) {
-        text += letter != '#'                   ? std::string(1, letter)
-                : std::exchange(isFirst, false) ? need
-                                                : std::to_string(error.have);
-    }
-    return text + ')';
+    fill(text, "{need}",
+         error.code == ErrorCode::BadLength ? std::int64_t{static_cast<std::int32_t>(error.need)}
+                                            : std::int64_t{error.need});
+    fill(text, "{have}", error.have);
+    return text;
 }
 
 std::string_view noticeName(NoticeCode code) {
     return kNotices[static_cast<std::size_t>(code)].name;
 }
 
-std::string noticeText(const Notice& notice) {
+std::string noticeText(const Notice& notice, FaultLanguage language) {
     const NoticeRow& row = kNotices[static_cast<std::size_t>(notice.code)];
-    std::string text(row.text);
-    text += " (byte " + std::to_string(notice.offset);
-    if (!row.counted.empty()) {
-        const std::size_t plural = notice.count == 1 ? 1 : 0; // the s
-        text += ", " + std::to_string(notice.count) + ' ' +
-                std::string(row.counted.substr(0, row.counted.size() - plural));
-    }
-    return text + ')';
+    std::string text = language(row.text, row.one, notice.count);
+    fill(text, "{offset}", notice.offset);
+    fill(text, "{count}", notice.count);
+    return text;
 }
 
 } // namespace posewire::wire

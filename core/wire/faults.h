@@ -43,11 +43,15 @@ static_assert(std::is_trivially_copyable_v<WireError>);
 template <class T>
 using Result = tl::expected<T, WireError>;
 
+/// A text of the tables in some language, in the singular if it has one and the number is 1.
+using FaultLanguage = std::string (*)(const char* text, const char* one, std::uint32_t number);
+std::string inEnglish(const char* text, const char* one, std::uint32_t number);
+
 /// Stable name for files and scripts, such as "payloadTruncated".
 std::string_view errorName(ErrorCode code);
 
 /// One sentence for a person: what is wrong, where, and how much was needed.
-std::string errorText(const WireError& error);
+std::string errorText(const WireError& error, FaultLanguage language = inEnglish);
 
 /// What is odd about a datagram that could be read all the same. The texts are in faults.cpp, in this order.
 enum class NoticeCode : std::uint8_t {
@@ -78,6 +82,6 @@ struct Notice {
 };
 
 std::string_view noticeName(NoticeCode code);
-std::string noticeText(const Notice& notice);
+std::string noticeText(const Notice& notice, FaultLanguage language = inEnglish);
 
 } // namespace posewire::wire

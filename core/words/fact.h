@@ -17,6 +17,9 @@ namespace posewire::words {
 enum class Kind : std::uint8_t {
     Nothing,
     Text,
+    Names,
+    NamesAndLast,
+    NamesAndMore,
     Samples,
     Messages,
     Datagrams,
@@ -129,7 +132,7 @@ enum class Kind : std::uint8_t {
     WrongScale,
     AssumedBody,
 };
-inline constexpr std::size_t kKinds = 108;
+inline constexpr std::size_t kKinds = 111;
 
 /// A number with so many decimals; `isTrimmed`: without zeros at its end, as somebody set a limit.
 struct Number {

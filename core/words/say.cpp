@@ -80,7 +80,7 @@ struct Phrase {
     std::string operator()(const std::string& text) const { return text; }
     std::string operator()(std::uint64_t count) const { return model::grouped(count); }
     std::string operator()(const Number& number) const { return numberText(number); }
-    std::string operator()(const std::vector<std::string>& names) const { return model::listed(names); }
+    std::string operator()(const std::vector<std::string>& names) const;
     std::string operator()(const Fact& part) const { return say(part, form, language); }
 
     [[nodiscard]] std::string whole(std::string_view text) const {
@@ -131,6 +131,23 @@ struct Phrase {
         return isWhole;
     }
 };
+
+/// "a, b and c"; beyond four "a, b, c and 7 more".
+std::string Phrase::operator()(const std::vector<std::string>& names) const {
+    constexpr std::size_t kMost = 4;
+    const std::size_t first = names.size() > kMost ? kMost - 1 : std::max<std::size_t>(names.size(), 1) - 1;
+    std::string joined;
+    for (std::size_t i = 0; i < first; ++i) {
+        joined += (i == 0 ? "" : ", ") + names[i];
+    }
+    if (first == 0) {
+        return names.empty() ? joined : names.front();
+    }
+    const std::size_t left = names.size() - first;
+    return left > 1
+               ? say({Kind::NamesAndMore, {{"names", joined}, {"n", std::uint64_t{left}}}}, form, language)
+               : say({Kind::NamesAndLast, {{"names", joined}, {"last", names.back()}}}, form, language);
+}
 
 } // namespace
 

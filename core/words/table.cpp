@@ -13,6 +13,9 @@ using K = Kind;
 constexpr std::array kTable{
     Wording{.kind = K::Nothing},
     Wording{.kind = K::Text, .headline = {"{text}"}},
+    Wording{.kind = K::Names, .headline = {"{names}"}},
+    Wording{.kind = K::NamesAndLast, .headline = {"{names} and {last}"}},
+    Wording{.kind = K::NamesAndMore, .headline = {"{names} and {n} more"}},
     Wording{.kind = K::Samples, .headline = {"{n} samples", "{n} sample"}, .brief = {"{n}"}},
     Wording{.kind = K::Messages, .headline = {"{n} messages", "{n} message"}, .brief = {"{n}"}},
     Wording{.kind = K::Datagrams, .headline = {"{n} datagrams", "{n} datagram"}, .brief = {"{n}"}},

@@ -2,6 +2,7 @@
 #include "app/gui/base/options.h"
 
 #include "app/gui/base/dock_layout.h"
+#include "app/gui/theme/language.h"
 #include "app/gui/theme/words.h"
 #include "app/usage/usage.h"
 #include "core/log/output_file.h"
@@ -84,6 +85,15 @@ usage::Reading into(std::optional<ThemeChoice>& theme) {
     };
 }
 
+usage::Reading intoLanguage(QString& language) {
+    return [&language](const std::string& text) {
+        language = QString::fromStdString(text);
+        return languages().contains(language) || text == kPseudoLanguage
+                   ? std::string()
+                   : "--language: '" + text + "' is none of " + languages().join(u'|').toStdString();
+    };
+}
+
 usage::Reading into(QSize& size) {
     return [&size](const std::string& text) {
         constexpr QSize kMost(16'384, 16'384);
@@ -152,6 +162,8 @@ struct Declared {
         arguments.read("--settings FILE", into(options.settingsFile), "keep settings in this file");
         arguments.read("--theme " + themeForms(), into(options.theme),
                        "colours; those of the system by default");
+        arguments.read("--language CODE", intoLanguage(options.language),
+                       "language of the window, such as en; that of the system by default");
         arguments.read("--size WxH", into(options.size), "size of the window");
         arguments.flag("--no-tour", options.skipsTour, "do not offer the user guide at the first start");
         arguments.verbose(options.isVerbose, "inputs, files, settings and OpenGL");

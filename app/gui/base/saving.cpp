@@ -65,6 +65,10 @@ QString askWhereToSave(QWidget* parent, const QString& title, const QString& nam
     return isOther && !wantsToReplace(parent, title, path) ? QString() : path;
 }
 
+QString fileFilter(const char* kind, const char* suffix) {
+    return QStringLiteral("%1 (*.%2)").arg(translatedText(kind), QLatin1String(suffix));
+}
+
 QString saveFile(const QString& path, QByteArrayView content) {
     if (const QString problem = noFile(path); !problem.isEmpty()) {
         return tr("Not saved: %1: %2").arg(path, problem);

@@ -8,7 +8,6 @@
 #include <QByteArrayView>
 #include <QCoreApplication>
 #include <QJsonObject>
-#include <QString>
 #include <QStringList>
 
 #include <tl/expected.hpp>
@@ -66,18 +65,14 @@ private:
 [[nodiscard]] tl::expected<QByteArray, QString> readSmallFile(const QString& path);
 
 /// A format for QFileDialog: "JSON (*.json)".
-template <class Subject>
-[[nodiscard]] QString fileFilter(const exporting::Format<Subject>& format) {
-    return QStringLiteral("%1 (*.%2)")
-        .arg(QCoreApplication::translate("Formats", format.kind), QLatin1String(format.suffix));
-}
+[[nodiscard]] QString fileFilter(const char* kind, const char* suffix);
 
 /// All formats of a subject for QFileDialog, the usual one first.
 template <class Subject>
 [[nodiscard]] QString fileFilters() {
     QStringList filters;
     for (const exporting::Format<Subject>& format : exporting::formats<Subject>()) {
-        filters += fileFilter(format);
+        filters += fileFilter(format.kind, format.suffix);
     }
     return filters.join(QStringLiteral(";;"));
 }

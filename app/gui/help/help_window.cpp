@@ -434,8 +434,7 @@ void HelpWindow::search(const QString& words) {
     const auto count = static_cast<int>(hits.size());
     m_found->setText(words.trimmed().isEmpty() ? QString()
                      : count == 0              ? tr("not found")
-                     : count == 1              ? tr("1 page")
-                                               : tr("%1 pages").arg(count));
+                                               : tr("%n pages", nullptr, count));
     m_view->highlight(searchedWords(words));
 }
 

@@ -119,8 +119,8 @@ void addFigureColumns(std::vector<TableColumn<Row>>& columns) {
 std::vector<TableColumn<DetailRow>> detailColumns() {
     using Column = TableColumn<DetailRow>;
     std::vector<Column> columns{Column::words(tr("Stream"), {}, [](const DetailRow& row) {
-                                    return QString::fromStdString(wire::typeTitle(row.key.type));
-                                }).in({.usual = QStringLiteral("02 Pose, quaternion"), .isOpen = true})};
+                                    return typeTitle(row.key.type);
+                                }).in({.usual = typeTitle(2), .isOpen = true})};
     addFigureColumns(columns);
     return columns;
 }
@@ -285,7 +285,7 @@ std::vector<TableColumn<BoardRow>> CharacterModel::columns(model::SessionView& v
         std::move(name),
         valueColumn(Column::words(tr("Verdict"), tr("Whether it is good now on the wire"), {}),
                     [](const BoardRow& row) { return verdictState(row.verdict); })
-            .in({.usual = QStringLiteral("■ 10.0 % lost"), .isOpen = true, .whole = 26})
+            .in({.usual = tr("■ 10.0 % lost"), .isOpen = true, .whole = 26})
             .withMore([](const BoardRow& row, int role) {
                 if (role == kShortTextRole) { // whose loss it is stands beside it, in the columns of losses
                     return QVariant(

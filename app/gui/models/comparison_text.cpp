@@ -50,8 +50,8 @@ QString offsetText(const exporting::Alignment& alignment) {
     if (alignment.by != exporting::AlignBy::Sample) {
         return tr("%1 ms").arg(signedFixed(alignment.offset, 1));
     }
-    return std::abs(alignment.offset) == 1 ? tr("%1 sample").arg(signedFixed(alignment.offset, 0))
-                                           : tr("%1 samples").arg(signedFixed(alignment.offset, 0));
+    return tr("%1 samples", nullptr, static_cast<int>(std::abs(alignment.offset)))
+        .arg(signedFixed(alignment.offset, 0));
 }
 
 QString comparisonText(const ComparisonState& state) {

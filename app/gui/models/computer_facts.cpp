@@ -80,7 +80,7 @@ PropertyValue longestGap(const Source& from) {
     if (longest == 0) {
         return {tr("none"), Health::Good};
     }
-    const QString samples = longest == 1 ? tr("1 sample") : tr("%1 samples").arg(grouped(longest));
+    const QString samples = tr("%1 samples", nullptr, static_cast<int>(longest)).arg(grouped(longest));
     const QString time =
         rateHz > 0 ? tr(" · %1 ms").arg(fixed(static_cast<double>(longest) / rateHz * 1000, 1)) : QString();
     return {samples + time, Health::Warning};
@@ -143,10 +143,10 @@ PropertyValue memoryParts(const Source& from) {
     QStringList parts; // zeros only take room
     QStringList all;
     for (const model::MemoryFigures::Part& part : memoryFigures(from).parts) {
-        const QString text = tr(part.name) + QLatin1Char(' ') + megabytes(part.bytes);
+        const QString text = translatedText(part.name) + QLatin1Char(' ') + megabytes(part.bytes);
         all += part.most == 0 ? text : tr("%1 of %2").arg(text, megabytes(part.most));
         if (part.bytes >> 20 != 0) {
-            parts += tr(part.name) + QLatin1Char(' ') + grouped(part.bytes >> 20);
+            parts += translatedText(part.name) + QLatin1Char(' ') + grouped(part.bytes >> 20);
         }
     }
     return {parts.isEmpty() ? tr("below 1 MB") : parts.join(QStringLiteral(" · ")), Health::Unknown,

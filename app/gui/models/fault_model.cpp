@@ -80,7 +80,7 @@ std::vector<TableColumn<FaultRow>> FaultModel::columns(const FaultModel& model) 
         tr("Character"),
         tr("Each character is one row through restarts of its sender; its streams are below it"),
         [&model](const FaultRow& row) { return model.nameOf(row); });
-    name.room = {.usual = QStringLiteral("    ● All characters"), .isOpen = true, .whole = 16};
+    name.room = {.usual = tr("    ● All characters"), .isOpen = true, .whole = 16};
     name.more = [&model](const FaultRow& row, int role) { return model.marksOf(row, role); };
     name.spoken = [&model](const FaultRow& row) {
         return row.kind == FaultRow::Character ? nameApart(model.m_view, row.current) : model.nameOf(row);
@@ -110,7 +110,7 @@ QString FaultModel::nameOf(const FaultRow& row) const {
     case FaultRow::Stream:
         break;
     }
-    return QString::fromStdString(wire::typeTitle(row.type));
+    return typeTitle(row.type);
 }
 
 QVariant FaultModel::marksOf(const FaultRow& row, int role) const {

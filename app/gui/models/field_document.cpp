@@ -370,7 +370,7 @@ bool FieldDocument::isAffected(wire::NoticeCode code, std::int32_t index) const 
 }
 
 void FieldDocument::addNotice(const wire::Notice& notice) {
-    QString text = QString::fromStdString(wire::noticeText(notice));
+    QString text = faultText(notice);
     for (std::int32_t i = 0; i < count(); ++i) {
         if (isAffected(notice.code, i)) {
             addProblem(Health::Warning, std::exchange(text, {}), i); // the first of a kind speaks for all

@@ -58,7 +58,7 @@ ColumnRoom FieldModel::room(int column) const {
     const int onCompare = isComparing ? 0 : ColumnRoom::kOnChoice;
     const QString value =
         isComparing ? QStringLiteral("−0.00  −0.00 m") : QStringLiteral("−0.000  −0.000  −0.000 m");
-    const QString least = QStringLiteral("23 × 736 bytes");
+    const QString least = tr("23 × 736 bytes");
     switch (column) {
     case kField:
         return {.usual = QStringLiteral("Segment 10 · Right Upper Armxx"),
@@ -76,8 +76,7 @@ ColumnRoom FieldModel::room(int column) const {
     case kDifference:
         return {.usual = QStringLiteral("−0.0000 m"), .least = QStringLiteral("−0.0 m"), .order = onCompare};
     case kMeaning:
-        return {
-            .usual = QStringLiteral("quaternion w x y z, not of unit length"), .order = 2, .isOpen = true};
+        return {.usual = tr("quaternion w x y z, not of unit length"), .order = 2, .isOpen = true};
     default:
         return {.usual = QStringLiteral("§ N 2.5.10"), .order = 1};
     }

@@ -134,7 +134,7 @@ QString headerText(const FieldDocument& document, std::int32_t index) {
         return tr("not sent");
     }
     if (node.kind == NodeKind::Part) {
-        return node.unit == Unit::Identifier ? fromUtf8(wire::typeTitle(document.type())) : QString();
+        return node.unit == Unit::Identifier ? typeTitle(document.type()) : QString();
     }
     if (node.kind == NodeKind::Field && !document.children(index).empty()) {
         return node.scalar == wire::Scalar::Characters ? documentTitle(document)
@@ -163,13 +163,14 @@ QString documentTitle(const FieldDocument& document) {
         return tr("Skipped bytes");
     }
     if (document.hasHeader) {
-        return fromUtf8(wire::typeTitle(document.type()));
+        return typeTitle(document.type());
     }
     return document.kind == model::PacketKind::Foreign ? tr("Foreign datagram") : tr("Malformed datagram");
 }
 
 QStringList documentLines(const FieldDocument& document) {
-    const QString size = tr("%1 bytes").arg(grouped(document.bytes.size()));
+    const QString size =
+        tr("%1 bytes", nullptr, static_cast<int>(document.bytes.size())).arg(grouped(document.bytes.size()));
     if (!document.hasHeader) {
         return {size};
     }
@@ -178,7 +179,7 @@ QStringList documentLines(const FieldDocument& document) {
         tr("%1 · sample %2 · %3")
             .arg(size, grouped(header.sampleCounter), datagramCounterText(header.datagramCounter))};
     if (const wire::TypeInfo* type = wire::findType(document.type())) {
-        QStringList about{fromUtf8(wire::frameName(type->frame)), fromUtf8(type->remark)};
+        QStringList about{translatedText(wire::frameName(type->frame)), translatedText(type->remark)};
         about.removeAll(QString());
         lines += about.join(QStringLiteral(" · "));
         lines += tr("Revisions %1 · § %2").arg(fromUtf8(type->revisions), fromUtf8(type->section));
@@ -226,16 +227,16 @@ QString convertedValue(const FieldDocument& document, std::int32_t index) {
     const FieldNode& node = document.node(index);
     switch (node.kind) {
     case NodeKind::Group:
-        return document.isInHeader(index) ? tr("%1 bytes").arg(node.length)
+        return document.isInHeader(index) ? tr("%n bytes", nullptr, static_cast<int>(node.length))
                                           : tr("%1 × · %2 bytes").arg(node.index).arg(grouped(node.length));
     case NodeKind::Item:
-        return tr("%1 bytes").arg(node.length);
+        return tr("%n bytes", nullptr, static_cast<int>(node.length));
     case NodeKind::Cut:
         return document.tree.cutError.code == wire::ErrorCode::FieldTruncated
                    ? tr("%1 of %2 bytes").arg(document.tree.cutError.have).arg(document.tree.cutError.need)
                    : tr("past the end");
     case NodeKind::Unread:
-        return tr("%1 bytes").arg(grouped(node.length));
+        return tr("%1 bytes", nullptr, static_cast<int>(node.length)).arg(grouped(node.length));
     default:
         break;
     }
@@ -271,7 +272,7 @@ QString fieldMeaning(const FieldDocument& document, std::int32_t index) {
     if (node.kind == NodeKind::Unread && !document.hasHeader) {
         return tr("no datagram of this protocol");
     }
-    return fromUtf8(node.text);
+    return translatedText(node.text);
 }
 
 QString fieldSection(const FieldDocument& document, std::int32_t index) {
@@ -283,7 +284,7 @@ QString fieldPlace(const FieldDocument& document, std::int32_t index) {
     const FieldNode& node = document.node(index);
     const bool isNumber = node.scalar != wire::Scalar::Text && node.scalar != wire::Scalar::Characters;
     const QString scalar = fromUtf8(wire::scalarName(node.scalar));
-    const QString kind = !isNumber              ? tr("%1 bytes").arg(node.length)
+    const QString kind = !isNumber              ? tr("%n bytes", nullptr, static_cast<int>(node.length))
                          : node.components != 0 ? tr("%1 × %2").arg(node.components).arg(scalar)
                                                 : scalar;
     return node.length == 1 ? tr("%1 at byte %2").arg(kind).arg(node.offset)

@@ -5,7 +5,6 @@
 #include "app/gui/models/text.h"
 #include "app/gui/theme/words.h"
 #include "core/model/session/verdict.h"
-#include "core/wire/type_table.h"
 
 #include <algorithm>
 
@@ -63,7 +62,7 @@ QString wordsOf(model::SessionView& view, const IncidentLine& line, words::Form 
     }
     const QString all = parts.join(QStringLiteral(" · "));
     const auto type = line.isPart ? line.part()->type : std::nullopt;
-    return type ? tr("%1: %2").arg(QString::fromStdString(wire::typeTitle(*type)), all) : all;
+    return type ? tr("%1: %2").arg(typeTitle(*type), all) : all;
 }
 
 QString lostWords(const IncidentLine& line) {
@@ -76,7 +75,7 @@ QString lostWords(const IncidentLine& line) {
 QString causeWords(const IncidentLine& line) {
     const model::Incident& incident = line.incident();
     const bool isKnown = !line.isPart && line.settled != nullptr && incident.cause;
-    return isKnown ? fromUtf8(model::nameOf(*incident.cause)) : QString();
+    return isKnown ? translatedText(model::nameOf(*incident.cause)) : QString();
 }
 
 IncidentColumn severityColumn() {
@@ -87,7 +86,7 @@ IncidentColumn severityColumn() {
                    ? tr("provisional")
                    : PropertyValue{severityWord(severity), healthOf(severity)}.display();
     });
-    column.room = {.usual = QStringLiteral("    ▲ warning"), .least = QStringLiteral("Severity")};
+    column.room = {.usual = tr("    ▲ warning"), .least = tr("Severity")};
     column.colour = [](const IncidentLine& line) {
         const model::IncidentSeverity severity = line.incident().severity();
         const bool isQuiet = line.state == State::Provisional || severity == model::IncidentSeverity::Info;
@@ -128,9 +127,9 @@ std::vector<IncidentColumn> textColumns(model::SessionView& view) {
             .withToolTip(whose),
         // The cause has a column of its own.
         IncidentColumn::words(tr("What happened"), {}, words)
-            .in({.usual = QStringLiteral("11509 samples lost in 11293 gaps"),
-                 .wish = QStringLiteral("1509 samples lost in 1293 gaps. 10 not yet here."),
-                 .least = QStringLiteral("1509 samples lost"),
+            .in({.usual = tr("11509 samples lost in 11293 gaps"),
+                 .wish = tr("1509 samples lost in 1293 gaps. 10 not yet here."),
+                 .least = tr("1509 samples lost"),
                  .isOpen = true})
             .withToolTip(words)
             .withMore([&view](const IncidentLine& line, int role) {
@@ -149,10 +148,10 @@ std::vector<IncidentColumn> figureColumns(const model::SessionView& view) {
         IncidentColumn::numbers(tr("Lost"), tr("Samples lost for good"), lostWords)
             .in({.usual = QStringLiteral("99 999"), .order = 4}),
         IncidentColumn::words(tr("Cause"), tr("Whose loss it was"), causeWords)
-            .in({.usual = QStringLiteral("this computer"), .order = 7}),
+            .in({.usual = tr("this computer"), .order = 7}),
         IncidentColumn::numbers(tr("Lasted"), tr("From its begin to its end"),
                                 [&view](const IncidentLine& line) { return lasted(view, line); })
-            .in({.usual = QStringLiteral("provisional"), .order = 6}),
+            .in({.usual = tr("provisional"), .order = 6}),
         IncidentColumn::numbers(tr("Count"), tr("How often it happened in this incident"),
                                 [](const IncidentLine& line) {
                                     const auto* part = line.part();
@@ -161,14 +160,15 @@ std::vector<IncidentColumn> figureColumns(const model::SessionView& view) {
             .in({.usual = QStringLiteral("99 999"), .order = 3}),
         IncidentColumn::words(tr("Kind"), {},
                               [](const IncidentLine& line) {
-                                  return line.isPart ? QString() : fromUtf8(nameOf(line.incident().kind));
+                                  return line.isPart ? QString()
+                                                     : translatedText(nameOf(line.incident().kind));
                               })
-            .in({.usual = QStringLiteral("metadata change"), .order = 2}),
+            .in({.usual = tr("metadata change"), .order = 2}),
         IncidentColumn::words(tr("Group"), {},
                               [](const IncidentLine& line) {
                                   return line.isPart ? QString() : groupWord(line.incident().group());
                               })
-            .in({.usual = QStringLiteral("Content"), .order = 1}),
+            .in({.usual = tr("Content"), .order = 1}),
     };
 }
 

@@ -43,7 +43,7 @@ QString whoseWords(model::SessionView& view, const model::Incident& incident) {
         return shown(view.roster().addressOf(incident.sender));
     }
     const model::CharacterKey first{incident.sender, characters.front()};
-    const QString count = tr("%1 characters").arg(grouped(characters.size()));
+    const QString count = tr("%n characters", nullptr, static_cast<int>(characters.size()));
     const QString sender = characters.size() == 1 ? QString() : senderApart(view, first);
     const QString name = characters.size() == 1 ? nameApart(view, first)
                          : sender.isEmpty()     ? count

@@ -31,7 +31,7 @@ QString suffixOf(const MetadataRow& row) {
         parts += tr("· unknown");
     }
     if (row.changes != 0) {
-        parts += row.changes == 1 ? tr("· 1 change") : tr("· %1 changes").arg(row.changes);
+        parts += tr("· %n changes", nullptr, static_cast<int>(row.changes));
     }
     return parts.join(QLatin1Char(' '));
 }
@@ -116,8 +116,7 @@ std::vector<MetadataColumn> metadataColumns(model::SessionView& view) {
 using Key = model::CharacterKey;
 
 QString withEvidence(const QString& conclusion, const std::string& evidence) {
-    return evidence.empty() ? conclusion
-                            : conclusion + QStringLiteral(" · ") + QString::fromStdString(evidence);
+    return evidence.empty() ? conclusion : conclusion + QStringLiteral(" · ") + translatedText(evidence);
 }
 
 /// What was detected about a sender, unless the operator has said something else.
@@ -136,10 +135,11 @@ QString unitText(model::LengthUnit unit) {
 PropertyValue revision(const model::Sender& sender) {
     const model::Detection& found = sender.detector.result();
     const auto said = sender.overrides.revision
-                          ? std::optional(fromUtf8(model::revisionName(sender.revision())))
+                          ? std::optional(translatedText(model::revisionName(sender.revision())))
                           : std::nullopt;
-    return concluded(withEvidence(fromUtf8(model::revisionName(found.revision)), found.revisionEvidence),
-                     said, tr("Revision of the specification that this sender follows · the evidence"));
+    return concluded(
+        withEvidence(translatedText(model::revisionName(found.revision)), found.revisionEvidence), said,
+        tr("Revision of the specification that this sender follows · the evidence"));
 }
 
 PropertyValue units(const model::Sender& sender) {
@@ -163,10 +163,7 @@ PropertyValue segments(model::SessionView& view, const Key& key) {
         return {tr("no pose yet")};
     }
     const model::SegmentLayout& layout = pose->layout;
-    return {(layout.props == 1 ? tr("%1 body · %2 prop · %3 fingers") : tr("%1 body · %2 props · %3 fingers"))
-                .arg(layout.body)
-                .arg(layout.props)
-                .arg(layout.fingers),
+    return {tr("%1 body · %n props · %2 fingers", nullptr, layout.props).arg(layout.body).arg(layout.fingers),
             Health::Unknown, tr("Items of a pose datagram, from the header's counts or their number")};
 }
 

@@ -204,7 +204,7 @@ std::vector<TableColumn<Length>> lengthColumns() {
     using Column = TableColumn<Length>;
     const QString extent = tr("From the segment's origin to the next one's, or to its end point");
     return {
-        Column::words(tr("Length"), {}, [](const auto& length) { return fromUtf8(length.name); })
+        Column::words(tr("Length"), {}, [](const auto& length) { return translatedText(length.name); })
             .in({.usual = QStringLiteral("12345678"), .isOpen = true}),
         Column::numbers(tr("Left mm"), extent,
                         [](const auto& length) {

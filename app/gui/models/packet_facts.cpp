@@ -7,7 +7,6 @@
 #include "core/model/accounting/attribution.h"
 #include "core/model/session/accounts.h"
 #include "core/wire/codec.h"
-#include "core/wire/type_table.h"
 
 #include <algorithm>
 
@@ -28,11 +27,11 @@ QString beginning(wire::Bytes bytes) {
 QStringList decodedFindings(const log::Packet& packet) {
     const auto decoded = wire::decode(packet.bytes);
     if (!decoded) {
-        return {tr("malformed: %1").arg(QString::fromStdString(wire::errorText(decoded.error())))};
+        return {tr("malformed: %1").arg(faultText(decoded.error()))};
     }
     QStringList texts;
     for (const wire::Notice& notice : decoded->notices) {
-        texts += QString::fromStdString(wire::noticeText(notice));
+        texts += faultText(notice);
     }
     return texts;
 }
@@ -44,7 +43,7 @@ QString gapText(const model::Gap* gap, std::uint64_t samples) {
     }
     const bool isKnown = gap->cause != model::LossCause::Unknown;
     return tr("%1: %2 lost")
-        .arg(isKnown ? fromUtf8(model::nameOf(gap->cause)) : tr("cause unknown"), grouped(samples));
+        .arg(isKnown ? translatedText(model::nameOf(gap->cause)) : tr("cause unknown"), grouped(samples));
 }
 
 QString findingsOf(model::SessionView& view, const log::Packet& packet, const model::PacketDigest& digest) {
@@ -100,13 +99,13 @@ QStringList sequenceFindings(model::SessionView& view, std::uint64_t number) {
     }
     if (digest->gap != 0) {
         const model::Gap* gap = view.accounts().gapEndedBy(number);
-        const QString missing = digest->gap == 1
-                                    ? tr("1 sample is missing just before it.")
-                                    : tr("%1 samples are missing just before it.").arg(grouped(digest->gap));
+        const QString missing =
+            tr("%1 samples are missing just before it.", nullptr, static_cast<int>(digest->gap))
+                .arg(grouped(digest->gap));
         texts += gap == nullptr ? missing
                                 : missing + QLatin1Char(' ') +
                                       tr("Cause: %1. %2")
-                                          .arg(fromUtf8(model::nameOf(gap->cause)),
+                                          .arg(translatedText(model::nameOf(gap->cause)),
                                                said(gap->evidenceFact(), words::Form::Sentence));
     }
     if (digest->isDuplicate) {
@@ -158,9 +157,8 @@ QString packetType(const PacketFacts& facts) {
     if (isStrange(facts.digest)) {
         return facts.digest.kind == model::PacketKind::Foreign ? tr("foreign") : tr("stray bytes");
     }
-    return facts.digest.kind == model::PacketKind::Malformed && !facts.header
-               ? tr("malformed")
-               : QString::fromStdString(wire::typeTitle(facts.digest.type));
+    return facts.digest.kind == model::PacketKind::Malformed && !facts.header ? tr("malformed")
+                                                                              : typeTitle(facts.digest.type);
 }
 
 QString packetPart(model::SessionView& view, const PacketFacts& facts) {

@@ -107,14 +107,14 @@ std::vector<PacketColumn> PacketModel::columns(const PacketModel& model) {
     give(kTime, {.usual = QStringLiteral("9999.9999"), .order = 4});
     give(kDelta, {.usual = QStringLiteral("9999.99"), .order = 3});
     give(kSender, {.usual = QStringLiteral("192.168.10.21:52011")});
-    give(kType, {.usual = QStringLiteral("22 Angular kinematics"), .least = QStringLiteral("22 Angula")});
+    give(kType, {.usual = typeTitle(22), .least = QStringLiteral("22 Angula")});
     give(kCharacter, {.usual = QStringLiteral("● 0 Mira Lin"),
                       .wish = QStringLiteral("● 10 Mira Lindqvist"),
                       .least = QStringLiteral("● 10 Mi")});
     give(kSample, {.usual = grouped(99'999), .order = 5});
     give(kPart, {.usual = QStringLiteral("1/1"), .order = 1});
     give(kSize, {.usual = QStringLiteral("9 999"), .order = 2});
-    give(kNote, {.usual = QStringLiteral("▲ network: 1 lost"), .isOpen = true});
+    give(kNote, {.usual = tr("▲ network: 1 lost"), .isOpen = true});
     columns[kCharacter].more = [&model](const PacketFacts& facts, int role) {
         return model.characterMark(facts, role);
     };

@@ -156,7 +156,7 @@ InputColumn hostColumn() {
     };
     return InputColumn::words(tr("Host"), tr("Where it is heard; for a connection to a sender, that sender"),
                               [](const PortState& input) { return hostText(input.port); })
-        .in({QStringLiteral("this computer · every address")})
+        .in({tr("this computer · every address")})
         .withMore(suffix);
 }
 

@@ -3,6 +3,7 @@
 
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
+#include "app/gui/theme/words.h"
 #include "core/export/sheets.h"
 #include "core/model/session/roster.h"
 #include "core/wire/type_table.h"
@@ -158,10 +159,10 @@ std::vector<TableColumn<StreamRow>> StatisticsModel::columns(const StatisticsMod
 
 TableColumn<StreamRow> StatisticsModel::figureColumn(const StatisticsModel& model, model::Figure figure) {
     const model::FigureRow& about = model::rowOf(figure);
-    const QString help = about.packets == nullptr
-                             ? tr(about.help)
-                             : QStringLiteral("%1. %2").arg(
-                                   tr(about.help), tr("Double click: %1").arg(tr(about.packets).toLower()));
+    const QString help =
+        about.packets == nullptr
+            ? translatedText(about.help)
+            : tr("%1. Double click: %2").arg(translatedText(about.help), translatedText(about.packets));
     const auto value = [&model, figure](const StreamRow& row) {
         const model::StreamFigures& figures = model.figures(model.indexOf(row));
         return PropertyValue{figureText(figures, figure), figureHealth(figures, figure)};
@@ -177,7 +178,7 @@ TableColumn<StreamRow> StatisticsModel::figureColumn(const StatisticsModel& mode
     const auto colour = [&model, figure](const StreamRow& row) {
         return figureColour(model.figures(model.indexOf(row)), figure);
     };
-    return {.title = tr(about.shortTitle()),
+    return {.title = translatedText(about.shortTitle()),
             .help = help,
             .isNumber = true,
             .text = text,
@@ -327,7 +328,7 @@ QString StatisticsModel::csv() const {
     }
     for (const Column& column : kColumns) {
         if (column.figure) {
-            titles.push_back(tr(model::rowOf(*column.figure).title).toStdString());
+            titles.push_back(translatedText(model::rowOf(*column.figure).title).toStdString());
         }
     }
     std::string text = exporting::csvLine(titles);

@@ -5,7 +5,6 @@
 #include "app/gui/models/text.h"
 #include "core/model/session/accounts.h"
 #include "core/model/session/roster.h"
-#include "core/wire/type_table.h"
 
 #include <algorithm>
 
@@ -170,7 +169,7 @@ QString StreamTreeModel::nameOf(const StreamRow& row) const {
     if (row.kind == Kind::Character) {
         return characterName(m_view, characterOf(row.key));
     }
-    return QString::fromStdString(wire::typeTitle(row.key.type));
+    return typeTitle(row.key.type);
 }
 
 bool StreamTreeModel::isEnded(const QModelIndex& index) const {

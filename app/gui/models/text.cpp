@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/models/text.h"
 
+#include "app/gui/theme/words.h"
 #include "core/model/text.h"
+#include "core/wire/type_table.h"
 
 #include <QCoreApplication>
 #include <QDateTime>
@@ -18,11 +20,13 @@ QString withArrows(QString text) {
 }
 
 /// The catalogue has the plural of the table as its source.
+std::string pluralOf(const char* text, const char* one, std::uint32_t number) {
+    const std::string own = tr(text, nullptr, static_cast<int>(number)).toStdString();
+    return own == text ? wire::inEnglish(text, one, number) : own;
+}
+
 std::string translated(const words::Text& text, std::uint64_t number) {
-    const QString source = fromUtf8(text.text);
-    const QString own =
-        QCoreApplication::translate("posewire::words", text.text, nullptr, static_cast<int>(number));
-    return own == source ? words::english(text, number) : own.toStdString();
+    return pluralOf(text.text, text.one, static_cast<std::uint32_t>(number));
 }
 
 } // namespace
@@ -37,6 +41,20 @@ QString shown(const model::ForeignText& text) {
 
 QString shownText(std::string_view bytes) {
     return withArrows(fromUtf8(model::shownText(bytes)));
+}
+
+QString typeTitle(std::uint8_t type) {
+    const wire::TypeInfo* known = wire::findType(type);
+    return fromUtf8(wire::typeDigits(type)) + u' ' +
+           (known != nullptr ? translatedText(known->name) : tr("unknown type"));
+}
+
+QString faultText(const wire::WireError& error) {
+    return fromUtf8(wire::errorText(error, pluralOf));
+}
+
+QString faultText(const wire::Notice& notice) {
+    return fromUtf8(wire::noticeText(notice, pluralOf));
 }
 
 QString said(const words::Fact& fact, words::Form form) {

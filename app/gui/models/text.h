@@ -3,6 +3,7 @@
 
 #include "core/log/time.h"
 #include "core/model/foreign_text.h"
+#include "core/wire/faults.h"
 #include "core/words/say.h"
 
 #include <QDateTime>
@@ -24,6 +25,13 @@ namespace posewire::gui {
 
 /// UTF-8 of the core's own words as a text of the window.
 [[nodiscard]] QString fromUtf8(std::string_view text);
+
+/// "02 Pose, quaternion", or "77 unknown type".
+[[nodiscard]] QString typeTitle(std::uint8_t type);
+
+/// Why a datagram cannot be decoded, and what is odd about one, in the operator's language.
+[[nodiscard]] QString faultText(const wire::WireError& error);
+[[nodiscard]] QString faultText(const wire::Notice& notice);
 
 /// A fact in words, in the operator's language if there is a catalogue for it.
 [[nodiscard]] QString said(const words::Fact& fact, words::Form form);

@@ -3,9 +3,9 @@
 
 #include "app/gui/models/character_model.h"
 #include "app/gui/models/shown_character.h"
+#include "app/gui/models/text.h"
 #include "core/model/session/messages.h"
 #include "core/model/session/roster.h"
-#include "core/wire/type_table.h"
 
 #include <algorithm>
 #include <map>
@@ -65,13 +65,7 @@ void TimelineModel::addRows(const model::CharacterKey& key) {
         return;
     }
     for (auto& [type, streams] : byType) {
-        m_rows.push_back({key,
-                          type,
-                          QString::fromStdString(wire::typeTitle(type)),
-                          whole.mark,
-                          std::move(streams),
-                          false,
-                          {}});
+        m_rows.push_back({key, type, typeTitle(type), whole.mark, std::move(streams), false, {}});
     }
 }
 

@@ -93,7 +93,7 @@ public:
         const int count = m_model.rowCount();
         setVisible(count != 0);
         m_table->setVisible(isOpen() && count != 0);
-        const QString words = count == 1 ? tr("1 ended sender") : tr("%1 ended senders").arg(count);
+        const QString words = tr("%n ended senders", nullptr, count);
         m_toggle->setText((isOpen() ? QStringLiteral("▾ ") : QStringLiteral("▸ ")) + words);
         m_toggle->setAccessibleName(words);
         m_table->setFixedHeight(m_table->heightForRows(std::clamp(count, 1, kMostRows)));

@@ -236,8 +236,7 @@ QString InspectorPanel::comparisonText() const {
         return {};
     }
     if (const FieldDocument* other = m_model.other()) {
-        const QString count = m_model.differences() == 1 ? tr("1 field differs")
-                                                         : tr("%1 fields differ").arg(m_model.differences());
+        const QString count = tr("%n fields differ", nullptr, static_cast<int>(m_model.differences()));
         const double apartMs = log::millisecondsOf(m_document->stamp - other->stamp);
         return tr("Compared with packet %1, %2 ms apart: %3")
             .arg(grouped(other->number), signedFixed(apartMs, 2), count);

@@ -148,8 +148,8 @@ void DetectionBar::showSender(std::optional<log::SenderId> sender) {
     }
     const QString revision = check(*m_revision.group, found->overrides.revision);
     const QString unit = check(*m_unit.group, found->overrides.positionUnit);
-    m_revision.button->setText(tr("Revision: %1").arg(revision) + QStringLiteral(" ▾"));
-    m_unit.button->setText(tr("Units: %1").arg(unit) + QStringLiteral(" ▾"));
+    m_revision.button->setText(tr("Revision: %1 ▾").arg(revision));
+    m_unit.button->setText(tr("Units: %1 ▾").arg(unit));
     showContradictions(*found);
 }
 

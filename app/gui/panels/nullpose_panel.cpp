@@ -143,7 +143,7 @@ void NullPosePanel::makeButtons() {
     auto* menu = new QMenu(m_export);
     for (const SheetFormat& format : exporting::formats<exporting::NullPoseSheet>()) {
         menu->addAction(tr("Save as &%1…").arg(QLatin1String(format.title)), this,
-                        [this, &format] { chooseFile(format, fileFilter(format)); });
+                        [this, &format] { chooseFile(format, fileFilter(format.kind, format.suffix)); });
     }
     menu->addSeparator();
     for (const SheetFormat& format : exporting::formats<exporting::NullPoseSheet>()) {
@@ -292,7 +292,7 @@ void NullPosePanel::arrange() {
     }
     // Beside the figure the facts have the room they need; a narrow dock has them below it.
     const bool isWide = width() >= 30 * fontMetrics().height();
-    const QString widest = QStringLiteral("Props (11)00:00:00 · 99.9 s");
+    const QString widest = tr("Props (11)") + QStringLiteral("00:00:00 · 99.9 s");
     m_factTable->setMinimumWidth(isWide ? QFontMetrics(tabularFont()).horizontalAdvance(widest) +
                                               5 * CellDelegate::margin(fontMetrics())
                                         : 0);

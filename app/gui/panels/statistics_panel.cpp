@@ -88,8 +88,7 @@ QString StatisticsPanel::summary() const {
     if (count == 0) {
         return {};
     }
-    const QString streams = count == 1 ? tr("1 stream") : tr("%1 streams").arg(count);
-    return tr("%1 · %2").arg(spanText(m_view), streams);
+    return tr("%1 · %n streams", nullptr, static_cast<int>(count)).arg(spanText(m_view));
 }
 
 void StatisticsPanel::select(const QModelIndex& index) {

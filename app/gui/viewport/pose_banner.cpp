@@ -9,7 +9,6 @@
 #include "core/model/body/pose_remark.h"
 #include "core/model/session/messages.h"
 #include "core/model/session/roster.h"
-#include "core/model/text.h"
 
 #include <QEvent>
 #include <QLabel>
@@ -71,12 +70,14 @@ std::vector<PoseNote> poseNotes(const model::SessionView& session, std::size_t m
             for (std::size_t i = notes.size(); i < groups.size(); ++i) {
                 left += groups[i].names.size();
             }
-            notes.push_back({Health::Unknown, tr("%1 more characters are not whole either").arg(left)});
+            notes.push_back({Health::Unknown,
+                             tr("%n more characters are not whole either", nullptr, static_cast<int>(left))});
             break;
         }
         notes.push_back({group.remark.isAssumed ? Health::Warning : Health::Unknown,
-                         QStringLiteral("%1: %2").arg(QString::fromStdString(model::listed(group.names)),
-                                                      sentences(group.remark))});
+                         QStringLiteral("%1: %2").arg(
+                             said({words::Kind::Names, {{"names", group.names}}}, words::Form::Headline),
+                             sentences(group.remark))});
     }
     return notes;
 }

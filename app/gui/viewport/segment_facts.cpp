@@ -10,6 +10,7 @@
 #include "core/model/session/roster.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace posewire::gui {
@@ -35,9 +36,24 @@ SegmentFact vectorFact(const QString& name, const Eigen::Vector3d& value, int de
             unit};
 }
 
+/// "Sent", "Position sent, orientation solved".
+QString sourceText(const model::SegmentSource& source) {
+    const auto in = [](const std::array<QString, 4>& words, model::Provenance provenance) {
+        return words[static_cast<std::size_t>(provenance)];
+    };
+    if (source.position == source.orientation) {
+        return in({tr("Missing"), tr("Assumed"), tr("Solved"), tr("Sent")}, source.position);
+    }
+    const std::array words{tr("missing"), tr("assumed"), tr("solved"), tr("sent")};
+    return tr("Position %1, orientation %2").arg(in(words, source.position), in(words, source.orientation));
+}
+
 QString sourceOf(const model::CharacterPose& pose, std::size_t segment) {
     constexpr double kSeen = 0.0005; // metres
-    QString text = fromUtf8(model::sourceText(pose.sources[segment]));
+    QString text = sourceText(pose.sources[segment]);
+    if (pose.sources[segment].isTwistAssumed) {
+        text += tr(", turn about itself assumed");
+    }
     if (pose.isPlaceAssumed) {
         text += tr(", place in the world assumed");
     }

@@ -6,6 +6,7 @@
 #include "app/gui/theme/help_link.h"
 #include "app/gui/theme/theme.h"
 #include "app/gui/theme/widgets.h"
+#include "app/gui/theme/words.h"
 
 #include <QApplication>
 #include <QCheckBox>
@@ -117,19 +118,20 @@ ThresholdsDialog::ThresholdsDialog(const AlertChoices& choices, QWidget* parent)
             form, m_explanation},
            *buttons, placeOf(HelpTopic::Thresholds), 62);
     setChoices(choices);
-    // A dialog does not ask for lines of wrapped text.
-    setMinimumHeight(layout()->totalHeightForWidth(minimumWidth()));
+    const int width = std::max(minimumWidth(), layout()->minimumSize().width());
+    setMinimumSize(width,
+                   layout()->totalHeightForWidth(width)); // a dialog does not ask for lines of wrapped text
 }
 
 void ThresholdsDialog::addLimit(QFormLayout& form, const model::ThresholdRow& row) {
     auto* box = new QDoubleSpinBox(this);
     box->setDecimals(row.shownPerUnit == 1 ? 1 : 0);
     box->setRange(row.least * row.shownPerUnit, row.most * row.shownPerUnit);
-    box->setSuffix(tr(row.unit));
+    box->setSuffix(translatedText(row.unit));
     box->setSpecialValueText(row.least == 0 ? tr("never an alert") : QString()); // at the least
     box->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
-    box->setToolTip(toolTipText(tr(row.help)));
-    form.addRow(tr(row.label), box);
+    box->setToolTip(toolTipText(translatedText(row.help)));
+    form.addRow(translatedText(row.label), box);
     m_fields.push_back({&row, box});
     connect(box, &QDoubleSpinBox::valueChanged, this, &ThresholdsDialog::explainHysteresis);
 }

@@ -3,6 +3,7 @@
 
 #include "app/gui/help/help_window.h"
 #include "app/gui/models/statistics_model.h"
+#include "app/gui/models/text.h"
 #include "app/gui/theme/help_link.h"
 #include "app/gui/window/main_window.h"
 #include "core/export/protocol_reference.h"
@@ -40,7 +41,8 @@ QString figuresMarkdown() {
     for (int column = kNameColumn + 1; column < kStatisticsColumns; ++column) {
         if (const auto figure = figureIn(column)) {
             const model::FigureRow& row = model::rowOf(*figure);
-            text += QStringLiteral("| %1 | %2 |\n").arg(Guide::tr(row.shortTitle()), Guide::tr(row.help));
+            text += QStringLiteral("| %1 | %2 |\n")
+                        .arg(translatedText(row.shortTitle()), translatedText(row.help));
         } else {
             text += Guide::tr(
                 "| Curve | Rate over the range, or over the last two minutes; marked where samples were "

@@ -58,7 +58,7 @@ QString leftOut(std::size_t all, std::size_t fitting) {
     if (fitting != 0) {
         return HealthBar::tr("+ %1 more").arg(grouped(all - fitting));
     }
-    return all == 1 ? HealthBar::tr("1 character") : HealthBar::tr("%1 characters").arg(grouped(all));
+    return HealthBar::tr("%1 characters", nullptr, static_cast<int>(all)).arg(grouped(all));
 }
 
 } // namespace
@@ -174,13 +174,12 @@ void HealthBar::measure(const QFontMetrics& metrics) {
     const auto grow = [&widthOf](int& width, const QString& text, const QString& most) {
         width = std::clamp(widthOf(text), width, std::max(width, widthOf(most)));
     };
-    grow(m_stateWidth, QStringLiteral("99 lost, network"), QStringLiteral("10.0 % lost, network, over"));
-    grow(m_whatWidth, QStringLiteral("10.0 % lost"), QStringLiteral("10.0 % lost, over"));
+    grow(m_stateWidth, tr("99 lost, network"), tr("10.0 % lost, network, over"));
+    grow(m_whatWidth, tr("10.0 % lost"), tr("10.0 % lost, over"));
     for (const model::CharacterKey& key : m_shown) {
         const model::TakeVerdict& verdict = m_session->verdicts().of(key);
-        grow(m_stateWidth, gui::said(verdict.said, words::Form::Brief),
-             QStringLiteral("10.0 % lost, network, over"));
-        grow(m_whatWidth, whatOf(verdict), QStringLiteral("10.0 % lost, over"));
+        grow(m_stateWidth, gui::said(verdict.said, words::Form::Brief), tr("10.0 % lost, network, over"));
+        grow(m_whatWidth, whatOf(verdict), tr("10.0 % lost, over"));
         grow(m_nameWidth, nameApart(*m_session, key), QStringLiteral("Performer with a name"));
     }
 }

@@ -9,6 +9,7 @@
 #include "app/gui/theme/event_watch.h"
 #include "app/gui/theme/help_link.h"
 #include "app/gui/theme/widgets.h"
+#include "app/gui/theme/words.h"
 #include "app/gui/viewport/viewport_overlay.h"
 #include "app/gui/window/docks.h"
 #include "app/gui/window/guide.h"
@@ -205,7 +206,6 @@ void MainWindow::makeBars() {
     m_layoutButton->setMenu(menuAt(*menuBar(), QStringLiteral("&View/La&yout")));
     m_layoutButton->setPopupMode(QToolButton::InstantPopup);
     m_layoutButton->setObjectName(QStringLiteral("layoutButton"));
-    menuBar()->setCornerWidget(m_layoutButton, Qt::TopRightCorner);
 
     const auto action = [this](const char* id) { return m_menus.action(QLatin1String(id)); };
     m_transport =
@@ -428,7 +428,10 @@ void MainWindow::useLayout(const QString& nameOrFile) {
 void MainWindow::showLayoutName(const QString& name) {
     const QFontMetrics metrics = m_layoutButton->fontMetrics();
     const int most = metrics.averageCharWidth() * 30;
-    m_layoutButton->setText(tr("Layout: %1 ▾").arg(metrics.elidedText(name, Qt::ElideMiddle, most)));
+    m_layoutButton->setText(
+        tr("Layout: %1 ▾")
+            .arg(metrics.elidedText(translatedText(name.toStdString()), Qt::ElideMiddle, most)));
+    menuBar()->setCornerWidget(m_layoutButton, Qt::TopRightCorner); // as wide as the text
 }
 
 void MainWindow::keepHistory() {

@@ -388,13 +388,15 @@ void gather(std::span<const ActionInfo> table, std::vector<MenuEntry>& into) {
 }
 
 template <typename Parent>
-QMenu* childMenu(Parent& parent, const QString& name) {
+QMenu* childMenu(Parent& parent, const QString& path) {
+    const QString name = path.section(u'/', -1);
     for (QAction* action : parent.actions()) {
         if (action->menu() != nullptr && action->menu()->objectName() == name) {
             return action->menu();
         }
     }
-    QMenu* menu = parent.addMenu(QCoreApplication::translate("Action", name.toUtf8().constData()));
+    QMenu* menu =
+        parent.addMenu(QCoreApplication::translate("Action", path.toUtf8().constData()).section(u'/', -1));
     menu->setObjectName(name);
     return menu;
 }
@@ -409,10 +411,9 @@ std::vector<MenuEntry> menuEntries() {
 }
 
 QMenu* menuAt(QMenuBar& bar, const QString& path) {
-    const QStringList names = path.split(QLatin1Char('/'));
-    QMenu* menu = childMenu(bar, names[0]);
-    for (const QString& name : names.mid(1)) {
-        menu = childMenu(*menu, name);
+    QMenu* menu = childMenu(bar, path.section(u'/', 0, 0));
+    for (int level = 1; level <= path.count(u'/'); ++level) {
+        menu = childMenu(*menu, path.section(u'/', 0, level));
     }
     return menu;
 }

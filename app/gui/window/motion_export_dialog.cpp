@@ -57,7 +57,8 @@ MotionExportDialog::MotionExportDialog(model::SessionView& view, QWidget* parent
       m_watch(new QTimer(this)) {
     setWindowTitle(tr("Export motion"));
     for (const exporting::MotionFormat& one : exporting::motionFormats()) {
-        m_format->addItem(QStringLiteral("%1 (.%2)").arg(QLatin1String(one.kind), QLatin1String(one.suffix)));
+        m_format->addItem(
+            QStringLiteral("%1 (.%2)").arg(translatedText(one.kind), QLatin1String(one.suffix)));
     }
     auto* form = new QFormLayout;
     form->addRow(tr("&Format"), m_format);
@@ -112,7 +113,7 @@ std::vector<model::CharacterKey> MotionExportDialog::chosen() const {
 /// What the format holds, and in how many files.
 void MotionExportDialog::describe() {
     QString text = tr("Holds %1. A sample that is missing: %2.")
-                       .arg(QLatin1String(format().holds), QLatin1String(format().gaps));
+                       .arg(translatedText(format().holds), translatedText(format().gaps));
     if (!format().holdsSeveral && chosen().size() > 1) {
         text += u' ' + tr("Each character has a file of its own, with its name behind yours.");
     }
@@ -139,9 +140,8 @@ void MotionExportDialog::toggle() {
 
 void MotionExportDialog::askWhereToSave() {
     const QString suffix = QLatin1String(format().suffix);
-    const QString path =
-        gui::askWhereToSave(this, windowTitle(), QStringLiteral("motion.") + suffix,
-                            QStringLiteral("%1 (*.%2)").arg(QLatin1String(format().kind), suffix));
+    const QString path = gui::askWhereToSave(this, windowTitle(), QStringLiteral("motion.") + suffix,
+                                             fileFilter(format().kind, format().suffix));
     if (path.isEmpty()) {
         return;
     }

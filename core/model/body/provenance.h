@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <string>
 
 namespace posewire::model {
 
@@ -26,9 +25,5 @@ struct SegmentSource {
     [[nodiscard]] constexpr Provenance weaker() const { return std::min(position, orientation); }
     friend constexpr bool operator==(const SegmentSource&, const SegmentSource&) = default;
 };
-
-/// Where a segment's pose comes from, in a few words: "Sent", "Position sent, orientation solved, turn about
-/// itself assumed".
-[[nodiscard]] std::string sourceText(const SegmentSource& source);
 
 } // namespace posewire::model

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The QApplication of a test program: without a display, in the dark theme and UTC.
+// The QApplication of a test program: without a display, in English, the dark theme and UTC.
+#include "app/gui/theme/language.h"
 #include "app/gui/theme/theme.h"
 
 #include <gtest/gtest.h>
@@ -19,6 +20,7 @@ public:
         static char name[] = "test";
         static char* arguments[] = {name, nullptr};
         m_application = std::make_unique<QApplication>(argumentCount, arguments);
+        posewire::gui::useLanguage("en");
         posewire::gui::applyTheme(*m_application, posewire::gui::ThemeChoice::Dark);
     }
     void TearDown() override { m_application.reset(); }

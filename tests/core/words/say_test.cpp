@@ -29,6 +29,8 @@ std::vector<NamedValue> valuesOf(std::uint64_t number) {
         {"types", types},
         {"type", std::string("21")},
         {"who", names},
+        {"names", names},
+        {"last", std::string("Mira")},
         {"segments", names},
         {"address", std::string("192.0.2.1:4000")},
         {"port", std::string("4001")},

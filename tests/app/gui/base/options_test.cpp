@@ -76,13 +76,14 @@ TEST(Options, DemoHasTwoCharactersUnlessTold) {
 TEST(Options, ReadEverythingElse) {
     const auto options = parse({"take.bin", "--layout", "check", "--reset-layout", "--settings", "s.json",
                                 "--theme", "light", "--screenshot", "p.png", "--force", "--after", "1.5",
-                                "--size", "1600x1000", "--startup-time", "--verbose"});
+                                "--size", "1600x1000", "--language", "en", "--startup-time", "--verbose"});
     ASSERT_TRUE(options);
     EXPECT_EQ(options->file, "take.bin");
     EXPECT_EQ(options->layout, "check");
     EXPECT_TRUE(options->resetsLayout);
     EXPECT_EQ(options->settingsFile, "s.json");
     EXPECT_EQ(options->theme, ThemeChoice::Light);
+    EXPECT_EQ(options->language, "en");
     EXPECT_EQ(options->screenshotFile, "p.png");
     EXPECT_TRUE(options->replaces);
     EXPECT_DOUBLE_EQ(options->screenshotAfterSeconds, 1.5);
@@ -106,8 +107,8 @@ INSTANTIATE_TEST_SUITE_P(All, WrongOption,
                                          QStringList{"--udp"}, QStringList{"--demo=0"},
                                          QStringList{"--demo=x"}, QStringList{"--size", "12"},
                                          QStringList{"--size", "0x5"}, QStringList{"--after", "soon"},
-                                         QStringList{"--theme", "pink"}, QStringList{"--layout", ""},
-                                         QStringList{"--from", "10.0.0.0/33"},
+                                         QStringList{"--theme", "pink"}, QStringList{"--language", "tlh"},
+                                         QStringList{"--layout", ""}, QStringList{"--from", "10.0.0.0/33"},
                                          QStringList{"a.bin", "b.bin"}));
 
 TEST(Options, TheLastOneCountsOfWhatIsGivenTwice) {

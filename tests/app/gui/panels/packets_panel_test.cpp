@@ -7,19 +7,16 @@
 #include "app/gui/panels/fitting_header.h"
 #include "app/gui/panels/packet_view.h"
 #include "core/model/session/accounts.h"
-#include "core/model/session/roster.h"
 #include "tests/app/gui/panels/panel_stage.h"
 #include "tests/app/gui/panels/trigger.h"
 
 #include <QApplication>
 #include <QContextMenuEvent>
-#include <QHeaderView>
 #include <QLineEdit>
 #include <QPushButton>
 #include <QTest>
 
 #include <algorithm>
-#include <memory>
 
 namespace posewire::gui {
 namespace {
@@ -40,7 +37,6 @@ protected:
         m_stage.follow();
         m_panel.refresh();
     }
-    /// Until the filter has seen everything.
     void filterBy(const QString& text) {
         m_stage.commands.setDisplayFilter(text);
         refresh();

@@ -1,0 +1,287 @@
+<?xml version="1.0" encoding="utf-8"?>
+<!DOCTYPE TS>
+<TS version="2.1" language="en_US">
+<context>
+    <name>posewire::core</name>
+    <message numerus="yes">
+        <source>bytes after the last field (byte {offset}, {count} bytes)</source>
+        <translation>
+            <numerusform>bytes after the last field (byte {offset}, {count} byte)</numerusform>
+            <numerusform>bytes after the last field (byte {offset}, {count} bytes)</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>longer than the payload size in the header (byte {offset}, {count} bytes)</source>
+        <translation>
+            <numerusform>longer than the payload size in the header (byte {offset}, {count} byte)</numerusform>
+            <numerusform>longer than the payload size in the header (byte {offset}, {count} bytes)</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>not a finite number (byte {offset}, {count} values)</source>
+        <translation>
+            <numerusform>not a finite number (byte {offset}, {count} value)</numerusform>
+            <numerusform>not a finite number (byte {offset}, {count} values)</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>quaternion is not of unit length (byte {offset}, {count} quaternions)</source>
+        <translation>
+            <numerusform>quaternion is not of unit length (byte {offset}, {count} quaternion)</numerusform>
+            <numerusform>quaternion is not of unit length (byte {offset}, {count} quaternions)</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>segment ID is not in 1 to 67 (byte {offset}, {count} segments)</source>
+        <translation>
+            <numerusform>segment ID is not in 1 to 67 (byte {offset}, {count} segment)</numerusform>
+            <numerusform>segment ID is not in 1 to 67 (byte {offset}, {count} segments)</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>tag not known (byte {offset}, {count} tags)</source>
+        <translation>
+            <numerusform>tag not known (byte {offset}, {count} tag)</numerusform>
+            <numerusform>tag not known (byte {offset}, {count} tags)</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>line that is not &quot;tag:value&quot; (byte {offset}, {count} lines)</source>
+        <translation>
+            <numerusform>line that is not &quot;tag:value&quot; (byte {offset}, {count} line)</numerusform>
+            <numerusform>line that is not &quot;tag:value&quot; (byte {offset}, {count} lines)</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>posewire::gui</name>
+    <message numerus="yes">
+        <source>%1 samples</source>
+        <translation>
+            <numerusform>%1 sample</numerusform>
+            <numerusform>%1 samples</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%1 bytes</source>
+        <translation>
+            <numerusform>%1 byte</numerusform>
+            <numerusform>%1 bytes</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n bytes</source>
+        <translation>
+            <numerusform>%n byte</numerusform>
+            <numerusform>%n bytes</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n characters</source>
+        <translation>
+            <numerusform>%n character</numerusform>
+            <numerusform>%n characters</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>· %n changes</source>
+        <translation>
+            <numerusform>· %n change</numerusform>
+            <numerusform>· %n changes</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%1 body · %n props · %2 fingers</source>
+        <translation>
+            <numerusform>%1 body · %n prop · %2 fingers</numerusform>
+            <numerusform>%1 body · %n props · %2 fingers</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%1 samples are missing just before it.</source>
+        <translation>
+            <numerusform>%1 sample is missing just before it.</numerusform>
+            <numerusform>%1 samples are missing just before it.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n more characters are not whole either</source>
+        <translation>
+            <numerusform>%n more character is not whole either</numerusform>
+            <numerusform>%n more characters are not whole either</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>posewire::gui::CharactersPanel</name>
+    <message numerus="yes">
+        <source>%n ended senders</source>
+        <translation>
+            <numerusform>%n ended sender</numerusform>
+            <numerusform>%n ended senders</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>posewire::gui::HealthBar</name>
+    <message numerus="yes">
+        <source>%1 characters</source>
+        <translation>
+            <numerusform>%1 character</numerusform>
+            <numerusform>%1 characters</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>posewire::gui::HelpWindow</name>
+    <message numerus="yes">
+        <source>%n pages</source>
+        <translation>
+            <numerusform>%n page</numerusform>
+            <numerusform>%n pages</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>posewire::gui::InspectorPanel</name>
+    <message numerus="yes">
+        <source>%n fields differ</source>
+        <translation>
+            <numerusform>%n field differs</numerusform>
+            <numerusform>%n fields differ</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>posewire::gui::StatisticsPanel</name>
+    <message numerus="yes">
+        <source>%1 · %n streams</source>
+        <translation>
+            <numerusform>%1 · %n stream</numerusform>
+            <numerusform>%1 · %n streams</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>posewire::words</name>
+    <message numerus="yes">
+        <source>{n} samples</source>
+        <translation>
+            <numerusform>{n} sample</numerusform>
+            <numerusform>{n} samples</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>{n} messages</source>
+        <translation>
+            <numerusform>{n} message</numerusform>
+            <numerusform>{n} messages</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>{n} datagrams</source>
+        <translation>
+            <numerusform>{n} datagram</numerusform>
+            <numerusform>{n} datagrams</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>{n} packets</source>
+        <translation>
+            <numerusform>{n} packet</numerusform>
+            <numerusform>{n} packets</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>{n} gaps</source>
+        <translation>
+            <numerusform>{n} gap</numerusform>
+            <numerusform>{n} gaps</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>{n} streams</source>
+        <translation>
+            <numerusform>{n} stream</numerusform>
+            <numerusform>{n} streams</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>{n} characters</source>
+        <translation>
+            <numerusform>{n} character</numerusform>
+            <numerusform>{n} characters</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>types {types}</source>
+        <translation>
+            <numerusform>type {types}</numerusform>
+            <numerusform>types {types}</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>{count} are not MXTP.</source>
+        <translation>
+            <numerusform>{count} is not MXTP.</numerusform>
+            <numerusform>{count} are not MXTP.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>{who}: types {types} are no longer sent while other types of the character still arrive</source>
+        <translation>
+            <numerusform>{who}: type {types} is no longer sent while other types of the character still arrive</numerusform>
+            <numerusform>{who}: types {types} are no longer sent while other types of the character still arrive</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>Types {types} are no longer sent while other types of the character still arrive.</source>
+        <translation>
+            <numerusform>Type {types} is no longer sent while other types of the character still arrive.</numerusform>
+            <numerusform>Types {types} are no longer sent while other types of the character still arrive.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>types {types} not sent</source>
+        <translation>
+            <numerusform>type {types} not sent</numerusform>
+            <numerusform>types {types} not sent</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>{who} come from several senders at once, {address} and also {others}</source>
+        <translation>
+            <numerusform>{who} comes from several senders at once, {address} and also {others}</numerusform>
+            <numerusform>{who} come from several senders at once, {address} and also {others}</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>TCP loses nothing: {samples} were not sent.</source>
+        <translation>
+            <numerusform>TCP loses nothing: {samples} was not sent.</numerusform>
+            <numerusform>TCP loses nothing: {samples} were not sent.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>All {streams} of the sender paused together for {lasted} ms, and the time code moved by {moved} ms.</source>
+        <translation>
+            <numerusform>The only stream of the sender paused for {lasted} ms, and the time code moved by {moved} ms.</numerusform>
+            <numerusform>All {streams} of the sender paused together for {lasted} ms, and the time code moved by {moved} ms.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>{who} send no pose[, only {types}]</source>
+        <translation>
+            <numerusform>{who} sends no pose[, only {types}]</numerusform>
+            <numerusform>{who} send no pose[, only {types}]</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>{n} objects</source>
+        <translation>
+            <numerusform>{n} object</numerusform>
+            <numerusform>{n} objects</numerusform>
+        </translation>
+    </message>
+</context>
+</TS>
