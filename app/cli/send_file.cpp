@@ -18,7 +18,7 @@ namespace {
 
 using exporting::JsonValue;
 
-/// What `monitor` has to count of a stream, in the order of its report.
+/// Counts of a stream for `monitor`, in the order of its report.
 std::array<std::pair<model::Figure, std::uint64_t>, 11> valuesOf(const performer::SentFigures& sent) {
     using enum model::Figure;
     return {{{Datagrams, sent.datagrams},

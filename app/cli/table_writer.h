@@ -16,8 +16,8 @@
 
 namespace posewire::cli {
 
-/// What `monitor` shows while it runs: a line for the whole, then each sender with its characters and a line
-/// for each of their streams. Texts from the wire are made harmless for a terminal.
+/// The table of `monitor` while it runs: a line for the whole, then each sender with its characters and a
+/// line for each of their streams. Texts from the wire are made harmless for a terminal.
 [[nodiscard]] std::vector<std::string> liveTable(const model::SessionView& session,
                                                  const exporting::MonitorFacts& facts);
 
@@ -29,7 +29,7 @@ class LiveDisplay {
 public:
     explicit LiveDisplay(bool isTerminal) : m_isTerminal(isTerminal) {}
 
-    /// What to write to show these lines; `rows` and `columns` are what the terminal has.
+    /// The output that shows these lines on a terminal of so many `rows` and `columns`.
     [[nodiscard]] std::string show(const std::vector<std::string>& lines, std::size_t rows,
                                    std::size_t columns);
 

@@ -16,7 +16,7 @@
 
 namespace posewire::gui {
 
-/// What a thread compares, by value but for the logs, which outlive it.
+/// A comparison as a thread takes it: by value except the logs, which outlive it.
 struct ComparisonOrder {
     feed::PoseSource first;      ///< all of it
     feed::PoseSource firstRange; ///< what is compared of it

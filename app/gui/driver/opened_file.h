@@ -46,7 +46,7 @@ using PacketTaker = std::function<void(const log::FileRecord& record, const log:
 
 /// Reads a file of datagrams, in the order of the file. Captures keep stamps and senders; a raw file has
 /// none: it is spaced as log::RawPace says so that its newest datagram is at `end`, and is its own sender.
-/// What the file says of its clock goes to `timeline`. Ends once `isCancelled` returns true.
+/// The clock of the file goes to `timeline`. Ends once `isCancelled` returns true.
 [[nodiscard]] ImportResult importRawFile(const QString& path, const PacketTaker& take, log::Stamp end,
                                          log::Timeline& timeline,
                                          const std::function<bool()>& isCancelled = {},

@@ -66,7 +66,7 @@ public:
         m_pictures = shown;
         m_health.picture = std::move(health);
     }
-    /// What the bodies in the viewport take, and can become.
+    /// Memory of the bodies in the viewport, and its limit.
     void setMeshMemory(std::size_t bytes, std::size_t most) {
         m_health.meshBytes = bytes;
         m_health.mostMeshBytes = most;

@@ -68,7 +68,7 @@ void eachFragment(const QTextDocument& document, Visit&& visit) {
     }
 }
 
-/// Whether links lead to this block by this anchor.
+/// True if links lead to this block by this anchor.
 bool isHeading(const QTextBlock& block, const QString& anchor) {
     return block.blockFormat().headingLevel() != 0 &&
            exporting::headingAnchor(block.text().toStdString()) == anchor.toStdString();

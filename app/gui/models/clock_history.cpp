@@ -4,7 +4,6 @@
 #include "app/gui/models/text.h"
 #include "app/gui/theme/words.h"
 #include "core/model/accounting/probation.h"
-#include "core/model/session/ingest.h"
 #include "core/model/session/messages.h"
 #include "core/model/session/roster.h"
 

@@ -26,11 +26,11 @@ enum class PacketLook {
 /// back what was filtered and selected before. False where none of them is in memory: nothing happens then.
 bool showPackets(model::SessionView& view, Commands& commands, const PacketsBehind& behind, PacketLook look);
 
-/// Whether a display filter lets a packet through; true where the filter cannot be read. Of a packet that the
-/// log has dropped: false.
+/// True if a display filter lets a packet through, or cannot be read; false if the log has dropped the
+/// packet.
 [[nodiscard]] bool isListed(model::SessionView& view, const QString& filter, std::uint64_t packet);
 
-/// What showPackets() says where it returns false.
+/// The reason that showPackets() gives if it returns false.
 [[nodiscard]] QString noPacketsText();
 
 /// For packets of a time, such as `time >= 12.3 && time < 14.5`.

@@ -3,7 +3,6 @@
 
 #include "app/gui/models/incident_words.h"
 #include "app/gui/models/tree_model.h"
-#include "core/model/session/verdict.h"
 
 #include <array>
 #include <cstdint>

@@ -4,7 +4,6 @@
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
 #include "app/gui/theme/words.h"
-#include "core/model/session/ingest.h"
 #include "core/model/session/messages.h"
 
 namespace posewire::gui {

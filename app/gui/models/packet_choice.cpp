@@ -5,7 +5,6 @@
 #include "app/gui/models/text.h"
 #include "app/gui/theme/words.h"
 #include "core/model/session/accounts.h"
-#include "core/model/session/ingest.h"
 #include "core/model/session/messages.h"
 #include "core/model/session/roster.h"
 #include "core/wire/messages.h"
@@ -140,7 +139,7 @@ Target nearestInStream(model::SessionView& view, const PacketModel& list, bool i
                                       : tr("No earlier packet of this stream."));
 }
 
-/// Whether what was sent for a character, under all ports that its sender had, has this packet.
+/// True if a packet was sent for a character, under any port that its sender had.
 bool isOf(model::SessionView& view, const model::CharacterKey& key, std::uint64_t packet) {
     const model::PacketDigest* digest = view.accounts().digests().find(packet);
     const bool mayBe = digest != nullptr && digest->type != 0 && digest->character == key.character;

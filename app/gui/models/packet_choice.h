@@ -35,7 +35,7 @@ enum class Direction { Backward, Forward };
 [[nodiscard]] std::optional<std::uint64_t> neighbourInStream(model::SessionView& view, std::uint64_t packet,
                                                              Direction direction);
 
-/// What to go to among listed packets.
+/// The kinds of packets to go to in the list.
 enum class Landmark {
     Problem,
     ProblemOfSelected, ///< of the selected character, if there is one; a filter decides by itself

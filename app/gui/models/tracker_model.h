@@ -3,7 +3,6 @@
 
 #include "app/gui/models/column.h"
 #include "core/log/time.h"
-#include "core/model/session/ingest.h"
 #include "core/model/session/session_view.h"
 
 #include <cstdint>

@@ -4,7 +4,6 @@
 #include "app/gui/models/packet_model.h"
 
 #include "app/gui/models/packet_choice.h"
-#include "app/gui/models/packet_model.h"
 #include "app/gui/models/packet_search.h"
 #include "core/filter/filter.h"
 #include "core/model/session/accounts.h"
