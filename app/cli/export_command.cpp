@@ -11,8 +11,8 @@
 #include "core/log/packet_log.h"
 #include "core/log/pcapng_writer.h"
 #include "core/model/accounting/stream_figures.h"
+#include "core/model/session/origin.h"
 #include "core/model/session/roster.h"
-#include "core/model/session/session.h"
 #include "core/words/say.h"
 
 #include <algorithm>
@@ -65,8 +65,8 @@ public:
         : m_name(log::nameOf(log::pathOf(path).filename())),
           m_size(sizeOf(path)),
           m_store(storeOf(path)),
-          m_log(m_store != nullptr ? log::LogLimits{.memoryCap = kMemoryCap} : log::LogLimits{},
-                newScratch()) {
+          m_origin(m_store != nullptr ? log::LogLimits{.memoryCap = kMemoryCap} : log::LogLimits{},
+                   newScratch()) {
         if (m_store != nullptr) {
             m_past.emplace(m_log.past(), m_log.senders(), m_store);
         }
@@ -138,8 +138,9 @@ private:
     std::string m_name;                            ///< of the sender of a raw file
     double m_size = 0;                             ///< bytes; 0 where it is not known
     std::shared_ptr<const log::ByteStore> m_store; ///< null where it can be read only once
-    log::PacketLog m_log;
-    model::Session m_session{m_log};
+    model::Origin m_origin;
+    log::PacketLog& m_log = m_origin.log();
+    model::Session& m_session = m_origin.session();
     log::RecordedClock m_clock{m_log.timeline()};
     std::optional<log::PastWriter> m_past;
     DatagramPacer m_pacer{1.0 / 240, 1.0};

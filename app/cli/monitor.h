@@ -7,12 +7,11 @@
 #include "app/system/interruption.h"
 #include "app/system/standard_streams.h"
 #include "core/export/reports.h"
-#include "core/log/packet_log.h"
 #include "core/log/recording.h"
 #include "core/log/time.h"
 #include "core/model/accounting/stream_figures.h"
 #include "core/model/session/held_up.h"
-#include "core/model/session/session.h"
+#include "core/model/session/origin.h"
 
 #include <array>
 #include <chrono>
@@ -88,7 +87,7 @@ class MonitorRun {
 public:
     MonitorRun(const MonitorOptions& options, Console& console);
 
-    [[nodiscard]] log::PacketLog& log() { return m_log; }
+    [[nodiscard]] log::PacketLog& log() { return m_origin.log(); }
 
     /// Takes in everything that is in the log. `isReceiverHeldUp`: what has just come may not be.
     void follow(log::Stamp now, bool isReceiverHeldUp = false);
@@ -128,8 +127,8 @@ private:
     const MonitorOptions& m_options;
     Console& m_console;
     system::Interruption m_interruption;
-    log::PacketLog m_log;
-    model::Session m_session{m_log};
+    model::Origin m_origin;
+    model::Session& m_session = m_origin.session();
     model::HeldUp m_heldUp;
     const bool m_isTerminal = system::isTerminal(system::kStandardOutput);
     std::optional<TableWriter> m_table; ///< where tables or lines were asked for

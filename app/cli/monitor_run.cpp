@@ -227,7 +227,7 @@ ExitStatus MonitorRun::finishTable(const exporting::MonitorFacts& facts) {
 }
 
 log::Reception MonitorRun::receptionOf(const exporting::MonitorFacts& facts) const {
-    log::LogReader reader(m_log);
+    log::LogReader reader(m_origin.log());
     const auto last = reader.end() != 0 ? reader.packet(reader.end() - 1) : std::nullopt;
     return {log::durationOf(facts.durationS),
             last ? std::max(m_session.now() - last->stamp, log::Duration::zero()) : log::Duration::zero(),
@@ -238,7 +238,7 @@ void MonitorRun::tellRecorded(const log::RecordingFigures& recorded, bool hasFai
     const std::string packets = packetsText(recorded.packets);
     const std::string file = m_options.record == "-" ? "standard output" : m_options.record;
     if (hasFailed) {
-        m_console.complain("at most " + packets + " of " + std::to_string(log::LogReader(m_log).end()) +
+        m_console.complain("at most " + packets + " of " + std::to_string(log::LogReader(m_origin.log()).end()) +
                            " are in " + file);
         return;
     }
@@ -253,7 +253,7 @@ void MonitorRun::tellRecorded(const log::RecordingFigures& recorded, bool hasFai
 void MonitorRun::tellInterrupted() {
     m_isInterrupted = true;
     m_console.complain(m_options.file + ": interrupted; this is about its first " +
-                       packetsText(log::LogReader(m_log).end()) + " only");
+                       packetsText(log::LogReader(m_origin.log()).end()) + " only");
 }
 
 ExitStatus MonitorRun::conclude(exporting::MonitorFacts facts, ExitStatus status,
@@ -297,7 +297,7 @@ ExitStatus MonitorRun::writeReport(const exporting::MonitorFacts& facts) {
                                   m_options.file.empty() ? "network" : m_options.file);
     if (m_isInterrupted) {
         options.settings.emplace_back("Not read to its end",
-                                      "interrupted after " + packetsText(log::LogReader(m_log).end()));
+                                      "interrupted after " + packetsText(log::LogReader(m_origin.log()).end()));
     }
     log::OutputRules rules = rulesOf(m_options);
     if (!m_options.record.empty() && m_options.record != "-") {

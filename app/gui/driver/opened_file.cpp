@@ -243,15 +243,15 @@ OpenedFile::OpenedFile(const log::Clock& clock, QString path, const QString& cac
     : m_clock(clock),
       m_path(std::move(path)),
       m_scratch(log::scratchOfFile(QFile::encodeName(cacheFolder).toStdString())),
-      m_log(limitsOf(*m_scratch), m_scratch),
-      m_import(std::make_unique<FileImport>(m_log, m_path, m_log.timeline().now(clock))) {}
+      m_origin(limitsOf(*m_scratch), m_scratch),
+      m_import(std::make_unique<FileImport>(m_origin.log(), m_path, m_origin.log().timeline().now(clock))) {}
 
 QString OpenedFile::name() const {
     return QFileInfo(m_path).fileName();
 }
 
 bool OpenedFile::follow(log::Duration most) {
-    const log::Stamp now = m_log.timeline().now(m_clock);
+    const log::Stamp now = m_origin.log().timeline().now(m_clock);
     const log::Moment begin = m_clock.monotonic();
     const std::uint64_t before = m_session.end();
     const bool isAtEnd = isShownAtEnd();
@@ -312,7 +312,7 @@ void OpenedFile::readRest() {
     const log::Duration afterLast = m_import->afterLast();
     m_import.reset();
     const bool isAtEnd = isShownAtEnd();
-    while (m_session.followFile(m_log.timeline().now(m_clock))) {
+    while (m_session.followFile(m_origin.log().timeline().now(m_clock))) {
     }
     m_session.endFile(afterLast);
     m_verdictEnd = 0; // its end settles what was open
@@ -344,7 +344,7 @@ const model::TakeVerdict& OpenedFile::verdict() {
 
 QStringList OpenedFile::notes() const {
     QStringList notes;
-    if (m_log.past().isDamaged()) {
+    if (m_origin.log().past().isDamaged()) {
         notes += tr("The file was changed since it was opened: some of its packets cannot be read any more. "
                     "Open it again.");
     }

@@ -3,12 +3,11 @@
 
 #include "app/gui/base/saving.h"
 #include "core/log/clock.h"
-#include "core/log/packet_log.h"
 #include "core/log/past.h"
 #include "core/log/pcapng_writer.h"
 #include "core/log/recording_file.h"
 #include "core/log/time.h"
-#include "core/model/session/session.h"
+#include "core/model/session/origin.h"
 #include "core/model/session/verdict.h"
 
 #include <QCoreApplication>
@@ -109,7 +108,7 @@ private:
     std::jthread m_thread; ///< last: it uses all of the above
 };
 
-/// A file that was opened: a session of its own, so that it touches none of what is received. It is shown as
+/// A file that was opened: an origin of its own, so that it touches none of what is received. It is shown as
 /// it was then, stopped at its newest packet. Its packets are read from the file when they are wanted; in
 /// memory are only the newest that were read, unless there is no room for a scratch file.
 class OpenedFile {
@@ -151,8 +150,8 @@ private:
     const QString m_path;
     const KeptFromSaving m_kept{m_path};
     const std::shared_ptr<log::Scratch> m_scratch;
-    log::PacketLog m_log;
-    model::Session m_session{m_log};
+    model::Origin m_origin;
+    model::Session& m_session = m_origin.session();
     model::TakeVerdict m_verdict;
     std::uint64_t m_verdictEnd = 0; ///< packets that it is on
     QString m_failure;

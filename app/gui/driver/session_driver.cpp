@@ -109,8 +109,8 @@ constexpr log::Duration kFollowTime = std::chrono::milliseconds(12);
 SessionDriver::SessionDriver(const log::Clock& clock, const QString& cacheFolder, QObject* parent)
     : QObject(parent),
       m_clock(clock),
-      m_log({}, scratchIn(cacheFolder)),
-      m_history(m_log, cacheFolder),
+      m_local({}, scratchIn(cacheFolder)),
+      m_history(m_local.log(), cacheFolder),
       m_files(m_commands, clock, cacheFolder) {
     connect(&m_commands, &Commands::changed, this, &SessionDriver::hasten);
     connect(&m_files.comparing(), &Comparing::changed, this, &SessionDriver::hasten);
@@ -141,19 +141,20 @@ void SessionDriver::hasten() {
 }
 
 void SessionDriver::tick() {
-    const log::Stamp now = m_log.timeline().now(m_clock);
-    const std::uint64_t endBefore = m_live.end();
+    const log::Stamp now = m_local.log().timeline().now(m_clock);
+    model::Session& live = m_local.session();
+    const std::uint64_t endBefore = live.end();
     const log::Moment begin = m_clock.monotonic();
-    m_live.setHeldUp(m_heldUp.at(now) || m_receiving.receiver().isHeldUp());
-    while (m_live.follow(now, kPacketsAtOnce) && m_clock.monotonic() - begin < kFollowTime) {
+    live.setHeldUp(m_heldUp.at(now) || m_receiving.receiver().isHeldUp());
+    while (live.follow(now, kPacketsAtOnce) && m_clock.monotonic() - begin < kFollowTime) {
     }
-    const bool hasNew = m_live.end() != endBefore;
-    m_health.addFollow(m_clock.monotonic() - begin, m_live.end() - endBefore);
+    const bool hasNew = live.end() != endBefore;
+    m_health.addFollow(m_clock.monotonic() - begin, live.end() - endBefore);
     m_isChanged = m_playback.follow() || m_isChanged;
     m_isChanged = m_files.follow(kFollowTime) || m_isChanged;
     const bool isTableTick = now - m_tableTick >= kTableTick;
     if (isTableTick) { // tables and pictures say the same
-        m_live.judge();
+        live.judge();
         if (OpenedFile* file = m_files.file()) {
             file->session().judge();
         }
@@ -163,7 +164,7 @@ void SessionDriver::tick() {
         m_receiving.retry();
     }
     // Without new packets ages still grow: figures fade at the tables' pace.
-    const bool isMoving = hasNew || (isTableTick && !m_live.roster().characters().empty());
+    const bool isMoving = hasNew || (isTableTick && !live.roster().characters().empty());
     if (m_isChanged || (isMoving && !m_playback.isPaused())) {
         m_isChanged = false;
         emit moved();
@@ -176,15 +177,16 @@ void SessionDriver::tick() {
 }
 
 void SessionDriver::tickTables(log::Stamp now) {
+    model::Session& live = m_local.session();
     m_receiving.measure(now);
     for (const Relaying::Loop& loop : m_receiving.relaying().takeLoops()) {
         model::Occurrence one = model::Occurrence::at(model::IncidentKind::RelayLoop, loop.returner, now,
-                                                      m_live.end() == 0 ? 0 : m_live.end() - 1);
+                                                      live.end() == 0 ? 0 : live.end() - 1);
         one.detail = {words::Kind::RelayStopped, {{"problem", loop.text.toStdString()}}};
-        m_live.report(one);
+        live.report(one);
         emit relayStopped();
     }
-    m_receiving.examine(m_live, now);
+    m_receiving.examine(live, now);
     m_takes.follow(now);
     if (const log::Moment moment = m_clock.monotonic(); m_health.isDue(moment)) {
         net::Receiver& receiver = m_receiving.receiver();

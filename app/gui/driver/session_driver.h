@@ -10,7 +10,7 @@
 #include "app/gui/driver/takes.h"
 #include "core/log/time.h"
 #include "core/model/session/held_up.h"
-#include "core/model/session/session.h"
+#include "core/model/session/origin.h"
 
 #include <QObject>
 #include <QTimer>
@@ -129,13 +129,12 @@ private:
     void tickTables(log::Stamp now);
 
     const log::Clock& m_clock;
-    log::PacketLog m_log;
+    model::Origin m_local; ///< the inputs of this computer
     History m_history;
-    model::Session m_live{m_log};
-    Commands m_commands{m_live};
+    Commands m_commands{m_local.session()};
     Playback m_playback{m_commands, m_clock};
-    Takes m_takes{m_log, m_live};
-    Receiving m_receiving{m_log, m_clock};
+    Takes m_takes{m_local};
+    Receiving m_receiving{m_local.log(), m_clock};
     Files m_files;
     Replaying m_replaying{m_clock}; ///< of one of the two
     Demo m_demo{m_receiving};

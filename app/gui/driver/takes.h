@@ -3,7 +3,7 @@
 
 #include "app/gui/base/settings.h"
 #include "core/log/recording.h"
-#include "core/model/session/session.h"
+#include "core/model/session/origin.h"
 
 #include <QObject>
 #include <QString>
@@ -29,7 +29,7 @@ class Takes final : public QObject {
 
 public:
     /// Both must outlive it.
-    Takes(const log::PacketLog& log, model::Session& live) : m_log(log), m_live(live) {}
+    explicit Takes(model::Origin& origin) : m_log(origin.log()), m_live(origin.session()) {}
     /// Waits until everything is in its file.
     ~Takes() override;
 
