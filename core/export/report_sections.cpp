@@ -127,7 +127,9 @@ SvgPlot causePlot(const model::SessionView& session, const ReportSteps& steps) {
         values[std::min(static_cast<std::size_t>(step), values.size() - 1)] += samples;
     };
     for (const model::Gap* gap : gapsIn(session, steps)) {
-        add(gap->toStamp, gap->cause, gap->lost);
+        for (std::size_t cause = 0; cause < model::kLossCauses; ++cause) {
+            add(gap->toStamp, static_cast<model::LossCause>(cause), gap->shares[cause].lost);
+        }
     }
     session.accounts().forEachPartialLoss(
         [&](const log::StreamKey& key, log::Stamp stamp, model::LossCause cause, std::uint64_t /*packet*/) {
@@ -171,13 +173,19 @@ std::string secondsAfter(log::Stamp stamp, const ReportSteps& steps) {
 std::vector<std::string> cellsOf(const model::SessionView& session, const model::Gap& gap,
                                  const ReportSteps& steps) {
     const model::CharacterKey key{gap.stream.sender, gap.stream.character};
+    std::string causes;
+    std::string evidence;
+    for (const model::LossCause cause : gap.causes()) {
+        causes += (causes.empty() ? "" : ", ") + std::string(model::nameOf(cause));
+        evidence += (evidence.empty() ? "" : " ") + say(gap.evidenceFact(cause), words::Form::Sentence);
+    }
     return {fixed(log::millisecondsOf(gap.fromStamp - steps.from) * 1e-3, 3),
             session.roster().displayName(key).html() + ", " + escaped(wire::typeTitle(gap.stream.type)),
             grouped(gap.lost),
             std::to_string(gap.fromSample) + "–" + std::to_string(gap.toSample),
             fixed(log::millisecondsOf(gap.toStamp - gap.fromStamp), 1),
-            escaped(model::nameOf(gap.cause)),
-            escaped(say(gap.evidenceFact(), words::Form::Sentence))};
+            escaped(causes),
+            escaped(evidence)};
 }
 
 using enum model::Figure;

@@ -96,7 +96,7 @@ enum class Kind : std::uint8_t {
     AsStreamBegan,
     OtherStream,
     NotSentByTcp,
-    CutOff,
+    HostsSilent,
     Paused,
     SenderPaused,
     // Verdicts.

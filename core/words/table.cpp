@@ -229,14 +229,10 @@ constexpr std::array kTable{
     Wording{.kind = K::NotSentByTcp,
             .headline = {"TCP loses nothing: {samples} were not sent.",
                          "TCP loses nothing: {samples} was not sent."}},
-    Wording{.kind = K::CutOff,
-            .headline = {"The silence cut through sample {sample}: it came here, and not of type {type}."}},
-    Wording{
-        .kind = K::Paused,
-        .headline =
-            {"All {streams} of the sender paused together for {lasted} ms, and the time code moved by "
-             "{moved} ms.",
-             "The only stream of the sender paused for {lasted} ms, and the time code moved by {moved} ms."}},
+    Wording{.kind = K::HostsSilent, .headline = {"{hosts} hosts were silent over the same {lasted} ms."}},
+    Wording{.kind = K::Paused,
+            .headline = {"All {streams} of the sender's computer were silent for {lasted} ms.",
+                         "The only stream of the sender's computer was silent for {lasted} ms."}},
     Wording{.kind = K::SenderPaused,
             .headline = {"The sender paused: its counter went on where it had stopped."}},
     // Verdicts.

@@ -227,8 +227,8 @@ PacketsBehind lossesBehind(model::SessionView& view, const LossesSought& losses)
         return isSought;
     };
     for (const model::Gap& gap : view.accounts().gaps()) {
-        if (gap.lost != 0) {
-            look(gap.stream, gap.toStamp, gap.cause, gap.toPacket);
+        for (const model::LossCause cause : gap.lost != 0 ? gap.causes() : std::vector<model::LossCause>()) {
+            look(gap.stream, gap.toStamp, cause, gap.toPacket);
         }
     }
     view.accounts().forEachPartialLoss(
@@ -236,6 +236,7 @@ PacketsBehind lossesBehind(model::SessionView& view, const LossesSought& losses)
             mustName = look(stream, stamp, cause, packet) || mustName;
         });
     std::ranges::sort(packets);
+    packets.erase(std::unique(packets.begin(), packets.end()), packets.end());
     const auto newest = packets.empty() ? std::nullopt : std::optional(packets.back());
     if (mustName) {
         QStringList numbers;

@@ -41,9 +41,9 @@ QString gapText(const model::Gap* gap, std::uint64_t samples) {
     if (gap == nullptr || !gap->isJudged) {
         return tr("gap: %1 missing").arg(grouped(samples));
     }
-    const bool isKnown = gap->cause != model::LossCause::Unknown;
+    const bool isKnown = gap->mainCause() != model::LossCause::Unknown;
     return tr("%1: %2 lost")
-        .arg(isKnown ? translatedText(model::nameOf(gap->cause)) : tr("cause unknown"), grouped(samples));
+        .arg(isKnown ? translatedText(model::nameOf(gap->mainCause())) : tr("cause unknown"), grouped(samples));
 }
 
 QString findingsOf(model::SessionView& view, const log::Packet& packet, const model::PacketDigest& digest) {
@@ -99,14 +99,16 @@ QStringList sequenceFindings(model::SessionView& view, std::uint64_t number) {
     }
     if (digest->gap != 0) {
         const model::Gap* gap = view.accounts().gapEndedBy(number);
-        const QString missing =
+        QStringList sentences{
             tr("%1 samples are missing just before it.", nullptr, static_cast<int>(digest->gap))
-                .arg(grouped(digest->gap));
-        texts += gap == nullptr ? missing
-                                : missing + QLatin1Char(' ') +
-                                      tr("Cause: %1. %2")
-                                          .arg(translatedText(model::nameOf(gap->cause)),
-                                               said(gap->evidenceFact(), words::Form::Sentence));
+                .arg(grouped(digest->gap))};
+        for (const model::LossCause cause :
+             gap != nullptr ? gap->causes() : std::vector<model::LossCause>()) {
+            sentences += tr("Cause: %1. %2")
+                             .arg(translatedText(model::nameOf(cause)),
+                                  said(gap->evidenceFact(cause), words::Form::Sentence));
+        }
+        texts += sentences.join(QLatin1Char(' '));
     }
     if (digest->isDuplicate) {
         texts += tr("Duplicate: this datagram of this sample had come before.");

@@ -56,18 +56,6 @@ bool mayBeStep(const Gap& gap, log::Stamp stamp) {
     return stamp - stream->accounting.lastStamp() < patience;
 }
 
-Loss lossOf(const Gap& gap, std::uint64_t samples) {
-    return {.stream = gap.stream,
-            .cause = gap.cause,
-            .samples = samples,
-            .from = gap.fromStamp,
-            .to = gap.toStamp,
-            .fromPacket = gap.fromPacket,
-            .toPacket = gap.toPacket,
-            .incident = gap.incident,
-            .evidence = gap.evidenceFact()};
-}
-
 /// Counts a loss and reports it. Returns its incident.
 std::uint64_t attribute(LossSink& sink, Stream& stream, Loss loss) {
     stream.attributed[static_cast<std::size_t>(loss.cause)] += loss.samples;
@@ -111,8 +99,8 @@ const Gap* Attribution::endedBy(std::uint64_t packet) const {
     return found != m_gaps.end() && found->toPacket == packet ? &*found : nullptr;
 }
 
-/// Counts again what a gap still lacks, in it and in the sums of its stream.
-void Attribution::recount(Gap& gap, Stream& stream) {
+/// Counts again what a gap still lacks, in it and in the sums of its stream; `late`: the sample that came.
+void Attribution::recount(Gap& gap, Stream& stream, std::optional<std::uint32_t> late) {
     const std::uint32_t lost =
         stream.accounting.missingBetween(gap.fromSample, gap.toSample).value_or(gap.lost);
     const std::uint32_t before = std::exchange(gap.lost, lost);
@@ -122,17 +110,37 @@ void Attribution::recount(Gap& gap, Stream& stream) {
     if (!gap.isJudged || lost == before) {
         return;
     }
-    if (before == 0 && gap.evidence == Gap::Evidence::None) {
-        m_evidence.findCause(gap, stream, m_gaps);
-    }
     if (lost > before) {
-        gap.incident = attribute(*m_sink, stream, lossOf(gap, lost - before));
+        const LossCause cause = before != 0 ? gap.mainCause() : LossCause::Unknown;
+        gap.of(cause).lost += lost - before;
+        const LossEvidence::Run run{cause, lost - before, gap.fromStamp, gap.toStamp};
+        report(gap, stream, std::span(&run, 1));
         return;
     }
-    std::uint64_t& sum = stream.attributed[static_cast<std::size_t>(gap.cause)];
-    const std::uint64_t less = std::min<std::uint64_t>(sum, before - lost);
+    std::uint32_t less = before - lost;
+    if (late && less == 1) {
+        const LossCause cause = m_evidence.causeOf(gap, stream, *late);
+        takeBack(gap, stream, gap.of(cause).lost != 0 ? cause : gap.mainCause(), 1);
+        return;
+    }
+    while (less != 0) {
+        const LossCause cause = gap.mainCause();
+        const std::uint32_t some = std::min(less, gap.of(cause).lost);
+        if (some == 0) {
+            break;
+        }
+        takeBack(gap, stream, cause, some);
+        less -= some;
+    }
+}
+
+void Attribution::takeBack(Gap& gap, Stream& stream, LossCause cause, std::uint32_t samples) {
+    Gap::Share& share = gap.of(cause);
+    share.lost -= std::min(share.lost, samples);
+    std::uint64_t& sum = stream.attributed[static_cast<std::size_t>(cause)];
+    const std::uint64_t less = std::min<std::uint64_t>(sum, samples);
     sum -= less;
-    m_sink->takeBack(gap.incident, gap.stream, less, lost == 0);
+    m_sink->takeBack(share.incident, gap.stream, less, share.lost == 0);
 }
 
 /// Counts again the newest gaps of a stream, or only the one around a sample, which it returns.
@@ -143,7 +151,7 @@ const Gap* Attribution::recount(Stream& stream, std::optional<std::uint32_t> aro
          ++gap, ++looked) {
         own += gap->stream == stream.key ? 1 : 0;
         if (gap->stream == stream.key && (!around || gap->isAround(*around))) {
-            recount(*gap, stream);
+            recount(*gap, stream, around);
             if (around) {
                 return &*gap;
             }
@@ -232,7 +240,6 @@ void Attribution::takeVerdict(Stream& stream, const Verdict& verdict) {
                           .fromPacket = verdict.packetBefore,
                           .toPacket = verdict.packet,
                           .lost = verdict.gap,
-                          .timeCodeMoved = verdict.timeCode - verdict.timeCodeBefore,
                           .waiting = &stream,
                           .datagrams = stream.accounting.datagrams()});
         expectJudgement(stream);
@@ -391,11 +398,32 @@ void Attribution::judge(Gap& gap) {
     if (stream == nullptr) {
         return;
     }
-    recount(gap, *stream);
-    m_evidence.findCause(gap, *stream, m_gaps);
+    recount(gap, *stream, {});
     gap.isJudged = true;
     if (gap.lost != 0) {
-        gap.incident = attribute(*m_sink, *stream, lossOf(gap, gap.lost));
+        report(gap, *stream, m_evidence.findCauses(gap, *stream));
+    }
+}
+
+void Attribution::report(Gap& gap, Stream& stream, std::span<const LossEvidence::Run> runs) {
+    // The most first: a silence has the cause of what was lost in it, not of what was beside it.
+    const LossCause main = gap.mainCause();
+    for (const bool isMain : {true, false}) {
+        for (const LossEvidence::Run& run : runs) {
+            if ((run.cause == main) == isMain) {
+                Gap::Share& share = gap.of(run.cause);
+                share.incident = attribute(*m_sink, stream,
+                                           {.stream = gap.stream,
+                                            .cause = run.cause,
+                                            .samples = run.lost,
+                                            .from = run.from,
+                                            .to = run.to,
+                                            .fromPacket = gap.fromPacket,
+                                            .toPacket = gap.toPacket,
+                                            .incident = share.incident,
+                                            .evidence = gap.evidenceFact(run.cause)});
+            }
+        }
     }
 }
 

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace posewire::model {
@@ -74,8 +75,10 @@ public:
     /// Time passes without packets: judges what is due.
     void advance(log::Stamp stamp);
     /// Packets just below one were passed over: whatever they were of is missing for that.
-    void takeOvertaken(std::uint64_t packet, std::uint64_t count) { m_evidence.takeOvertaken(packet, count); }
-    /// Each datagram of a type that counts samples.
+    void takeOvertaken(std::uint64_t packet, std::uint64_t count, log::Stamp stamp) {
+        m_evidence.takeOvertaken(packet, count, stamp);
+    }
+    /// See LossEvidence.
     void takeSampled(log::SenderId sender, log::Stamp stamp) { m_evidence.takeSampled(sender, stamp); }
     /// One that has a header and cannot be decoded.
     void takeMalformed(const log::Packet& packet, const wire::Header& header) {
@@ -169,12 +172,15 @@ private:
     void judgeEarly(Stream& stream, std::uint64_t packet);
     void judgeDue(log::Stamp stamp, std::uint64_t packet, bool isAll = false);
     void judge(Gap& gap);
+    /// Reports what was lost of it by each cause.
+    void report(Gap& gap, Stream& stream, std::span<const LossEvidence::Run> runs);
     void judge(Partial& partial, std::uint64_t packet);
     /// The rest of a sample or message is lost, by the packets up to `lastPacket`.
     void lose(const Partial& partial, std::uint64_t lastPacket, std::uint64_t toPacket, words::Fact evidence);
     void attributeRest(Stream& stream);
     void takePartial(Stream& stream, const Verdict& verdict);
-    void recount(Gap& gap, Stream& stream);
+    void recount(Gap& gap, Stream& stream, std::optional<std::uint32_t> late);
+    void takeBack(Gap& gap, Stream& stream, LossCause cause, std::uint32_t samples);
     const Gap* recount(Stream& stream, std::optional<std::uint32_t> around);
 
     LossSink* m_sink;

@@ -1,101 +1,77 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/accounting/loss_evidence.h"
 
+#include "core/log/ip_packet.h"
 #include "core/model/accounting/sample_window.h"
 #include "core/wire/type_table.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdlib>
+#include <utility>
 
 namespace posewire::model {
 namespace {
 
 // Other streams brought what is missing about when it should have come.
 constexpr log::Duration kMeanwhile = std::chrono::milliseconds(150);
-// One sample of a slow stream that is lost on its way looks like a pause.
-constexpr std::uint32_t kFewestOfPause = 2;
-// A shorter silence of a sender is no pause.
-constexpr log::Duration kPause = std::chrono::milliseconds(250);
+// A shorter silence of a host is no pause; nor is one of fewer periods of its fastest stream: three samples.
+constexpr log::Duration kPause = std::chrono::milliseconds(50);
+constexpr double kPeriodsOfPause = 3.5;
+// The same of a host whose rate is not known yet.
+constexpr log::Duration kPauseAtFirst = std::chrono::milliseconds(250);
+// Hosts fall silent together if they do within this time, and a period of the slower one.
+constexpr log::Duration kTogether = std::chrono::milliseconds(50);
+// A sample every so many periods was not due in a silence: the counter did not go on in it.
+constexpr double kMostPeriodsApart = 3;
 constexpr std::size_t kMostDrops = 4'096;
 constexpr std::size_t kMostDamages = 1'024;
 constexpr std::size_t kMostSilences = 64;
 // A sender with more streams than these is no performance.
 constexpr std::size_t kMostStreams = 64;
-
-bool hasPaused(const Gap& gap, const std::deque<TimeRange>& silences) {
-    const log::Duration lasted = gap.toStamp - gap.fromStamp;
-    if (gap.lost < kFewestOfPause) {
-        return false;
-    }
-    const bool isSilent = std::ranges::any_of(silences, [&](const TimeRange& silence) {
-        const log::Duration common =
-            std::min(silence.to, gap.toStamp) - std::max(silence.from, gap.fromStamp);
-        return common >= kPause && 10 * common >= 9 * lasted;
-    });
-    const std::int64_t lastedMs = lasted / std::chrono::milliseconds(1);
-    const std::int64_t moved = static_cast<std::int32_t>(gap.timeCodeMoved);
-    return isSilent && std::abs(moved - lastedMs) <= std::max<std::int64_t>(50, lastedMs / 10);
-}
-
-/// A gap of another stream in the same silence that lacks the sample before or after this one, as many others
-/// do: a sender that pauses sends its samples whole, and a few may have been lost by themselves. Null if
-/// there is none.
-const Gap* cutBeside(const Gap& gap, const std::vector<const Stream*>& streams, const std::deque<Gap>& gaps) {
-    constexpr std::size_t kMostBeside = 512;
-    const auto areNear = [](log::Stamp one, log::Stamp other) {
-        return std::chrono::abs(one - other) < kMeanwhile;
-    };
-    const auto isOwed = [&](const Gap& other, std::uint32_t sample) {
-        const auto stream =
-            std::ranges::find(streams, other.stream, [](const Stream* one) { return one->key; });
-        return stream != streams.end() &&
-               (sample - other.fromSample) % std::max((*stream)->accounting.step(), 1U) == 0;
-    };
-    const std::size_t many = std::max<std::size_t>(2, streams.size() / 5);
-    std::array<const Gap*, 2> first{}; // that lacks the sample before, the one after
-    std::array<std::size_t, 2> lacking{};
-    std::size_t looked = 0;
-    for (auto other = gaps.rbegin(); other != gaps.rend() && looked < kMostBeside; ++other, ++looked) {
-        const bool isBeside = other->stream.sender == gap.stream.sender && other->stream != gap.stream &&
-                              other->lost != 0 && areNear(other->fromStamp, gap.fromStamp) &&
-                              areNear(other->toStamp, gap.toStamp);
-        for (const std::size_t edge : {0U, 1U}) {
-            const std::uint32_t sample = edge == 0 ? gap.fromSample : gap.toSample;
-            if (!isBeside || !other->isAround(sample) || !isOwed(*other, sample)) {
-                continue;
-            }
-            first[edge] = first[edge] == nullptr ? &*other : first[edge];
-            if (++lacking[edge] >= many) {
-                return first[edge];
-            }
-        }
-    }
-    return nullptr;
-}
+// Longer gaps are judged as if they were so long, and of more runs the last ones are one.
+constexpr std::size_t kMostSamples = 65'536;
+constexpr std::size_t kMostRuns = 64;
 
 } // namespace
 
 void LossEvidence::addStream(const Stream& stream, const log::SenderInfo& info) {
-    Sender& sender = m_senders[stream.key.sender];
-    sender.transport = info.transport;
-    sender.localPort = info.localPort;
-    if (countsSamples(stream.key.type) && sender.streams.size() < kMostStreams) {
-        sender.streams.push_back(&stream);
+    const auto [place, isNew] = m_senders.try_emplace(stream.key.sender);
+    Sender& sender = place->second;
+    if (isNew) {
+        sender.transport = info.transport;
+        sender.localPort = info.localPort;
+        sender.host = m_hosts.try_emplace(std::string(log::hostOf(info.address))).first;
+        ++sender.host->second.senders;
+    }
+    if (countsSamples(stream.key.type)) {
+        ++sender.host->second.streams;
+        if (sender.streams.size() < kMostStreams) {
+            sender.streams.push_back(&stream);
+        }
+    }
+}
+
+void LossEvidence::retire(log::SenderId sender) {
+    const auto found = m_senders.find(sender);
+    if (found != m_senders.end()) {
+        if (--found->second.host->second.senders == 0) {
+            m_hosts.erase(found->second.host);
+        }
+        m_senders.erase(found);
     }
 }
 
 void LossEvidence::takePacket(const log::Packet& packet, std::uint16_t localPort) {
     if (packet.kernelDropsBefore != 0) {
-        keepNewest(m_drops, {packet.number, std::uint64_t{packet.kernelDropsBefore}, localPort}, kMostDrops);
+        keepNewest(m_drops, {packet.number, packet.stamp, std::uint64_t{packet.kernelDropsBefore}, localPort},
+                   kMostDrops);
     }
     if (packet.flags.afterClosed) {
-        keepNewest(m_drops, {packet.number, 0, localPort, true}, kMostDrops);
+        keepNewest(m_drops, {packet.number, packet.stamp, 0, localPort, true}, kMostDrops);
     }
 }
 
-void LossEvidence::takeOvertaken(std::uint64_t packet, std::uint64_t count) {
-    keepNewest(m_drops, {packet, count, std::nullopt}, kMostDrops);
+void LossEvidence::takeOvertaken(std::uint64_t packet, std::uint64_t count, log::Stamp stamp) {
+    keepNewest(m_drops, {packet, stamp, count, std::nullopt}, kMostDrops);
 }
 
 void LossEvidence::takeSampled(log::SenderId sender, log::Stamp stamp) {
@@ -103,11 +79,31 @@ void LossEvidence::takeSampled(log::SenderId sender, log::Stamp stamp) {
     if (found == m_senders.end()) {
         return;
     }
-    Sender& figures = found->second;
-    if (figures.lastStamp != log::Stamp() && stamp - figures.lastStamp >= kPause) {
-        keepNewest(figures.silences, {figures.lastStamp, stamp}, kMostSilences);
+    Host& host = found->second.host->second;
+    const log::Stamp before = std::exchange(host.lastStamp, std::max(host.lastStamp, stamp));
+    if (before == log::Stamp() || stamp - before < kPause) {
+        return;
     }
-    figures.lastStamp = stamp;
+    const log::Duration period = periodOf(host);
+    const log::Duration least = period > log::Duration::zero()
+                                    ? std::chrono::duration_cast<log::Duration>(kPeriodsOfPause * period)
+                                    : kPauseAtFirst;
+    if (stamp - before >= least) {
+        keepNewest(host.silences, {{before, stamp}, period}, kMostSilences);
+    }
+}
+
+/// Of the fastest stream; 0 if that is not known.
+log::Duration LossEvidence::periodOf(const Host& host) const {
+    double fastestHz = 0;
+    for (const auto& [id, sender] : m_senders) {
+        if (&sender.host->second == &host) {
+            for (const Stream* stream : sender.streams) {
+                fastestHz = std::max(fastestHz, stream->statistics.rateHz());
+            }
+        }
+    }
+    return fastestHz > 0 ? log::durationOf(1 / fastestHz) : log::Duration::zero();
 }
 
 void LossEvidence::takeMalformed(const log::Packet& packet, const wire::Header& header) {
@@ -131,59 +127,203 @@ LossCause LossEvidence::causeOfPartial(const log::StreamKey& stream, std::uint64
     return found->second.transport == log::Transport::Tcp ? LossCause::Sender : LossCause::Network;
 }
 
-void LossEvidence::findCause(Gap& gap, const Stream& stream, const std::deque<Gap>& gaps) const {
+std::span<const LossEvidence::Run> LossEvidence::findCauses(Gap& gap, const Stream& stream) {
+    judgeSamples(gap, stream);
+    gap.shares = {};
+    m_runs.clear();
+    std::uint32_t left = gap.lost; // what came of them is known only while it is remembered
+    for (std::size_t place = 0; place < m_missing.size() && left != 0; ++place) {
+        const Missing& missing = m_missing[place];
+        if (!missing.isMissing) {
+            continue;
+        }
+        const LossCause cause = missing.cause.value_or(LossCause::Unknown);
+        Gap::Share& share = gap.of(cause);
+        if (share.lost == 0) {
+            share = {0, missing.otherType, missing.evidence, missing.figure, 0};
+        }
+        if (m_runs.empty() || (m_runs.back().cause != cause && m_runs.size() < kMostRuns)) {
+            m_runs.push_back({cause, 0, dueAt(place, gap) - (dueAt(1, gap) - dueAt(0, gap)), {}});
+        }
+        Run& run = m_runs.back();
+        run.to = dueAt(place + 1, gap);
+        ++run.lost;
+        ++gap.of(run.cause).lost;
+        --left;
+    }
+    if (left != 0) {
+        m_runs.push_back(
+            {m_runs.empty() ? LossCause::Unknown : m_runs.back().cause, left, gap.fromStamp, gap.toStamp});
+        gap.of(m_runs.back().cause).lost += left;
+    }
+    return m_runs;
+}
+
+LossCause LossEvidence::causeOf(const Gap& gap, const Stream& stream, std::uint32_t sample) {
+    judgeSamples(gap, stream);
+    const auto place = placeOf(sample, gap);
+    return place && *place < m_missing.size() ? m_missing[*place].cause.value_or(LossCause::Unknown)
+                                              : LossCause::Unknown;
+}
+
+void LossEvidence::judgeSamples(const Gap& gap, const Stream& stream) {
+    m_step = std::max(stream.accounting.step(), 1U);
+    const std::size_t samples = (gap.toSample - gap.fromSample - 1) / m_step;
+    m_missing.assign(std::min(samples, kMostSamples), {});
     const auto found = m_senders.find(gap.stream.sender);
-    if (gap.lost == 0 || found == m_senders.end()) {
+    if (found == m_senders.end()) {
         return;
     }
     const Sender& sender = found->second;
-    const auto decide = [&](LossCause cause, Gap::Evidence evidence, std::uint64_t figure) {
-        gap.cause = cause;
-        gap.evidence = evidence;
-        gap.figure = figure;
-    };
-    const LostHere lost = lostHere(gap.fromPacket, gap.toPacket, sender.localPort);
-    if (lost.dropped != 0) {
-        return decide(LossCause::ThisComputer, Gap::Evidence::Dropped, lost.dropped);
-    }
-    if (lost.isClosed) {
-        return decide(LossCause::ThisComputer, Gap::Evidence::NotListening, 0);
-    }
-    if (lost.overtaken != 0) {
-        return decide(LossCause::ThisComputer, Gap::Evidence::Overtaken, lost.overtaken);
-    }
+    stream.accounting.forEachBetween(gap.fromSample, gap.toSample, [&](std::uint32_t sample, log::Stamp) {
+        if (const auto place = placeOf(sample, gap)) {
+            m_missing[*place].isMissing = false;
+        }
+    });
+    judgeLostHere(gap, sender.localPort);
     if (sender.transport == log::Transport::Tcp) {
-        return decide(LossCause::Sender, Gap::Evidence::Reliable, 0);
+        judgeRest({.cause = LossCause::Sender, .evidence = Gap::Evidence::Reliable});
+        return;
     }
-    if (const Damage* damage = damageWithin(gap)) {
-        return decide(LossCause::Network, Gap::Evidence::Damaged, damage->sample);
-    }
-    for (const std::uint32_t neighbour : {gap.fromSample, gap.toSample}) {
-        if (stream.accounting.isIncomplete(neighbour)) {
-            return decide(LossCause::Network, Gap::Evidence::Partial, neighbour);
+    for (auto damage = m_damages.rbegin(); damage != m_damages.rend() && damage->packet >= gap.fromPacket;
+         ++damage) {
+        if (const auto place = placeOf(damage->sample, gap); place && damage->stream == gap.stream) {
+            judge(
+                *place,
+                {.cause = LossCause::Network, .evidence = Gap::Evidence::Damaged, .figure = damage->sample});
         }
     }
-    const TimeRange when{gap.fromStamp - kMeanwhile, gap.toStamp + kMeanwhile};
-    const std::uint32_t step = stream.accounting.step(); // what others bring between is not missing here
+    judgeBrought(gap, sender);
+    judgeSilent(gap, stream, sender.host->second);
+    for (const std::uint32_t neighbour : {gap.fromSample, gap.toSample}) {
+        if (stream.accounting.isIncomplete(neighbour)) {
+            judgeRest({.cause = LossCause::Network, .evidence = Gap::Evidence::Partial, .figure = neighbour});
+        }
+    }
+}
+
+void LossEvidence::judge(std::size_t place, const Missing& as) {
+    if (Missing& missing = m_missing[place]; missing.isMissing && !missing.cause) {
+        missing = as;
+    }
+}
+
+void LossEvidence::judgeRest(const Missing& as) {
+    for (std::size_t place = 0; place < m_missing.size(); ++place) {
+        judge(place, as);
+    }
+}
+
+/// Nothing if none of that number is expected in the gap.
+std::optional<std::size_t> LossEvidence::placeOf(std::uint32_t sample, const Gap& gap) const {
+    const std::uint32_t after = sample - gap.fromSample;
+    const bool isExpected = gap.isAround(sample) && after % m_step == 0;
+    const std::size_t place = after / m_step - 1;
+    return isExpected && place < m_missing.size() ? std::optional(place) : std::nullopt;
+}
+
+/// When a sample should have come, if those of the gap were as far apart.
+log::Stamp LossEvidence::dueAt(std::size_t place, const Gap& gap) const {
+    const double share = static_cast<double>(place + 1) / static_cast<double>(m_missing.size() + 1);
+    return gap.fromStamp + log::durationOf(share * log::secondsOf(gap.toStamp - gap.fromStamp));
+}
+
+void LossEvidence::judgeLostHere(const Gap& gap, std::uint16_t localPort) {
+    const LostHere lost = lostHere(gap.fromPacket, gap.toPacket, localPort);
+    if (!lost.isAny()) {
+        return;
+    }
+    for (const Gap::Evidence evidence :
+         {Gap::Evidence::Dropped, Gap::Evidence::NotListening, Gap::Evidence::Overtaken}) {
+        const bool isOvertaken = evidence == Gap::Evidence::Overtaken;
+        const bool isClosed = evidence == Gap::Evidence::NotListening;
+        const std::uint64_t figure = isOvertaken ? lost.overtaken : isClosed ? 0 : lost.dropped;
+        const Missing as{true, LossCause::ThisComputer, evidence, 0, figure};
+        for (auto drop = m_drops.rbegin(); drop != m_drops.rend() && drop->packet > gap.fromPacket; ++drop) {
+            const bool isOfPort = drop->localPort.value_or(localPort) == localPort;
+            if (drop->packet <= gap.toPacket && isOfPort && drop->isClosed == isClosed &&
+                drop->localPort.has_value() != isOvertaken) {
+                judgeDrop(gap, *drop, as);
+            }
+        }
+    }
+}
+
+/// What was dropped is what was due just before the packet that tells of it, and no more than was dropped.
+void LossEvidence::judgeDrop(const Gap& gap, const Drop& drop, const Missing& as) {
+    if (drop.isClosed) {
+        judgeRest(as);
+        return;
+    }
+    std::size_t next = 0; // the first that was due after it
+    while (next < m_missing.size() && dueAt(next, gap) <= drop.stamp) {
+        ++next;
+    }
+    std::uint64_t left = drop.count;
+    const auto take = [&](std::size_t place) {
+        const bool isOpen = m_missing[place].isMissing && !m_missing[place].cause;
+        judge(place, as);
+        left -= isOpen ? 1 : 0;
+    };
+    for (std::size_t place = next; place-- > 0 && left != 0;) {
+        take(place);
+    }
+    for (std::size_t place = next; place < m_missing.size() && left != 0; ++place) {
+        take(place);
+    }
+}
+
+void LossEvidence::judgeBrought(const Gap& gap, const Sender& sender) {
     for (const Stream* other : sender.streams) {
         if (other->key == gap.stream) {
             continue;
         }
-        if (const auto sample = other->accounting.arrivedBetween(gap.fromSample, gap.toSample, step, when)) {
-            gap.otherType = other->key.type;
-            return decide(LossCause::Network, Gap::Evidence::OtherStream, *sample);
-        }
+        other->accounting.forEachBetween(
+            gap.fromSample, gap.toSample, [&](std::uint32_t sample, log::Stamp stamp) {
+                const auto place = placeOf(sample, gap); // what others bring between is not missing here
+                if (place && stamp >= gap.fromStamp - kMeanwhile && stamp < gap.toStamp + kMeanwhile) {
+                    judge(*place,
+                          {true, LossCause::Network, Gap::Evidence::OtherStream, other->key.type, sample});
+                }
+            });
     }
-    if (!hasPaused(gap, sender.silences)) {
+}
+
+void LossEvidence::judgeSilent(const Gap& gap, const Stream& stream, const Host& host) {
+    const double hz = stream.statistics.rateHz();
+    const double apartS =
+        log::secondsOf(gap.toStamp - gap.fromStamp) / static_cast<double>(m_missing.size() + 1);
+    if (hz > 0 && apartS * hz > kMostPeriodsApart) {
         return;
     }
-    if (const Gap* cut = cutBeside(gap, sender.streams, gaps)) {
-        gap.otherType = cut->stream.type;
-        decide(LossCause::Network, Gap::Evidence::CutOff,
-               cut->isAround(gap.fromSample) ? gap.fromSample : gap.toSample);
-    } else {
-        decide(LossCause::Sender, Gap::Evidence::Paused, sender.streams.size());
+    for (auto silence = host.silences.rbegin();
+         silence != host.silences.rend() && silence->when.to > gap.fromStamp; ++silence) {
+        const std::size_t hosts = hostsSilentWith(host, *silence);
+        const Missing as = hosts > 1 ? Missing{.cause = LossCause::Network,
+                                               .evidence = Gap::Evidence::HostsSilent,
+                                               .figure = hosts}
+                                     : Missing{.cause = LossCause::Sender,
+                                               .evidence = Gap::Evidence::Paused,
+                                               .figure = host.streams};
+        for (std::size_t place = 0; place < m_missing.size(); ++place) {
+            const log::Stamp due = dueAt(place, gap);
+            if (due > silence->when.from && due < silence->when.to) {
+                judge(place, as);
+            }
+        }
     }
+}
+
+/// How many hosts were silent over the same time, itself one of them.
+std::size_t LossEvidence::hostsSilentWith(const Host& host, const Silence& silence) const {
+    const auto isSame = [&silence](const Silence& other) {
+        const log::Duration most = kTogether + std::min(std::max(silence.period, other.period), kTogether);
+        return std::chrono::abs(other.when.from - silence.when.from) <= most &&
+               std::chrono::abs(other.when.to - silence.when.to) <= most;
+    };
+    return 1 + static_cast<std::size_t>(std::ranges::count_if(m_hosts, [&](const auto& entry) {
+               return &entry.second != &host && std::ranges::any_of(entry.second.silences, isSame);
+           }));
 }
 
 LossEvidence::LostHere LossEvidence::lostHere(std::uint64_t fromPacket, std::uint64_t toPacket,
@@ -198,53 +338,49 @@ LossEvidence::LostHere LossEvidence::lostHere(std::uint64_t fromPacket, std::uin
     return lost;
 }
 
-const LossEvidence::Damage* LossEvidence::damageWithin(const Gap& gap) const {
-    for (auto damage = m_damages.rbegin(); damage != m_damages.rend(); ++damage) {
-        if (damage->packet < gap.fromPacket) {
-            break;
-        }
-        if (damage->stream == gap.stream && gap.isAround(damage->sample)) {
-            return &*damage;
-        }
-    }
-    return nullptr;
-}
-
 bool Gap::isAround(std::uint32_t sample) const {
     return distance(sample, fromSample) > 0 && distance(toSample, sample) > 0;
 }
 
-words::Fact Gap::evidenceFact() const {
+std::vector<LossCause> Gap::causes() const {
+    std::vector<LossCause> causes;
+    for (std::size_t cause = 0; cause < kLossCauses; ++cause) {
+        if (shares[cause].lost != 0) {
+            causes.push_back(static_cast<LossCause>(cause));
+        }
+    }
+    std::ranges::stable_sort(causes, std::greater(), [this](LossCause cause) { return of(cause).lost; });
+    return causes.empty() ? std::vector{LossCause::Unknown} : causes;
+}
+
+words::Fact Gap::evidenceFact(LossCause cause) const {
     using K = words::Kind;
+    const Share& share = of(cause);
     const auto lastedMs =
         words::Number{static_cast<double>((toStamp - fromStamp) / std::chrono::milliseconds(1))};
-    const words::NamedValue sample{"sample", figure};
-    const words::NamedValue type{"type", wire::typeDigits(otherType)};
+    const words::NamedValue sample{"sample", share.figure};
     const words::NamedValue from{"from", fromPacket};
     const words::NamedValue to{"to", toPacket};
-    const words::NamedValue samples{"samples", words::counted(K::Samples, lost)};
-    switch (evidence) {
+    const words::NamedValue samples{"samples", words::counted(K::Samples, isJudged ? share.lost : lost)};
+    switch (share.evidence) {
     case Evidence::Dropped:
-        return {K::DroppedHere, {{"datagrams", words::counted(K::Datagrams, figure)}, from, to}};
+        return {K::DroppedHere, {{"datagrams", words::counted(K::Datagrams, share.figure)}, from, to}};
     case Evidence::NotListening:
         return {K::NotListening};
     case Evidence::Overtaken:
-        return {K::OvertakenBetween, {{"packets", words::counted(K::Packets, figure)}, from, to}};
+        return {K::OvertakenBetween, {{"packets", words::counted(K::Packets, share.figure)}, from, to}};
     case Evidence::Damaged:
         return {K::SampleDamaged, {sample}};
     case Evidence::Partial:
         return {K::PartNextToGap, {sample}};
     case Evidence::OtherStream:
-        return {K::OtherStream, {type, sample}};
+        return {K::OtherStream, {{"type", wire::typeDigits(share.otherType)}, sample}};
     case Evidence::Reliable:
         return {K::NotSentByTcp, {samples}};
-    case Evidence::CutOff:
-        return {K::CutOff, {sample, type}};
+    case Evidence::HostsSilent:
+        return {K::HostsSilent, {{"hosts", share.figure}, {"lasted", lastedMs}}};
     case Evidence::Paused:
-        return {K::Paused,
-                {{"streams", words::counted(K::Streams, figure)},
-                 {"lasted", lastedMs},
-                 {"moved", words::Number{static_cast<double>(timeCodeMoved)}}}};
+        return {K::Paused, {{"streams", words::counted(K::Streams, share.figure)}, {"lasted", lastedMs}}};
     case Evidence::None:
         break;
     }
@@ -255,8 +391,10 @@ words::Fact Gap::evidenceFact() const {
 std::size_t LossEvidence::memoryBytes() const {
     std::size_t bytes = m_drops.size() * sizeof(Drop) + m_damages.size() * sizeof(Damage);
     for (const auto& [id, sender] : m_senders) {
-        bytes += sizeof(Sender) + sender.silences.size() * sizeof(TimeRange) +
-                 sender.streams.capacity() * sizeof(const Stream*);
+        bytes += sizeof(Sender) + sender.streams.capacity() * sizeof(const Stream*);
+    }
+    for (const auto& [name, host] : m_hosts) {
+        bytes += sizeof(host) + name.capacity() + host.silences.size() * sizeof(Silence);
     }
     return bytes;
 }

@@ -5,17 +5,22 @@
 #include "core/model/accounting/stream.h"
 #include "core/words/fact.h"
 
+#include <array>
 #include <cstdint>
 #include <deque>
+#include <functional>
+#include <map>
 #include <optional>
+#include <span>
+#include <string>
 #include <unordered_map>
 #include <vector>
 
 namespace posewire::model {
 
-/// Samples of a stream that did not come between two that did, and whose loss that was.
+/// Samples of a stream that did not come between two that did, and whose loss each was.
 struct Gap {
-    /// What the cause rests on.
+    /// What a cause rests on.
     enum class Evidence : std::uint8_t {
         None,         ///< nothing speaks for anybody
         Dropped,      ///< this computer dropped datagrams of the socket meanwhile
@@ -25,8 +30,16 @@ struct Gap {
         Partial,      ///< of a sample next to it only a part came
         OtherStream,  ///< other streams of the sender brought one of the samples
         Reliable,     ///< TCP loses nothing
-        CutOff,       ///< a silence of all streams began or ended within a sample
-        Paused,       ///< all streams of the sender paused together, and the time code moved with the pause
+        HostsSilent,  ///< several hosts fell silent and came back together
+        Paused,       ///< all streams of the sender's host were silent, and no other host was
+    };
+    /// The samples that are lost by one cause.
+    struct Share {
+        std::uint32_t lost = 0;
+        std::uint8_t otherType = 0; ///< of the evidence OtherStream
+        Evidence evidence = Evidence::None;
+        std::uint64_t figure = 0;   ///< of the evidence: datagrams, a sample, streams, hosts
+        std::uint64_t incident = 0; ///< that its loss is told in; 0 for none
     };
 
     log::StreamKey stream;
@@ -36,19 +49,19 @@ struct Gap {
     log::Stamp toStamp{};
     std::uint64_t fromPacket = 0;
     std::uint64_t toPacket = 0;
-    std::uint32_t lost = 0; ///< what still is; 0 if all came late or nothing was expected
-    LossCause cause = LossCause::Unknown;
-    Evidence evidence = Evidence::None;
-    bool isJudged = false;           ///< else late arrivals are still waited for
-    std::uint32_t timeCodeMoved = 0; ///< ms
-    std::uint64_t figure = 0;        ///< of the evidence: datagrams, a sample, ms
-    std::uint64_t incident = 0;      ///< that its loss is told in; 0 for none
-    std::uint8_t otherType = 0;      ///< of the evidence OtherStream or CutOff
-    Stream* waiting = nullptr;       ///< its stream, until it is judged or retired
-    std::uint64_t datagrams = 0;     ///< of the stream when it ended
+    std::uint32_t lost = 0;                  ///< what still is; 0 if all came late or nothing was expected
+    std::array<Share, kLossCauses> shares{}; ///< by LossCause, once it is judged; together `lost`
+    bool isJudged = false;                   ///< else late arrivals are still waited for
+    Stream* waiting = nullptr;               ///< its stream, until it is judged or retired
+    std::uint64_t datagrams = 0;             ///< of the stream when it ended
 
     [[nodiscard]] bool isAround(std::uint32_t sample) const;
-    [[nodiscard]] words::Fact evidenceFact() const;
+    [[nodiscard]] const Share& of(LossCause cause) const { return shares[static_cast<std::size_t>(cause)]; }
+    [[nodiscard]] Share& of(LossCause cause) { return shares[static_cast<std::size_t>(cause)]; }
+    /// The one of most of its samples first; Unknown before it is judged.
+    [[nodiscard]] std::vector<LossCause> causes() const;
+    [[nodiscard]] LossCause mainCause() const { return causes().front(); }
+    [[nodiscard]] words::Fact evidenceFact(LossCause cause) const;
 };
 
 /// What the log shows of losses: drops of this computer, damaged datagrams, silences of senders, and what
@@ -57,30 +70,53 @@ class LossEvidence {
 public:
     /// The stream outlives this, or is retired with its sender before it goes.
     void addStream(const Stream& stream, const log::SenderInfo& info);
-    void retire(log::SenderId sender) { m_senders.erase(sender); }
+    void retire(log::SenderId sender);
     /// What a packet says of itself.
     void takePacket(const log::Packet& packet, std::uint16_t localPort);
-    void takeOvertaken(std::uint64_t packet, std::uint64_t count);
+    void takeOvertaken(std::uint64_t packet, std::uint64_t count, log::Stamp stamp);
+    /// A datagram of a type that counts samples, unless it is late: that is no sign of life.
     void takeSampled(log::SenderId sender, log::Stamp stamp);
     void takeMalformed(const log::Packet& packet, const wire::Header& header);
 
-    /// Sets cause and evidence of a gap, one of `gaps`.
-    void findCause(Gap& gap, const Stream& stream, const std::deque<Gap>& gaps) const;
+    /// Samples in a row that are lost by one cause.
+    struct Run {
+        LossCause cause = LossCause::Unknown;
+        std::uint32_t lost = 0;
+        log::Stamp from{}; ///< when the samples around them were due
+        log::Stamp to{};
+    };
+    /// Judges each sample of a gap by all that is known of that sample. Sets its shares; valid until the next
+    /// call. Of very many runs the last ones are one.
+    std::span<const Run> findCauses(Gap& gap, const Stream& stream);
+    /// Whose loss a sample of a judged gap was.
+    [[nodiscard]] LossCause causeOf(const Gap& gap, const Stream& stream, std::uint32_t sample);
     /// Whose loss the rest of a sample or message is, of which some came from a packet on.
     [[nodiscard]] LossCause causeOfPartial(const log::StreamKey& stream, std::uint64_t fromPacket,
                                            std::uint64_t toPacket) const;
     [[nodiscard]] std::size_t memoryBytes() const;
 
 private:
+    /// All streams of a host were silent.
+    struct Silence {
+        TimeRange when;
+        log::Duration period{}; ///< of its fastest stream
+    };
+    struct Host {
+        std::size_t senders = 0;
+        std::size_t streams = 0; ///< those that count samples
+        log::Stamp lastStamp{};
+        std::deque<Silence> silences;
+    };
+    using Hosts = std::map<std::string, Host, std::less<>>;
     struct Sender {
         std::vector<const Stream*> streams; ///< those that count samples
         log::Transport transport = log::Transport::Udp;
         std::uint16_t localPort = 0;
-        log::Stamp lastStamp{};
-        std::deque<TimeRange> silences;
+        Hosts::iterator host;
     };
     struct Drop {
         std::uint64_t packet = 0; ///< the first after them
+        log::Stamp stamp{};
         std::uint64_t count = 0;
         std::optional<std::uint16_t> localPort{}; ///< nothing: of the log, not looked at in time
         bool isClosed = false; ///< the port was not listened to; nobody knows how many there were
@@ -101,11 +137,33 @@ private:
     /// Datagrams of a port behind one packet, up to another.
     [[nodiscard]] LostHere lostHere(std::uint64_t fromPacket, std::uint64_t toPacket,
                                     std::uint16_t localPort) const;
-    [[nodiscard]] const Damage* damageWithin(const Gap& gap) const;
+    /// A sample of the gap that is judged.
+    struct Missing {
+        bool isMissing = true;
+        std::optional<LossCause> cause{};
+        Gap::Evidence evidence = Gap::Evidence::None;
+        std::uint8_t otherType = 0;
+        std::uint64_t figure = 0;
+    };
+    void judgeSamples(const Gap& gap, const Stream& stream);
+    void judgeLostHere(const Gap& gap, std::uint16_t localPort);
+    void judgeDrop(const Gap& gap, const Drop& drop, const Missing& as);
+    void judgeBrought(const Gap& gap, const Sender& sender);
+    void judgeSilent(const Gap& gap, const Stream& stream, const Host& host);
+    void judge(std::size_t place, const Missing& as);
+    void judgeRest(const Missing& as);
+    [[nodiscard]] std::optional<std::size_t> placeOf(std::uint32_t sample, const Gap& gap) const;
+    [[nodiscard]] log::Stamp dueAt(std::size_t place, const Gap& gap) const;
+    [[nodiscard]] std::size_t hostsSilentWith(const Host& host, const Silence& silence) const;
+    [[nodiscard]] log::Duration periodOf(const Host& host) const;
 
+    Hosts m_hosts;
     std::unordered_map<log::SenderId, Sender> m_senders;
     std::deque<Drop> m_drops;
     std::deque<Damage> m_damages;
+    std::uint32_t m_step = 1;         ///< of the gap that is judged
+    std::vector<Missing> m_missing{}; ///< of it: its samples in order
+    std::vector<Run> m_runs{};        ///< of it
 };
 
 /// Adds a value; the oldest goes if there are too many.

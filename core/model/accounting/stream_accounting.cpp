@@ -230,23 +230,6 @@ void StreamAccounting::addMalformed(log::Stamp stamp) {
     m_history.add(stamp, {.malformed = 1});
 }
 
-std::optional<std::uint32_t> StreamAccounting::arrivedBetween(std::uint32_t from, std::uint32_t to,
-                                                              std::uint32_t step,
-                                                              const TimeRange& when) const {
-    const SampleWindow& window = m_ledger.present().window();
-    for (std::size_t i = window.find(from + 1).index; i < window.size(); ++i) {
-        const SampleWindow::Entry& entry = window[i];
-        if (distance(entry.sample, to) >= 0 || distance(from, entry.sample) >= 0) {
-            break;
-        }
-        const bool isMeant = (entry.sample - from) % std::max(step, 1U) == 0;
-        if (isMeant && entry.stamp >= when.from && entry.stamp < when.to) {
-            return entry.sample;
-        }
-    }
-    return std::nullopt;
-}
-
 bool StreamAccounting::isIncomplete(std::uint32_t sample) const {
     for (const SampleSequence* sequence : {&m_ledger.present(), &m_ledger.before()}) {
         const SampleWindow& window = sequence->window();

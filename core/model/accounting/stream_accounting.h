@@ -121,10 +121,19 @@ public:
     }
     [[nodiscard]] const CountHistory& history() const { return m_history; }
 
-    /// The first sample of this stream between two counters, both exclusive, that came in a span of time and
-    /// is one of every `step` after the first.
-    [[nodiscard]] std::optional<std::uint32_t>
-    arrivedBetween(std::uint32_t from, std::uint32_t to, std::uint32_t step, const TimeRange& when) const;
+    /// Calls f(sample, stamp) for the samples between two counters, both exclusive, that came since the
+    /// newest restart and are remembered.
+    template <class Function>
+    void forEachBetween(std::uint32_t from, std::uint32_t to, Function&& f) const {
+        const SampleWindow& window = m_ledger.present().window();
+        for (std::size_t i = window.find(from + 1).index; i < window.size(); ++i) {
+            const SampleWindow::Entry& entry = window[i];
+            if (distance(entry.sample, to) >= 0 || distance(from, entry.sample) >= 0) {
+                break;
+            }
+            f(entry.sample, entry.stamp);
+        }
+    }
     /// True if some but not all datagrams of a sample came. After a restart, samples of before are known for
     /// a while.
     [[nodiscard]] bool isIncomplete(std::uint32_t sample) const;

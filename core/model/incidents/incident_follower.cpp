@@ -154,12 +154,12 @@ void IncidentFollower::expect(const CharacterKey& key, Character& character, log
 }
 
 void IncidentFollower::takeDatagram(const log::Packet& packet, const wire::Header& header, Stream& stream,
-                                    const std::string& address) {
+                                    const std::string& address, bool isLate) {
     m_watch.wake(stream);
     if (m_claims.meet(packet.sender, address)) {
         m_incidents.report(occurrenceOf(IncidentKind::SourceUp, packet));
     }
-    if (countsSamples(header.type())) {
+    if (countsSamples(header.type()) && !isLate) {
         noteSampled(packet, header, stream);
         m_claims.take(packet, header, m_incidents);
     }
@@ -297,6 +297,7 @@ std::uint64_t IncidentFollower::takeLoss(const Loss& loss) {
             return number;
         }
     }
+    m_watch.takeLoss(loss.stream, loss.cause, loss.samples, loss.to);
     return m_incidents.report(one);
 }
 

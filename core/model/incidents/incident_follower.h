@@ -42,9 +42,9 @@ public:
     void takeOvertaken(std::uint64_t packet, std::uint64_t count, log::Stamp stamp);
     /// This computer dropped so many where packets were passed over, just before one.
     void takeDropsUnseen(std::uint64_t count, const log::Packet& next);
-    /// Each datagram with its header. `address`: of its sender.
+    /// Each datagram with its header. `address`: of its sender; `isLate`: others have overtaken it.
     void takeDatagram(const log::Packet& packet, const wire::Header& header, Stream& stream,
-                      const std::string& address);
+                      const std::string& address, bool isLate);
     void takeVerdict(Stream& stream, const Verdict& verdict);
     void takeChange(IncidentKind kind, const CharacterKey& key, const log::Packet& packet,
                     words::Fact detail);

@@ -46,19 +46,24 @@ double usualIntervalS(const Stream& stream, const RangeFigures& read) {
     return stream.usualHz > 0 ? 1 / stream.usualHz : meanMs / 1000;
 }
 
-/// Of a stream in a window, without what silences took. What has just begun would have brought as much in all
-/// of it: a few samples of its first second are no share of anything.
-LossShare shareIn(const Stream& stream, const TimeRange& window,
-                  const std::unordered_map<log::StreamKey, LossesByCause>& silent) {
+/// Of a stream in a window, without what silences took, and what is of another cause. What has just begun
+/// would have brought as much in all of it: a few samples of its first second are no share of anything.
+LossShare shareIn(const Stream& stream, const TimeRange& window, LossCause cause,
+                  const LossesByStream& silent, const LossesByStream& known) {
     const StreamCounts counts = stream.accounting.countsBetween(window.from, window.to);
     const std::uint64_t lost = counts.lost + counts.incomplete;
-    const auto taken = silent.find(stream.key);
-    const std::uint64_t inSilence =
-        taken == silent.end() ? 0
-                              : std::accumulate(taken->second.begin(), taken->second.end(), std::uint64_t{0});
+    const auto sumOf = [&stream](const LossesByStream& losses) {
+        const auto own = losses.find(stream.key);
+        return own == losses.end() ? LossesByCause() : own->second;
+    };
+    const LossesByCause inSilence = sumOf(silent);
+    const LossesByCause byCause = sumOf(known);
+    const std::uint64_t others = std::accumulate(inSilence.begin(), inSilence.end(), std::uint64_t{0}) +
+                                 std::accumulate(byCause.begin(), byCause.end(), std::uint64_t{0}) -
+                                 byCause[static_cast<std::size_t>(cause)];
     const double age = log::secondsOf(window.to - stream.accounting.firstStamp());
     const double more = age > 0 ? std::max(1.0, window.seconds() / age) : 1;
-    return {lost - std::min(lost, inSilence),
+    return {lost - std::min(lost, others),
             static_cast<std::uint64_t>(more * static_cast<double>(counts.expected()))};
 }
 
@@ -84,6 +89,16 @@ void ThresholdWatch::retire(log::SenderId sender) {
     std::erase_if(m_awake, [sender](const Stream* stream) { return stream->key.sender == sender; });
 }
 
+void ThresholdWatch::takeLoss(const log::StreamKey& stream, LossCause cause, std::uint64_t samples,
+                              log::Stamp to) {
+    constexpr std::size_t kMost = 16'384;
+    const log::Stamp oldest = to - std::max(log::durationOf(m_thresholds.windowS), kRecentTime);
+    while (!m_losses.empty() && (m_losses.front().to < oldest || m_losses.size() >= kMost)) {
+        m_losses.pop_front();
+    }
+    m_losses.push_back({stream, cause, samples, to});
+}
+
 /// How bad losses are that last.
 void ThresholdWatch::noteLosses(log::Stamp stamp, Incidents& incidents) const {
     std::vector<const Incident*> losses = incidents.current();
@@ -96,11 +111,21 @@ void ThresholdWatch::noteLosses(log::Stamp stamp, Incidents& incidents) const {
         awake[stream->key] = stream;
     }
     const auto sharesIn = [&](const TimeRange& range) {
-        return [&, range, silent = lossesInSilences(incidents, range)](const Incident& loss) {
+        LossesByStream known;
+        for (const Loss& one : m_losses) {
+            if (one.to >= range.from && one.to < range.to) {
+                known[one.stream][static_cast<std::size_t>(one.cause)] += one.samples;
+            }
+        }
+        return [&, range, known = std::move(known),
+                silent = lossesInSilences(incidents, range)](const Incident& loss) {
             return judgedShares(loss, [&](const Incident::Part& part) {
                 const auto stream =
                     awake.find({loss.sender, part.character.value_or(0), part.type.value_or(0)});
-                return stream == awake.end() ? LossShare() : shareIn(*stream->second, range, silent);
+                return stream == awake.end()
+                           ? LossShare()
+                           : shareIn(*stream->second, range, loss.cause.value_or(LossCause::Unknown), silent,
+                                     known);
             });
         };
     };
@@ -270,9 +295,8 @@ std::vector<double> judgedShares(const Incident& incident,
     return shares;
 }
 
-std::unordered_map<log::StreamKey, LossesByCause> lossesInSilences(const Incidents& incidents,
-                                                                   const std::optional<TimeRange>& range) {
-    std::unordered_map<log::StreamKey, LossesByCause> losses;
+LossesByStream lossesInSilences(const Incidents& incidents, const std::optional<TimeRange>& range) {
+    LossesByStream losses;
     for (const Incident& outage : incidents.all()) {
         const bool isMeant = !range || (outage.lastStamp >= range->from && outage.lastStamp < range->to);
         if (outage.kind != IncidentKind::Outage || !isMeant) {

@@ -9,6 +9,7 @@
 #include "core/model/incidents/incidents.h"
 
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <optional>
 #include <span>
@@ -50,6 +51,8 @@ struct ThresholdRow {
 /// How long what is over is mentioned, and how bad a loss is is judged by.
 inline constexpr log::Duration kRecentTime = std::chrono::seconds(10);
 
+using LossesByStream = std::unordered_map<log::StreamKey, LossesByCause>;
+
 /// Holds the streams to the thresholds, in the time of the log: one event for each episode.
 class ThresholdWatch {
 public:
@@ -60,10 +63,19 @@ public:
     void wake(Stream& stream);
     /// Forgets the streams of a sender, before they go.
     void retire(log::SenderId sender);
+    /// Samples of a stream are lost that should have come by then, beside silences: each loss is held to its
+    /// limit by what is of its own cause.
+    void takeLoss(const log::StreamKey& stream, LossCause cause, std::uint64_t samples, log::Stamp to);
     /// Looks at the streams that are awake as they were just before a moment.
     void check(log::Stamp stamp, Incidents& incidents);
 
 private:
+    struct Loss {
+        log::StreamKey stream;
+        LossCause cause = LossCause::Unknown;
+        std::uint64_t samples = 0;
+        log::Stamp to{};
+    };
     struct Measure {
         IncidentKind kind;
         double value;
@@ -78,6 +90,7 @@ private:
 
     Thresholds m_thresholds;
     std::vector<Stream*> m_awake;
+    std::deque<Loss> m_losses; ///< the newest, oldest first
 };
 
 /// Samples that did not come whole, of those that should have come.
@@ -99,7 +112,7 @@ judgedShares(const Incident& incident, const std::function<LossShare(const Incid
 
 /// What silences that ended in a range of time took of each stream, by cause: it counts at their end, when
 /// the next sample came. Of all time where no range is given.
-[[nodiscard]] std::unordered_map<log::StreamKey, LossesByCause>
-lossesInSilences(const Incidents& incidents, const std::optional<TimeRange>& range);
+[[nodiscard]] LossesByStream lossesInSilences(const Incidents& incidents,
+                                              const std::optional<TimeRange>& range);
 
 } // namespace posewire::model

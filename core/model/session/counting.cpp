@@ -4,6 +4,14 @@
 #include "core/model/incidents/incident_follower.h"
 
 namespace posewire::model {
+namespace {
+
+/// A sample that others have overtaken is no sign that its sender goes on.
+bool isLate(std::span<const Verdict> verdicts) {
+    return !verdicts.empty() && verdicts.back().isReordered && verdicts.back().isFirstOfSample;
+}
+
+} // namespace
 
 Counting::Counting(const std::shared_ptr<log::Scratch>& scratch, Roll& roll, IncidentFollower& incidents)
     : m_roll(roll), m_incidents(incidents), m_attribution(incidents), m_index(scratch), m_digests(scratch) {}
@@ -62,17 +70,18 @@ void Counting::takeDatagram(Observed& seen) {
     Stream& stream = *seen.stream;
     m_index.add(packet, *seen.header);
     stream.statistics.add(packet.stamp);
+    const auto verdicts = addToStream(packet, *seen.header, stream.accounting, seen.digest);
+    const bool isSampled = countsSamples(seen.digest.type);
     const bool isConfirmed = seen.character->isConfirmed;
     if (isConfirmed) {
-        m_incidents.takeDatagram(packet, *seen.header, stream, seen.sender->info.address);
+        m_incidents.takeDatagram(packet, *seen.header, stream, seen.sender->info.address, isLate(verdicts));
     }
-    const bool isSampled = countsSamples(seen.digest.type);
-    if (isSampled) {
+    if (isSampled && !isLate(verdicts)) {
         m_attribution.takeSampled(packet.sender, packet.stamp);
-    } else if (seen.header->datagramIndex() == 0) {
+    } else if (!isSampled && seen.header->datagramIndex() == 0) {
         stream.statistics.addSample(packet.stamp);
     }
-    for (const Verdict& verdict : addToStream(packet, *seen.header, stream.accounting, seen.digest)) {
+    for (const Verdict& verdict : verdicts) {
         if (verdict.packet != packet.number) {
             m_digests.amend(verdict);
         }
@@ -89,7 +98,7 @@ void Counting::close(const Observed& seen) {
 }
 
 void Counting::takeOvertaken(std::uint64_t packet, std::uint64_t count, log::Stamp stamp) {
-    m_attribution.takeOvertaken(packet, count);
+    m_attribution.takeOvertaken(packet, count, stamp);
     m_incidents.takeOvertaken(packet, count, stamp);
     passOver(count);
 }

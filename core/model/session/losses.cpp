@@ -49,8 +49,11 @@ Losses::Losses(const SessionView& session, const std::optional<TimeRange>& range
         if (gap.toStamp + kSocketsApart < range->from) {
             break;
         }
-        if (gap.toStamp >= range->from && gap.toStamp < range->to && gap.cause != LossCause::Unknown) {
-            m_known[gap.stream][static_cast<std::size_t>(gap.cause)] += gap.lost;
+        if (gap.toStamp >= range->from && gap.toStamp < range->to) {
+            LossesByCause& known = m_known[gap.stream];
+            std::ranges::transform(
+                known, gap.shares, known.begin(),
+                [](std::uint64_t sum, const Gap::Share& share) { return sum + share.lost; });
         }
     }
     session.accounts().forEachPartialLoss(

@@ -7,6 +7,13 @@
 #include <algorithm>
 
 namespace posewire::model {
+namespace {
+
+std::size_t causeOf(const Incident& incident) {
+    return static_cast<std::size_t>(incident.cause.value_or(LossCause::Unknown));
+}
+
+} // namespace
 
 std::optional<words::Fact> RecentLosses::amountOf(const ListedIncident& one) {
     const Incident& incident = one.incident;
@@ -18,7 +25,7 @@ std::optional<words::Fact> RecentLosses::amountOf(const ListedIncident& one) {
         return {};
     }
     const FaultCounts sum = sumOf(incident);
-    const std::uint64_t samples = sum.lost[static_cast<std::size_t>(*incident.cause)];
+    const std::uint64_t samples = sum.lost[causeOf(incident)];
     return samples == 0 ? std::nullopt : std::optional(lostFact(incident, samples, sum.expected));
 }
 
@@ -29,7 +36,7 @@ bool RecentLosses::isAboveLimit(const Incident& incident) {
     }
     const std::vector<double> shares = judgedShares(incident, [&](const Incident::Part& part) {
         const FaultCounts counts = countsOf(incident.sender, part);
-        return LossShare{counts.total(), counts.expected};
+        return LossShare{counts.lost[causeOf(incident)], counts.expected};
     });
     const double limit =
         m_session.isRecording() ? incident.limit : m_session.verdicts().thresholds().lossPercent;
@@ -38,7 +45,7 @@ bool RecentLosses::isAboveLimit(const Incident& incident) {
 
 LossShare RecentLosses::shareOf(const Incident& incident) {
     const FaultCounts sum = sumOf(incident);
-    return {sum.total(), sum.expected};
+    return {sum.lost[causeOf(incident)], sum.expected};
 }
 
 FaultCounts RecentLosses::sumOf(const Incident& incident) {

@@ -18,6 +18,7 @@ protected:
         bool isTruncated = false;
         std::uint8_t datagramCounter = 0x80;
         bool afterClosed = false;
+        const char* address = "127.0.0.1:40001";
     };
 
     void put(std::uint32_t sample, const Sent& sent) {
@@ -39,7 +40,7 @@ protected:
         }
         log::Arrival arrival;
         arrival.stamp = m_at;
-        arrival.sender = m_log.senders().intern({"127.0.0.1:40001", sent.transport, 9763});
+        arrival.sender = m_log.senders().intern({sent.address, sent.transport, 9763});
         arrival.kernelDropsBefore = sent.drops;
         arrival.flags.afterClosed = sent.afterClosed;
         m_log.writer().append(bytes, arrival);
@@ -62,6 +63,7 @@ protected:
         }
         follow();
     }
+    static words::Fact factOf(const Gap& gap) { return gap.evidenceFact(gap.mainCause()); }
     const Gap& onlyGap() {
         follow();
         EXPECT_EQ(m_session.accounts().gaps().size(), 1U);

@@ -11,7 +11,6 @@ namespace posewire::model {
 namespace {
 
 constexpr auto kNetwork = static_cast<std::size_t>(LossCause::Network);
-constexpr auto kUnknown = static_cast<std::size_t>(LossCause::Unknown);
 
 class FaultMatrixTest : public IncidentsTest {
 protected:
@@ -188,7 +187,7 @@ TEST_F(FaultMatrixTest, SumsUpToWhatTheStreamsLostWhateverTheCause) {
     }
     const FaultMatrix all = matrix();
     EXPECT_EQ(all.sum.lost, lost);
-    EXPECT_EQ(all.sum.lost[kUnknown], 20U);
+    EXPECT_EQ(all.sum.lost[static_cast<std::size_t>(LossCause::Sender)], 20U);
 }
 
 } // namespace

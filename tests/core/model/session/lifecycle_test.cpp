@@ -234,7 +234,8 @@ TEST_F(OvertakenTest, PacketsAreThisComputersLossToTheSample) {
     EXPECT_EQ(counts.samples + counts.lost, 20'200U);
     EXPECT_EQ(stream.lostByCause()[static_cast<std::size_t>(LossCause::ThisComputer)], counts.lost);
     ASSERT_EQ(m_session.accounts().gaps().size(), 1U);
-    EXPECT_EQ(m_session.accounts().gaps().front().evidence, Gap::Evidence::Overtaken);
+    EXPECT_EQ(m_session.accounts().gaps().front().of(LossCause::ThisComputer).evidence,
+              Gap::Evidence::Overtaken);
     const auto told =
         std::ranges::find(m_session.verdicts().incidents().all(), IncidentKind::Overtaken, &Incident::kind);
     ASSERT_NE(told, m_session.verdicts().incidents().all().end());

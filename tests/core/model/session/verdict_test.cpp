@@ -106,7 +106,7 @@ TEST_F(VerdictTest, SaysAtOnceWhatIsNotHereYetAndThenWhatIsLost) {
     EXPECT_EQ(now.said.kind, Kind::NotGood);
     EXPECT_EQ(toldBy(now).kind, Kind::Loss) << now.said;
     EXPECT_EQ(toldBy(now).who, Names{"Character 0"});
-    EXPECT_EQ(toldBy(now).cause, Kind::CauseUnknown);
+    EXPECT_EQ(toldBy(now).cause, Kind::CauseSender);
     EXPECT_EQ(partOf(now.said, "when").kind, Kind::Since);
     EXPECT_EQ(partOf(now.said, "lasts").kind, Kind::GoingOn);
     EXPECT_EQ(now.incident, number) << "it keeps its number";
