@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <functional>
+#include <string_view>
 
 namespace posewire::model {
 namespace {
@@ -52,20 +54,31 @@ SampleLedger inHindsight(SampleLedger ledger, const Probation& probation) {
 
 } // namespace
 
-bool MessageRounds::add(log::Stamp stamp, std::uint8_t datagram, bool isLast) {
+MessageRounds::Place MessageRounds::add(log::Stamp stamp, std::uint8_t datagram, bool isLast,
+                                        std::size_t digest) {
+    const bool isOfSeveral = datagram != 0 || !isLast; // a whole message may be sent again as it is
+    const bool isRepeat = isOfSeveral && std::ranges::any_of(m_parts, [&](const Part& part) {
+                              return part.datagram == datagram && part.digest == digest &&
+                                     std::chrono::abs(stamp - part.stamp) <= kTogether;
+                          });
+    if (isRepeat) {
+        return Place::Repeats;
+    }
     auto arrived = m_arrived[datagram & 127];
     const bool isBegin = m_arrived.none() || arrived || std::chrono::abs(stamp - m_first) > kTogether;
     if (isBegin) {
         m_arrived.reset();
+        m_parts.clear();
         m_last = -1;
         m_first = stamp;
     } else {
         m_incomplete -= isWhole() ? 0 : 1;
     }
     arrived = true;
+    m_parts.push_back({stamp, datagram, digest});
     m_last = isLast ? datagram : m_last;
     m_incomplete += isWhole() ? 0 : 1;
-    return isBegin;
+    return isBegin ? Place::Begins : Place::GoesOn;
 }
 
 std::span<const Verdict> StreamAccounting::add(const log::Packet& packet, const wire::Header& header) {
@@ -85,13 +98,20 @@ std::span<const Verdict> StreamAccounting::add(const log::Packet& packet, const 
     }
     const std::uint64_t incomplete = m_rounds.incomplete();
     const bool isPartial = m_rounds.isPartial();
-    const bool isBegin = m_rounds.add(packet.stamp, header.datagramIndex(), header.isLast());
+    const auto* bytes = reinterpret_cast<const char*>(packet.bytes.data());
+    const MessageRounds::Place place =
+        m_rounds.add(packet.stamp, header.datagramIndex(), header.isLast(),
+                     std::hash<std::string_view>{}({bytes, packet.bytes.size()}));
+    const bool isBegin = place == MessageRounds::Place::Begins;
+    change.duplicates = place == MessageRounds::Place::Repeats ? 1 : 0;
+    m_repeats += change.duplicates;
     change.incomplete = static_cast<std::uint32_t>(m_rounds.incomplete() - incomplete);
     m_history.add(packet.stamp, change);
     m_verdicts.push_back({.packet = packet.number,
                           .stamp = packet.stamp,
                           .sample = header.sampleCounter,
                           .packetBefore = m_messagePacket,
+                          .isDuplicate = change.duplicates != 0,
                           .isAfterPartial = isBegin && isPartial});
     m_messagePacket = isBegin ? packet.number : m_messagePacket;
     return m_verdicts;
@@ -105,7 +125,7 @@ void StreamAccounting::setDepth(const AccountingDepth& depth) {
 
 std::size_t StreamAccounting::memoryBytes() const {
     return m_ledger.memoryBytes() + m_history.memoryBytes() + m_probation.memoryBytes() +
-           m_verdicts.capacity() * sizeof(Verdict);
+           m_rounds.memoryBytes() + m_verdicts.capacity() * sizeof(Verdict);
 }
 
 void StreamAccounting::takeSample(const Probation::Waiting& datagram) {
@@ -192,6 +212,7 @@ StreamCounts StreamAccounting::counts(const Range& range) const {
     counts.bytes = m_bytes;
     if (!m_countsSamples) {
         counts.incomplete = m_rounds.incomplete();
+        counts.duplicates = m_repeats;
     }
     return counts;
 }

@@ -43,16 +43,21 @@ struct Verdict {
 
 /// Counts messages of which some but not all datagrams came, among those that are sent again and again with
 /// the same sample counter (types 10 to 13). Datagrams belong to one message while their indices do not
-/// repeat and they come within kTogether of each other, in any order.
+/// repeat and they come within kTogether of each other, in any order. One that comes again with the same
+/// bytes in that time is a duplicate.
 class MessageRounds {
 public:
     static constexpr log::Duration kTogether = std::chrono::milliseconds(250);
+    /// What memoryBytes() can become: as many parts as there are indices.
+    static constexpr std::size_t kMostBytes = 128 * 3 * sizeof(std::size_t);
 
-    /// Returns true if the datagram begins a message.
-    bool add(log::Stamp stamp, std::uint8_t datagram, bool isLast);
+    enum class Place : std::uint8_t { Begins, GoesOn, Repeats };
+    /// `digest`: of its bytes.
+    Place add(log::Stamp stamp, std::uint8_t datagram, bool isLast, std::size_t digest);
 
     /// The newest message included.
     [[nodiscard]] std::uint64_t incomplete() const { return m_incomplete; }
+    [[nodiscard]] std::size_t memoryBytes() const { return m_parts.capacity() * sizeof(Part); }
     /// True if the newest message still lacks something.
     [[nodiscard]] bool isPartial() const { return m_arrived.any() && !isWhole(); }
 
@@ -64,6 +69,12 @@ private:
     log::Stamp m_first{};
     std::bitset<128> m_arrived; ///< by index
     int m_last = -1;            ///< index of its last datagram; -1 before that is known
+    struct Part {
+        log::Stamp stamp{};
+        std::uint8_t datagram = 0;
+        std::size_t digest = 0;
+    };
+    std::vector<Part> m_parts; ///< as they came
 };
 
 /// Counts exactly what came and what did not come of one stream. Follows the log: figures are of what was
@@ -98,7 +109,7 @@ public:
     /// doubt. In full 0.54 MB, for 4,096 streams 84 KB each.
     [[nodiscard]] static constexpr std::size_t mostBytes(const AccountingDepth& depth) {
         return 2 * SampleWindow::mostBytes(depth.samples) + CountHistory::mostBytes(depth.buckets) +
-               Probation::kMost * (sizeof(Probation::Waiting) + sizeof(Verdict));
+               Probation::kMost * (sizeof(Probation::Waiting) + sizeof(Verdict)) + MessageRounds::kMostBytes;
     }
 
     /// A datagram of the stream that could not be decoded.
@@ -174,6 +185,7 @@ private:
     SampleLedger m_ledger;
     Probation m_probation;
     MessageRounds m_rounds;
+    std::uint64_t m_repeats = 0;       ///< datagrams of messages that came twice
     std::uint64_t m_messagePacket = 0; ///< the first of the newest message
     SenderClock m_clock;
     CountHistory m_history;

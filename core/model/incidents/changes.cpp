@@ -61,6 +61,8 @@ void reportPause(std::uint64_t outage, const log::StreamKey& stream, const Verdi
 
 /// Senders that take turns within this time send at once.
 constexpr log::Duration kTurns = std::chrono::seconds(1);
+/// Metadata comes once a second: who has no name by then has none.
+constexpr log::Duration kNamed = std::chrono::milliseconds(1'500);
 /// So many senders of one character are told apart.
 constexpr std::size_t kMostClaims = 8;
 
@@ -205,16 +207,28 @@ bool Claims::meet(log::SenderId sender, const std::string& address) {
     return isNew;
 }
 
-void Claims::take(const log::Packet& packet, const wire::Header& header, Incidents& incidents) {
-    const Claim claim{packet.sender, m_sources[packet.sender].host, packet.stamp};
-    // One host may send types from several ports; two hosts are two performers.
+void Claims::take(const log::Packet& packet, const wire::Header& header, std::string_view name,
+                  Incidents& incidents) {
+    const Claim claim{packet.sender, m_sources[packet.sender].host, packet.stamp, packet.stamp,
+                      name.empty() ? 0 : std::hash<std::string_view>{}(name)};
+    // One host may send types from several ports.
     std::vector<Claim>& ofType = m_claims[{header.character, header.type()}];
     std::vector<Claim>& ofHosts = m_claimsOfHosts[header.character];
     const std::span<const Claim> turn = turnOf(ofType, claim, &Claim::sender);
     const std::span<const Claim> turnOfHost = turnOf(ofHosts, claim, &Claim::host);
-    if (turn.size() > 1 || turnOfHost.size() > 1) {
-        report(turn.size() > 1 ? turn : turnOfHost, packet, header.character, incidents);
+    const std::span<const Claim> claims = turn.size() > 1 ? turn : turnOfHost;
+    if (claims.size() > 1 &&
+        std::ranges::none_of(claims, [&](const Claim& other) { return areOthers(claims.back(), other); })) {
+        report(claims, packet, header.character, incidents);
     }
+}
+
+/// Whether two hosts have performers of their own, each numbered from the same ID: they name different
+/// people, or may do so soon.
+bool Claims::areOthers(const Claim& one, const Claim& other) {
+    const bool areNamed = one.name != 0 && other.name != 0;
+    const log::Stamp known = std::max(one.since, other.since) + kNamed;
+    return one.host != other.host && (areNamed ? one.name != other.name : one.stamp < known);
 }
 
 /// Makes a claim the newest. Those that came since its sender or host sent before, if that was a moment ago,
@@ -231,8 +245,10 @@ std::span<const Claims::Claim> Claims::turnOf(std::vector<Claim>& claims, const 
         return {};
     }
     const bool isSoon = claim.stamp - own->stamp < kTurns;
+    const log::Stamp since = own->since;
     std::rotate(own, own + 1, claims.end());
     claims.back() = claim;
+    claims.back().since = since;
     return isSoon ? std::span<const Claim>(own, claims.end()) : std::span<const Claim>();
 }
 

@@ -15,6 +15,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -72,8 +73,10 @@ class Claims {
 public:
     /// A sender with its address. True if it is new.
     bool meet(log::SenderId sender, const std::string& address);
-    /// A sample of a character, from a sender that was met.
-    void take(const log::Packet& packet, const wire::Header& header, Incidents& incidents);
+    /// A sample of a character, from a sender that was met. `name`: of the character; empty before it has
+    /// one.
+    void take(const log::Packet& packet, const wire::Header& header, std::string_view name,
+              Incidents& incidents);
     void retire(log::SenderId sender) { m_sources.erase(sender); }
 
 private:
@@ -82,6 +85,8 @@ private:
         log::SenderId sender{};
         std::size_t host = 0;
         log::Stamp stamp{};
+        log::Stamp since{};   ///< its first sample
+        std::size_t name = 0; ///< one number for each; 0 for none
     };
     struct Source {
         std::string address;
@@ -89,6 +94,7 @@ private:
     };
     template <class Key>
     static std::span<const Claim> turnOf(std::vector<Claim>& claims, const Claim& claim, Key Claim::*key);
+    [[nodiscard]] static bool areOthers(const Claim& one, const Claim& other);
     void report(std::span<const Claim> claims, const log::Packet& packet, std::uint8_t character,
                 Incidents& incidents) const;
 

@@ -154,14 +154,14 @@ void IncidentFollower::expect(const CharacterKey& key, Character& character, log
 }
 
 void IncidentFollower::takeDatagram(const log::Packet& packet, const wire::Header& header, Stream& stream,
-                                    const std::string& address, bool isLate) {
+                                    const Whose& whose, bool isLate) {
     m_watch.wake(stream);
-    if (m_claims.meet(packet.sender, address)) {
+    if (m_claims.meet(packet.sender, whose.address)) {
         m_incidents.report(occurrenceOf(IncidentKind::SourceUp, packet));
     }
     if (countsSamples(header.type()) && !isLate) {
         noteSampled(packet, header, stream);
-        m_claims.take(packet, header, m_incidents);
+        m_claims.take(packet, header, whose.name, m_incidents);
     }
 }
 

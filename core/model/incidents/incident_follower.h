@@ -13,6 +13,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -42,9 +43,14 @@ public:
     void takeOvertaken(std::uint64_t packet, std::uint64_t count, log::Stamp stamp);
     /// This computer dropped so many where packets were passed over, just before one.
     void takeDropsUnseen(std::uint64_t count, const log::Packet& next);
-    /// Each datagram with its header. `address`: of its sender; `isLate`: others have overtaken it.
+    /// Who sent a datagram, and whom it is of; without a name before there is one.
+    struct Whose {
+        const std::string& address;
+        std::string_view name;
+    };
+    /// Each datagram with its header. `isLate`: others have overtaken it.
     void takeDatagram(const log::Packet& packet, const wire::Header& header, Stream& stream,
-                      const std::string& address, bool isLate);
+                      const Whose& whose, bool isLate);
     void takeVerdict(Stream& stream, const Verdict& verdict);
     void takeChange(IncidentKind kind, const CharacterKey& key, const log::Packet& packet,
                     words::Fact detail);

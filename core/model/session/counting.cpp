@@ -74,7 +74,10 @@ void Counting::takeDatagram(Observed& seen) {
     const bool isSampled = countsSamples(seen.digest.type);
     const bool isConfirmed = seen.character->isConfirmed;
     if (isConfirmed) {
-        m_incidents.takeDatagram(packet, *seen.header, stream, seen.sender->info.address, isLate(verdicts));
+        m_incidents.takeDatagram(
+            packet, *seen.header, stream,
+            {seen.sender->info.address, seen.character->metadata.value("name", packet.number).exact()},
+            isLate(verdicts));
     }
     if (isSampled && !isLate(verdicts)) {
         m_attribution.takeSampled(packet.sender, packet.stamp);

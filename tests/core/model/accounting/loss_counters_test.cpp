@@ -7,6 +7,7 @@
 #include <optional>
 #include <random>
 #include <set>
+#include <tuple>
 #include <vector>
 
 namespace posewire::model {
@@ -117,7 +118,8 @@ TEST(MessageRounds, CountEveryOrderOfAllPartsWhole) {
         MessageRounds rounds;
         log::Stamp stamp = readAt(1s);
         for (const int part : order) {
-            rounds.add(stamp += 1ms, static_cast<std::uint8_t>(part), part == 3);
+            rounds.add(stamp += 1ms, static_cast<std::uint8_t>(part), part == 3,
+                       static_cast<std::size_t>(part));
         }
         EXPECT_EQ(rounds.incomplete(), 0U);
         EXPECT_FALSE(rounds.isPartial());
@@ -130,19 +132,21 @@ TEST(MessageRounds, BelongTogetherWithinAQuarterOfASecondInEitherDirection) {
                                             {250ms + 1ns, false},
                                             {-250ms - 1ns, false}}) {
         MessageRounds rounds;
-        EXPECT_TRUE(rounds.add(readAt(10s), 0, false));
-        EXPECT_EQ(rounds.add(readAt(10s) + apart, 1, true), !isTogether) << apart.count();
+        rounds.add(readAt(10s), 0, false, 0);
+        EXPECT_EQ(rounds.add(readAt(10s) + apart, 1, true, 1),
+                  isTogether ? MessageRounds::Place::GoesOn : MessageRounds::Place::Begins)
+            << apart.count();
         EXPECT_EQ(rounds.incomplete(), isTogether ? 0U : 2U) << apart.count();
     }
 }
 
 TEST(MessageRounds, KnowNoWholeMessageWithoutItsLastPart) {
     MessageRounds rounds;
-    rounds.add(readAt(1s), 0, false);
-    rounds.add(readAt(1s), 1, false);
+    rounds.add(readAt(1s), 0, false, 0);
+    rounds.add(readAt(1s), 1, false, 1);
     EXPECT_TRUE(rounds.isPartial());
     EXPECT_EQ(rounds.incomplete(), 1U);
-    rounds.add(readAt(1s), 2, true);
+    rounds.add(readAt(1s), 2, true, 2);
     EXPECT_FALSE(rounds.isPartial());
     EXPECT_EQ(rounds.incomplete(), 0U);
 }
@@ -151,8 +155,24 @@ TEST(MessageRounds, TellThePartsOfBothHalvesOfTheIndexApart) {
     // Indices have 7 bits: 0 and 64 are different parts, and 128 of them make the longest message.
     MessageRounds rounds;
     for (unsigned part = 0; part < 128; ++part) {
-        EXPECT_EQ(rounds.add(readAt(1s), static_cast<std::uint8_t>(part), part == 127), part == 0) << part;
+        EXPECT_EQ(rounds.add(readAt(1s), static_cast<std::uint8_t>(part), part == 127, part),
+                  part == 0 ? MessageRounds::Place::Begins : MessageRounds::Place::GoesOn)
+            << part;
         EXPECT_EQ(rounds.incomplete(), part == 127 ? 0U : 1U);
+    }
+}
+
+TEST(MessageRounds, KnowARepeatedPartByItsBytesForAQuarterOfASecond) {
+    for (const auto& [later, digest, place] : {std::tuple<log::Duration, std::size_t, MessageRounds::Place>{
+                                                   300us, 7, MessageRounds::Place::Repeats},
+                                               {250ms, 7, MessageRounds::Place::Repeats},
+                                               {251ms, 7, MessageRounds::Place::Begins},
+                                               {20ms, 8, MessageRounds::Place::Begins}}) {
+        MessageRounds rounds;
+        rounds.add(readAt(1s), 0, false, 7);
+        rounds.add(readAt(1s), 1, true, 1);
+        EXPECT_EQ(rounds.add(readAt(1s) + later, 0, false, digest), place) << later.count();
+        EXPECT_EQ(rounds.incomplete(), place == MessageRounds::Place::Repeats ? 0U : 1U);
     }
 }
 
@@ -169,7 +189,7 @@ TEST(MessageRounds, CountRandomMessagesAsAPlainListDoes) {
             for (unsigned part = 0; part < parts; ++part) {
                 if (random() % 5 != 0) {
                     arrived.insert(part);
-                    rounds.add(stamp, static_cast<std::uint8_t>(part), part + 1 == parts);
+                    rounds.add(stamp, static_cast<std::uint8_t>(part), part + 1 == parts, random());
                 }
             }
             incomplete += !arrived.empty() && arrived.size() < parts ? 1 : 0;

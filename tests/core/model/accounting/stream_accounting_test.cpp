@@ -398,7 +398,8 @@ TEST(MessagesSentAgain, CountOnlyDatagramsAndIncompleteOnes) {
     const auto send = [&](std::uint8_t datagramCounter) {
         wire::Header header;
         header.datagramCounter = datagramCounter;
-        addTo(stream, stamp += 1ms, 500, header);
+        header.timeCode = static_cast<std::uint32_t>((stamp += 1ms).time_since_epoch() / 1ms);
+        addTo(stream, stamp, 500, header);
     };
     for (const std::uint8_t counter : std::initializer_list<std::uint8_t>{0x00, 0x82, 0x01}) { // out of order
         send(counter);
@@ -424,6 +425,7 @@ TEST(MessagesSentAgain, BelongTogetherWithinAQuarterOfASecond) {
     const auto send = [&](log::Duration time, std::uint8_t datagramCounter) {
         wire::Header header;
         header.datagramCounter = datagramCounter;
+        header.timeCode = static_cast<std::uint32_t>(time / 1ms);
         addTo(stream, at(time), 500, header);
         return stream.counts().incomplete;
     };

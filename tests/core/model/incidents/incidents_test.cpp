@@ -306,10 +306,37 @@ TEST_F(IncidentsTest, TellTwoHostsWithOneCharacterWhateverTypesTheySend) {
     both("127.0.0.1:40002");
     EXPECT_TRUE(of(IncidentKind::Conflict).empty()) << "one host may send from several ports";
     both("127.0.0.2:40001");
+    EXPECT_TRUE(of(IncidentKind::Conflict).empty()) << "they may name different people yet";
+    for (int seconds = 0; seconds < 3; ++seconds) {
+        both("127.0.0.2:40001");
+    }
     const auto conflicts = of(IncidentKind::Conflict);
     ASSERT_EQ(conflicts.size(), 2U);
     EXPECT_EQ(conflicts[0].count, conflicts[1].count);
     EXPECT_LT(conflicts[0].count, 101U) << "each turn is told once";
+}
+
+TEST_F(IncidentsTest, TellNoConflictOfHostsThatNameDifferentPeople) {
+    const auto name = [this](const char* who, const std::string& address) {
+        wire::Datagram datagram{{}, wire::MetaData{true, std::string("name:") + who + "\n"}, {}};
+        datagram.header.datagramCounter = 0x80;
+        wire::completeHeader(datagram, wire::HeaderEra::Counted);
+        sendBytes(*wire::encode(datagram), m_at, address);
+    };
+    const auto conflictsOf = [&](const char* one, const char* other) {
+        const std::size_t before = of(IncidentKind::Conflict).size();
+        for (std::uint32_t sample = 1; sample <= 300; ++sample, m_at += 10ms) {
+            pose(static_cast<std::uint32_t>(m_at.time_since_epoch() / 10ms));
+            pose(static_cast<std::uint32_t>(m_at.time_since_epoch() / 10ms), "127.0.0.2:40001");
+            if (sample % 100 == 50) {
+                name(one, "127.0.0.1:40001");
+                name(other, "127.0.0.2:40001");
+            }
+        }
+        return of(IncidentKind::Conflict).size() - before;
+    };
+    EXPECT_EQ(conflictsOf("Ada", "Bela"), 0U);
+    EXPECT_EQ(conflictsOf("Ada", "Ada"), 2U);
 }
 
 TEST_F(IncidentsTest, TellRestartsMalformedAndForeignDatagrams) {
