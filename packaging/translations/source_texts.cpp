@@ -93,7 +93,6 @@ void addTables() {
     for (const exporting::MotionFormat& format : exporting::motionFormats()) {
         add(format.kind);
         add(format.holds);
-        add(format.gaps);
     }
     addKinds(exporting::formats<exporting::EventSheet>());
     addKinds(exporting::formats<exporting::NullPoseSheet>());
@@ -101,7 +100,7 @@ void addTables() {
     for (const model::IncidentKindFacts& kind : model::kIncidentKindTable) {
         add(kind.name);
     }
-    for (const char* text : {"counts in its header", "Check", "Debug", "Inspect"}) {
+    for (const char* text : {"Check", "Debug", "Inspect"}) {
         add(text);
     }
     for (std::size_t cause = 0; cause < model::kLossCauses; ++cause) {
@@ -119,7 +118,7 @@ int main() {
     }
     for (const words::Wording& row : words::wordings()) {
         for (const words::Text& text :
-             {row.headline, row.sentence, row.line, row.brief, row.cell, row.narrow}) {
+             {row.headline, row.sentence, row.line, row.brief, row.cell, row.narrow, row.advice}) {
             if (text.text != nullptr && *text.text != '\0') {
                 std::printf("%s(\"posewire::words\", %s)\n",
                             text.one != nullptr ? "QT_TRANSLATE_N_NOOP" : "QT_TRANSLATE_NOOP",
