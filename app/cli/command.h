@@ -15,7 +15,6 @@ using usage::Arguments;
 using usage::CommandLine;
 using usage::DeclaredOption;
 
-/// What the exit status says; the same for every command.
 enum class ExitStatus : int {
     Fine = 0,
     Faults = 1,   ///< the input had faults, or a threshold was exceeded
@@ -37,10 +36,10 @@ struct Console {
     }
 };
 
-/// What came of reading an input. Where something is wrong that is said; that nobody wants more is not.
+/// Says what is wrong, if anything is; a reader that wants no more is no fault.
 [[nodiscard]] ExitStatus readingStatus(const tl::expected<void, log::FileError>& result,
                                        const Console& console);
-/// The same where the input may have nothing of ours: then what it has instead is said.
+/// Also says what the input holds if it has nothing of ours.
 [[nodiscard]] ExitStatus readingStatus(const tl::expected<void, log::FileError>& result,
                                        const log::FileContents& contents, const std::string& name,
                                        const Console& console);

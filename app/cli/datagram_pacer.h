@@ -24,7 +24,7 @@ public:
           m_from(std::chrono::duration<double>(fromSeconds)),
           m_until(std::chrono::duration<double>(untilSeconds)) {}
 
-    /// How long after the start this datagram, the next of the recording, is due; nothing where it never is.
+    /// Time after the start at which the next datagram of the recording is due; nothing if it never is.
     std::optional<log::Duration> due(const log::FileRecord& record) {
         constexpr Nanoseconds longest{1e18}; // 31 years: more may not fit into a duration
         m_place = std::min(m_place + step(record), longest);

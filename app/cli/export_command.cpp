@@ -34,7 +34,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of a file that is read again where it is wanted.
+/// The file is read again if this is too little.
 constexpr std::size_t kMemoryCap = std::size_t{64} << 20;
 
 std::shared_ptr<log::Scratch> newScratch() {
@@ -97,7 +97,6 @@ public:
     }
 
     [[nodiscard]] const model::Session& session() const { return m_session; }
-    /// What the file held, as far as it was read.
     [[nodiscard]] const log::FileContents& contents() const { return m_contents; }
 
 private:
@@ -136,8 +135,8 @@ private:
     }
 
     std::string m_name;                            ///< of the sender of a raw file
-    double m_size = 0;                             ///< bytes; 0 where it is not known
-    std::shared_ptr<const log::ByteStore> m_store; ///< null where it can be read only once
+    double m_size = 0;                             ///< bytes; 0 if it is not known
+    std::shared_ptr<const log::ByteStore> m_store; ///< null if it can be read only once
     model::Origin m_origin;
     log::PacketLog& m_log = m_origin.log();
     model::Session& m_session = m_origin.session();
@@ -166,7 +165,7 @@ struct ExportOptions {
     bool replaces = false;
 };
 
-/// How far long work is, in one line of standard error that is written over; nothing if that is no terminal.
+/// The share that is done, in one line of standard error; nothing unless that is a terminal.
 class ProgressLine {
 public:
     explicit ProgressLine(std::string command) : m_command(std::move(command)) {}
@@ -213,8 +212,8 @@ std::string formatHelp() {
     std::string text = "otherwise by the name of PATH.";
     std::string alone;
     for (const MotionFormat& format : exporting::motionFormats()) {
-        text += std::string(" ") + format.suffix + ": " + format.holds + "; missing samples: " + format.gaps +
-                '.';
+        text += std::string(" ") + format.suffix + ": " + format.holds +
+                "; missing samples: " + words::say(format.gaps, words::Form::Headline) + '.';
         if (!format.holdsSeveral) {
             alone += (alone.empty() ? "" : ", ") + std::string(format.suffix);
         }
@@ -321,7 +320,7 @@ std::string nothingText(const ExportOptions& options, const feed::PoseSource& so
 void tell(const std::vector<ExportedMotion>& exported, const feed::PoseSource& source,
           const MotionFormat& format, const Console& console) {
     for (const ExportedMotion& one : exported) {
-        console.complain(exporting::describe(one, source, format));
+        console.complain(words::say(exporting::describe(one, source, format), words::Form::Headline));
         const feed::PoseCharacter& character = source.characters[one.character];
         for (const words::Fact& line : character.remark.lines) {
             console.complain(character.name.shown() + ": " + words::say(line, words::Form::Headline));

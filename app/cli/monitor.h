@@ -66,14 +66,14 @@ struct Places {
     std::vector<net::Endpoint> tcp;
 };
 
-/// What was meant, or one line about what is wrong with it. Port 9763 of UDP where nothing is named.
+/// Port 9763 of UDP if none is named. The error is one line for the user.
 [[nodiscard]] tl::expected<Places, std::string> placesOf(const MonitorOptions& options);
 
 /// Both return when there is nothing more to come, or Ctrl+C was pressed.
 ExitStatus monitorNetwork(const MonitorOptions& options, Console& console);
 ExitStatus monitorFile(const MonitorOptions& options, Console& console);
 
-/// Whether what is to be written may be: to be asked before long work. The error is one line for the user.
+/// Asked before long work. The error is one line for the user.
 [[nodiscard]] tl::expected<void, std::string> checkOutputs(const MonitorOptions& options);
 
 /// The file of a recording. It exists from then on.
@@ -102,7 +102,6 @@ public:
     /// Nobody wants more: Ctrl+C, or the reader of the table has gone and nothing is recorded.
     [[nodiscard]] bool isOver() const;
 
-    /// What a recording of this says about how it was received.
     [[nodiscard]] log::Reception receptionOf(const exporting::MonitorFacts& facts) const;
 
     /// Says how much was recorded, and if not all of it was, how much that is.
@@ -141,7 +140,6 @@ private:
     std::chrono::steady_clock::time_point m_nextShow;
 };
 
-/// What a recording says about where it was made.
 [[nodiscard]] log::RecordingInfo recordingInfo();
 
 } // namespace posewire::cli

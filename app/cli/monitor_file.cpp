@@ -64,7 +64,6 @@ public:
         m_run.show({.durationS = durationS()}, m_last.value_or(log::Stamp()));
     }
 
-    /// How the recording was received, where it says so and all of it was read.
     void takeReception(const log::Reception& reception) {
         if (!m_isDone) {
             m_reception = reception;

@@ -94,7 +94,6 @@ std::vector<std::string> exceeded(const model::SessionView& session, const Limit
     return lines;
 }
 
-/// What the verdict holds streams to: the usual limits, or those that were asked for.
 model::Thresholds thresholdsOf(const Limits& limits) {
     constexpr double kNone = 1e-9; // "at most 0"; a threshold of 0 is none
     model::Thresholds thresholds;
@@ -108,7 +107,7 @@ model::Thresholds thresholdsOf(const Limits& limits) {
     return thresholds;
 }
 
-/// The same file under one name. Links are found out by log::checkOutput().
+/// Links are found out by log::checkOutput().
 bool areSame(const std::string& a, const std::string& b) {
     return !a.empty() && !b.empty() && log::pathOf(a).lexically_normal() == log::pathOf(b).lexically_normal();
 }

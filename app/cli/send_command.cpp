@@ -86,7 +86,7 @@ void offer(const std::vector<wire::Datagram>& frame, log::Duration due, performe
     }
 }
 
-/// Whether the truth about what was sent is to be written now. Without one the signal ends the program.
+/// Without a truth to write the signal ends the program.
 bool isInterrupted(const SendOptions& options) {
     return !options.truth.empty() && system::Interruption::hasCome();
 }

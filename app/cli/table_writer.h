@@ -21,7 +21,6 @@ namespace posewire::cli {
 [[nodiscard]] std::vector<std::string> liveTable(const model::SessionView& session,
                                                  const exporting::MonitorFacts& facts);
 
-/// How many characters of UTF-8 a text has.
 [[nodiscard]] std::size_t widthOf(std::string_view text);
 
 /// Shows tables one after another: over each other on a terminal, else as blocks of lines.

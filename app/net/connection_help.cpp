@@ -2,7 +2,6 @@
 #include "app/net/connection_help.h"
 
 #include "core/log/ip_packet.h"
-#include "core/model/text.h"
 #include "core/wire/text.h"
 
 #include <QHostAddress>
@@ -88,13 +87,13 @@ bool isThere(const fs::path& path) {
     return fs::exists(fs::symlink_status(path, fault));
 }
 
-using Kind = Finding::Kind;
-using Findings = std::vector<Finding>;
+using Kind = words::Kind;
+using words::Fact;
+using Findings = std::vector<Fact>;
 
 constexpr log::Duration kSilenceTold = std::chrono::seconds(2);
-constexpr std::string_view kWhereInMvn = "In MVN: Options > Preferences > Network Streamer";
 
-const char* protocolOf(InputKind kind) {
+std::string protocolOf(InputKind kind) {
     return kind == InputKind::Udp ? "UDP" : "TCP";
 }
 
@@ -102,35 +101,28 @@ bool has(const ConnectionFacts& facts, InputKind kind) {
     return std::ranges::any_of(facts.inputs, [kind](const InputStatus& input) { return input.kind == kind; });
 }
 
-std::string secondsText(log::Duration duration) {
-    return std::to_string(duration / std::chrono::seconds(1)) + " s";
+words::NamedValue lasted(log::Duration duration) {
+    return {"lasted", static_cast<std::uint64_t>(duration / std::chrono::seconds(1))};
 }
 
-/// "12 345", with narrow spaces.
-std::string grouped(std::uint64_t number) {
-    return model::grouped(number);
-}
-
-/// "192.168.1.20 (eth0) or 10.0.0.4 (wlan0)".
-std::string addressesText(const ConnectionFacts& facts) {
+/// "192.168.1.20 (eth0) or 10.0.0.4 (wlan0)"; nothing if there is no address.
+Fact hostFact(const ConnectionFacts& facts) {
     constexpr std::size_t kMost = 3;
-    std::string text;
+    Fact all;
     for (std::size_t i = 0; i < std::min(facts.addresses.size(), kMost); ++i) {
         const LocalAddress& address = facts.addresses[i];
-        text += (i == 0 ? "" : " or ") + address.address + " (" + address.interface + ")";
+        const Fact one{Kind::HostOn, {{"address", address.address}, {"name", address.interface}}};
+        all = i == 0 ? one : Fact{Kind::Either, {{"first", all}, {"second", one}}};
     }
-    return text.empty() ? "the address of this computer" : text;
+    return all;
 }
 
 void findFailed(const ConnectionFacts& facts, Findings& findings) {
     for (const FailedInput& failed : facts.failed) {
-        const std::size_t cut = failed.error.text.rfind("; ");
-        const bool hasAdvice = cut != std::string::npos;
-        findings.push_back({Kind::CannotOpen, failed.error.text.substr(0, cut),
-                            hasAdvice ? failed.error.text.substr(cut + 2) : "choose another port"});
+        findings.push_back({Kind::CannotOpen, {{"problem", failed.error.text}}});
     }
     if (facts.inputs.empty() && facts.failed.empty()) {
-        findings.push_back({Kind::NoInput, "no port is open", "add UDP port 9763, MVN's default"});
+        findings.emplace_back(Kind::NoInput);
     }
 }
 
@@ -142,37 +134,28 @@ std::uint64_t refusedIn(const ConnectionFacts& facts) {
     return refused;
 }
 
-/// What is wrong with an input that is open, in a text that has the remedy as well if it is its own
-/// address.
-Finding findingOf(const InputStatus& input) {
+Fact problemOf(const InputStatus& input) {
     const QHostAddress own(QString::fromStdString(input.endpoint.host));
-    const std::size_t end = input.problem.find("; ");
-    if (own.isNull() || own.isMulticast() || end == std::string::npos) {
-        return {Kind::NotJoined, input.problem,
-                "check that the network is connected; it is tried again whenever it changes"};
-    }
-    return {Kind::AddressGone, input.problem.substr(0, end), input.problem.substr(end + 2)};
+    const bool isOfGroups = own.isNull() || own.isMulticast() || !input.groups.empty();
+    return {isOfGroups ? Kind::NotJoined : Kind::AddressGone, {{"problem", input.problem}}};
 }
 
 void findLeftOut(const ConnectionFacts& facts, Findings& findings) {
     const std::uint64_t refused = refusedIn(facts);
     for (const InputStatus& input : facts.inputs) {
         if (input.kind == InputKind::Udp && !input.problem.empty()) {
-            findings.push_back(findingOf(input));
+            findings.push_back(problemOf(input));
         }
     }
     if (refused != 0 && facts.silence >= kSilenceTold) {
-        findings.push_back({Kind::NotListenedTo,
-                            grouped(refused) + (refused == 1 ? " datagram has" : " datagrams have") +
-                                " arrived from hosts that are not listened to",
-                            "add the sender's address under Listen only to, or leave that empty"});
+        findings.push_back(words::counted(Kind::NotListenedTo, refused));
     }
 }
 
 /// All that one program sends, even if it uses a new port for each datagram.
 struct ForeignHost {
     std::string host;
-    std::string guess;
+    Fact guess;
     ForeignSender sender; ///< the newest one, with the total count
     std::size_t ports = 1;
 };
@@ -181,7 +164,7 @@ std::vector<ForeignHost> foreignHosts(const std::vector<ForeignSender>& senders)
     std::vector<ForeignHost> hosts;
     for (const ForeignSender& sender : senders) {
         const std::string host(log::hostOf(sender.address));
-        const std::string guess = protocolThatBegins(sender.firstBytes);
+        const Fact guess = protocolThatBegins(sender.firstBytes);
         const auto known = std::ranges::find_if(
             hosts, [&](const ForeignHost& other) { return other.host == host && other.guess == guess; });
         if (known == hosts.end()) {
@@ -198,40 +181,30 @@ std::vector<ForeignHost> foreignHosts(const std::vector<ForeignSender>& senders)
 
 void findForeign(const ConnectionFacts& facts, Findings& findings) {
     for (const auto& [host, guess, sender, ports] : foreignHosts(facts.foreign)) {
-        const bool isOne = sender.count == 1;
-        const std::string from =
-            ports == 1 ? sender.address : host + " (" + std::to_string(ports) + " ports)";
-        std::string text = grouped(sender.count) + (isOne ? " datagram" : " datagrams") + " from " + from +
-                           (isOne ? " is not MXTP; it" : " are not MXTP; the newest") + " begins with " +
-                           shownBytes(sender.firstBytes);
-        text += guess.empty() ? "" : ", which looks like " + guess;
-        findings.push_back({Kind::NotMxtp, text,
-                            "another program sends to this port: stop it, or have MVN send to another port "
-                            "and listen there"});
+        Fact fact{Kind::ForeignDatagrams,
+                  {{"n", sender.count},
+                   {"address", ports == 1 ? sender.address : host},
+                   {"value", shownBytes(sender.firstBytes)},
+                   {"looks", guess}}};
+        if (ports > 1) {
+            words::set(fact, "ports", std::uint64_t{ports});
+        }
+        findings.push_back(std::move(fact));
     }
 }
 
 void findPeers(const ConnectionFacts& facts, Findings& findings) {
     for (const InputStatus& input : facts.inputs) {
         if (input.state == InputState::Retrying) {
-            findings.push_back({Kind::NotReachable, input.text,
-                                "check host and port, and that the sender listens; MVN itself does not "
-                                "listen but connects: for MVN, listen on a TCP port here"});
+            findings.push_back({Kind::NotReachable, {{"problem", input.text}}});
         }
         for (const Peer& peer : input.peers) {
             if (peer.bytes == 0 && facts.now - peer.connected >= kSilenceTold) {
                 findings.push_back(
-                    {Kind::SilentPeer,
-                     peer.address + " is connected by TCP and has sent nothing for " +
-                         secondsText(facts.now - peer.connected),
-                     std::string(kWhereInMvn) +
-                         ", switch on datagrams to send, and press play or switch on Send Paused"});
+                    {Kind::SilentPeer, {{"address", peer.address}, lasted(facts.now - peer.connected)}});
             } else if (peer.datagrams == 0 && peer.skippedBytes != 0) {
-                findings.push_back({Kind::GarbledPeer,
-                                    peer.address + " is connected by TCP, and none of its " +
-                                        grouped(peer.bytes) + " bytes are MXTP",
-                                    "another program has connected to this port: stop it, or listen on "
-                                    "another port"});
+                findings.push_back(
+                    {Kind::GarbledPeer, {{"address", peer.address}, {"n", std::uint64_t{peer.bytes}}}});
             }
         }
     }
@@ -243,9 +216,7 @@ void findSilence(const ConnectionFacts& facts, Findings& findings) {
         return;
     }
     if (facts.mxtpDatagrams != 0) {
-        findings.push_back(
-            {Kind::WentSilent, "no data for " + secondsText(facts.silence),
-             "check that MVN is playing and streaming: while paused it sends only with Send Paused on"});
+        findings.push_back({Kind::WentSilent, {lasted(facts.silence)}});
         return;
     }
     if (refusedIn(facts) != 0) {
@@ -254,10 +225,9 @@ void findSilence(const ConnectionFacts& facts, Findings& findings) {
     const auto open = std::ranges::find_if(
         facts.inputs, [](const InputStatus& input) { return input.kind != InputKind::TcpConnection; });
     findings.push_back({Kind::NothingArrives,
-                        std::string("nothing has arrived on ") + protocolOf(open->kind) + " port " +
-                            std::to_string(open->endpoint.port),
-                        std::string(kWhereInMvn) + ", host " + addressesText(facts) + ", port " +
-                            std::to_string(open->endpoint.port) + ", protocol " + protocolOf(open->kind)});
+                        {{"protocol", protocolOf(open->kind)},
+                         {"port", std::to_string(open->endpoint.port)},
+                         {"host", hostFact(facts)}}});
 }
 
 /// Data sent by a transport that no input uses is invisible here, so say so.
@@ -267,12 +237,8 @@ void findTransport(const ConnectionFacts& facts, Findings& findings) {
     if (facts.mxtpDatagrams != 0 || facts.silence < kSilenceTold || hasUdp == hasTcp) {
         return;
     }
-    const char* other = hasUdp ? "TCP" : "UDP";
-    findings.push_back(
-        {Kind::OtherTransport,
-         std::string("only ") + (hasUdp ? "UDP" : "TCP") + " inputs are open; a sender that uses " + other +
-             " would go unnoticed",
-         std::string("check Protocol in MVN's Network Streamer, or listen for ") + other + " as well"});
+    const auto of = [](bool isUdp) { return protocolOf(isUdp ? InputKind::Udp : InputKind::TcpListener); };
+    findings.push_back({Kind::OtherTransport, {{"protocol", of(hasUdp)}, {"other", of(!hasUdp)}}});
 }
 
 void findBlocked(const ConnectionFacts& facts, Findings& findings) {
@@ -280,53 +246,46 @@ void findBlocked(const ConnectionFacts& facts, Findings& findings) {
         return;
     }
     const InputStatus& input = facts.inputs.front();
-    std::string remedy = facts.firewall->remedy;
-    if (const auto place = remedy.find("PORT"); place != std::string::npos) {
-        remedy.replace(place, 4, std::to_string(input.endpoint.port));
+    std::string command = facts.firewall->command;
+    const std::string port = std::to_string(input.endpoint.port);
+    if (const auto place = command.find("PORT"); place != std::string::npos) {
+        command.replace(place, 4, port);
     }
-    const auto protocol = remedy.find("udp");
-    if (input.kind != InputKind::Udp && protocol != std::string::npos) {
-        remedy.replace(protocol, 3, "tcp");
+    if (const auto place = command.find("udp"); input.kind != InputKind::Udp && place != std::string::npos) {
+        command.replace(place, 3, "tcp");
     }
-    findings.push_back(
-        {Kind::FirewallOn,
-         "a firewall (" + facts.firewall->name +
-             ") is active on this computer and may block datagrams; Posewire cannot read its rules",
-         remedy});
+    findings.push_back({Kind::FirewallOn,
+                        {{"name", facts.firewall->name},
+                         {"command", command},
+                         {"protocol", protocolOf(input.kind)},
+                         {"port", port}}});
 }
 
 } // namespace
 
-std::string protocolThatBegins(Bytes bytes) {
+Fact protocolThatBegins(Bytes bytes) {
     struct Beginning {
         std::string_view text;
-        std::string_view name;
+        Kind kind;
     };
-    constexpr std::array kBeginnings{Beginning{"Art-Net", "Art-Net (lighting)"},
-                                     Beginning{"GET ", "HTTP (a web browser)"},
-                                     Beginning{"POST ", "HTTP (a web browser)"},
-                                     Beginning{"fr ", "ART DTrack"},
-                                     Beginning{"{", "JSON text (Rokoko, or MVN's own remote control)"},
-                                     Beginning{"<", "XML text (MVN's own remote control, or a web page)"}};
+    constexpr std::array kBeginnings{
+        Beginning{"Art-Net", Kind::LooksLikeArtNet}, Beginning{"GET ", Kind::LooksLikeHttp},
+        Beginning{"POST ", Kind::LooksLikeHttp},     Beginning{"fr ", Kind::LooksLikeDTrack},
+        Beginning{"{", Kind::LooksLikeJson},         Beginning{"<", Kind::LooksLikeXml}};
     const std::string_view text = charactersOf(bytes);
     if (const auto mark = text.find("MXTP"); mark != std::string_view::npos && mark != 0) {
-        return "MXTP behind " + std::to_string(mark) + " other bytes (a tunnel, or a length prefix)";
+        return words::counted(Kind::MxtpBehind, mark);
     }
     for (const Beginning& beginning : kBeginnings) {
         if (text.starts_with(beginning.text)) {
-            return std::string(beginning.name);
+            return beginning.kind;
         }
     }
-    if (isOsc(bytes)) {
-        return "OSC";
-    }
-    if (isNatNet(bytes)) {
-        return "NatNet (OptiTrack Motive)";
-    }
-    if (isVicon(bytes)) {
-        return "Vicon's object stream";
-    }
-    return isQualisys(bytes) ? "Qualisys QTM's real-time protocol" : std::string();
+    return isOsc(bytes)        ? Kind::LooksLikeOsc
+           : isNatNet(bytes)   ? Kind::LooksLikeNatNet
+           : isVicon(bytes)    ? Kind::LooksLikeVicon
+           : isQualisys(bytes) ? Kind::LooksLikeQualisys
+                               : Kind::Nothing;
 }
 
 std::optional<Firewall> findFirewall(const std::string& root) {
@@ -338,7 +297,7 @@ std::optional<Firewall> findFirewall(const std::string& root) {
         return Firewall{"firewalld", "sudo firewall-cmd --add-port=PORT/udp"};
     }
     if (isThere(base / "etc/systemd/system/sysinit.target.wants/nftables.service")) {
-        return Firewall{"nftables", "ask the administrator to accept PORT/udp in /etc/nftables.conf"};
+        return Firewall{"nftables", ""};
     }
     if (hasLine(base / "proc/net/ip_tables_names", "filter")) {
         return Firewall{"iptables", "sudo iptables -I INPUT -p udp --dport PORT -j ACCEPT"};
@@ -346,7 +305,7 @@ std::optional<Firewall> findFirewall(const std::string& root) {
     return std::nullopt;
 }
 
-std::vector<Finding> connectionHelp(const ConnectionFacts& facts) {
+std::vector<Fact> connectionHelp(const ConnectionFacts& facts) {
     Findings findings;
     for (const auto find :
          {findFailed, findLeftOut, findForeign, findPeers, findSilence, findTransport, findBlocked}) {

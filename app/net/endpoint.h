@@ -11,7 +11,6 @@
 class QHostAddress;
 class QNetworkInterface;
 
-/// Where sockets are, in words and as addresses, and why one cannot be there.
 namespace posewire::net {
 
 struct NetError {

@@ -17,7 +17,7 @@ enum class InputId : std::uint32_t {};
 
 enum class InputKind : std::uint8_t { Udp, TcpListener, TcpConnection };
 
-/// Where a UDP input listens. Broadcasts are received if the host is empty.
+/// Broadcasts are received if the host is empty.
 struct UdpInput {
     Endpoint endpoint; ///< a multicast group as host means that group and an empty host
     /// Multicast groups to join, IPv4 and IPv6, on every capable interface; the host must then be empty.

@@ -31,7 +31,6 @@ void prepare(int descriptor);
 [[nodiscard]] std::string changeMembership(int descriptor, const QHostAddress& group, int interface,
                                            bool joins);
 
-/// What the kernel says about a socket's receive buffer.
 struct SocketMemory {
     std::uint32_t drops = 0; ///< datagrams lost since it was opened, modulo 2³²
     std::uint32_t usedBytes = 0;
@@ -39,7 +38,6 @@ struct SocketMemory {
 };
 [[nodiscard]] std::optional<SocketMemory> memoryOf(int descriptor);
 
-/// What the kernel reports about one datagram besides its bytes.
 struct Received {
     std::size_t size = 0;
     log::WallTime time{}; ///< the kernel's; log::WallTime() if it gave none

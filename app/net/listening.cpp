@@ -11,7 +11,6 @@
 namespace posewire::net {
 namespace {
 
-/// Who holds a port, if that is not known.
 constexpr std::string_view kByAnother = "by another program";
 
 NetResult<std::unique_ptr<QUdpSocket>> bindOne(const QHostAddress& address, const Endpoint& endpoint,

@@ -13,7 +13,7 @@ constexpr std::uint64_t kShare = 8;
 constexpr log::Duration kWayBack = std::chrono::milliseconds(500);
 /// Too few new datagrams by then: the trial ends without a result.
 constexpr log::Duration kLongestTrial = std::chrono::seconds(10);
-/// How long a stream that arrives twice is left alone.
+/// A stream that arrives twice is left alone for this long.
 constexpr log::Duration kTrust = std::chrono::minutes(1);
 /// Where streams arrive twice, more returns than this for each new datagram are a loop all the same.
 constexpr std::uint64_t kTrustedReturns = 4;

@@ -32,7 +32,6 @@ public:
 
     LoopWatch() : m_slots(std::make_unique<Slot[]>(kSlots)) {}
 
-    /// Where a datagram may go.
     struct Route {
         bool isReturn = false;
         bool isWithheld = false;           ///< from all but `only`
@@ -47,7 +46,6 @@ public:
     /// The targets whose datagrams came back, once a trial has shown it; empty for none so far.
     [[nodiscard]] std::vector<std::size_t> takeLoops(log::Moment now);
 
-    /// Who sent the newest return.
     [[nodiscard]] log::SenderId lastReturner() const { return m_returner; }
 
     /// The targets have changed: what a trial has found so far no longer holds.
@@ -61,7 +59,6 @@ private:
         std::uint32_t trial = 0; ///< in which it was dealt out; 0 for none
         bool isBack = false;     ///< from that trial
     };
-    /// Of all datagrams with one destiny.
     struct Share {
         std::uint64_t dealt = 0;
         std::uint64_t back = 0;

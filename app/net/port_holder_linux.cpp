@@ -54,7 +54,7 @@ bool holdsAnyOf(const fs::path& process, const std::vector<std::string>& sockets
     return false;
 }
 
-/// Who holds these sockets; empty if the system does not say.
+/// Empty if the system does not say.
 std::optional<fs::path> holderOf(const std::vector<std::string>& sockets) {
     std::error_code missing;
     for (fs::directory_iterator entry("/proc", missing), end; !missing && entry != end;

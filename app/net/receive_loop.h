@@ -16,7 +16,7 @@
 
 namespace posewire::net {
 
-/// What a loop works with; must outlive it.
+/// Must outlive the loop.
 struct ReceiveContext {
     log::PacketLog& log;
     const log::Clock& clock;
@@ -40,7 +40,7 @@ inline void tellGroups(Input& input, const GroupMemberships& groups) {
     input.setProblem(groups.problem());
 }
 
-/// How often interfaces are asked for where the system does not tell when they change.
+/// Interfaces are asked for this often if the system does not report changes.
 inline constexpr log::Duration kInterfacePause = std::chrono::seconds(3);
 
 /// What the receiving thread runs. Created, used and destroyed in that thread; only stop() and wake() may be

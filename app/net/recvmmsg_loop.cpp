@@ -130,7 +130,6 @@ public:
     }
 
 private:
-    /// How many packets there were.
     std::size_t drainAll() {
         std::size_t count = 0;
         if (m_roundsSinceDropCheck == 0 || m_isDelayed) {

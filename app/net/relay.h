@@ -100,7 +100,6 @@ private:
     std::vector<std::shared_ptr<Target>> m_targets;
     std::uint32_t m_nextId = 0;
 
-    // Of the thread alone.
     log::LogFollower m_follower;
     std::atomic<std::uint64_t> m_behind = 0;
     LoopWatch m_loops;

@@ -14,7 +14,6 @@
 
 namespace posewire::net {
 
-/// What of a log is sent again, where to and how fast.
 struct ReplayChoice {
     static constexpr double kSlowest = 0.05;
     static constexpr double kFastest = 16;

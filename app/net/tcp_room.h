@@ -14,9 +14,7 @@
 
 namespace posewire::net {
 
-/// Of a connection, besides what its framer keeps.
 inline constexpr qint64 kReadBuffer = qint64{128} << 10;
-/// How often an input shows its peers' counters.
 inline constexpr log::Duration kPublish = std::chrono::milliseconds(100);
 
 /// One TCP connection: splits its bytes into datagrams and passes them on.

@@ -51,7 +51,7 @@ private:
     std::unique_ptr<QEventLoop> m_eventLoop;
 };
 
-/// What a TCP connection works with; must outlive it.
+/// Must outlive the connection.
 struct TcpContext {
     const log::Clock& clock;
     const log::Timeline& timeline;
@@ -101,7 +101,7 @@ protected:
 /// the senders wait. One thread for all connections, separate from the one that receives UDP.
 class TcpThread {
 public:
-    /// What `context` names must outlive it.
+    /// The parts of `context` must outlive it.
     explicit TcpThread(const TcpContext& context);
 
     /// Ends all connections. The queue must be emptied meanwhile, or be closed.

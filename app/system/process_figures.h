@@ -5,16 +5,15 @@
 #include <optional>
 #include <thread>
 
-/// What the system says about this process.
 namespace posewire::system {
 
 /// Processor time that all threads of this process took so far, in seconds.
 [[nodiscard]] std::optional<double> processCpuSeconds();
 
-/// The same of a thread that is running; nothing where the system does not report it.
+/// The same of a thread that is running; nothing if the system does not report it.
 [[nodiscard]] std::optional<double> threadCpuSeconds(std::thread& thread);
 
-/// Main memory that this process has now, in bytes; nothing where the system does not report it.
+/// Main memory that this process has now, in bytes; nothing if the system does not report it.
 [[nodiscard]] std::optional<std::uint64_t> processMemoryBytes();
 
 /// Milliseconds since the operating system started this process; where that is not known, since the

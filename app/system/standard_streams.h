@@ -23,7 +23,6 @@ struct TerminalSize {
     std::size_t rows = 24;
     std::size_t columns = 80;
 };
-/// Of the one that standard output goes to.
 [[nodiscard]] TerminalSize terminalSize();
 
 /// In UTF-8, whatever the system gave to main().

@@ -109,7 +109,7 @@ CLI::Validator notEmpty() {
         "");
 }
 
-/// What numbers it takes; empty if it takes none.
+/// Empty if it takes no numbers.
 std::string rangeText(CLI::Option& option) {
     try {
         return option.get_validator(kRange)->get_description();

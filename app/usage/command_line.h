@@ -92,7 +92,6 @@ public:
     Arguments arguments();
     Arguments addCommand(const std::string& name, const std::string& text);
 
-    /// What was declared, for manual pages and completions.
     [[nodiscard]] Program usage() const;
 
     /// The command that was chosen; empty if there are none. `arguments` begin with the program's name.

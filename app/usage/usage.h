@@ -7,7 +7,6 @@
 
 #include <tl/expected.hpp>
 
-/// What a program takes on its command line, as plain data, and what is made of that.
 namespace posewire::usage {
 
 /// An option or, if it has no name, an argument.
@@ -57,7 +56,6 @@ struct Program {
 /// `separator` between the words.
 [[nodiscard]] std::string joined(const std::vector<std::string>& words, std::string_view separator);
 
-/// What a manual page says about itself.
 struct PageFacts {
     std::string version;
     std::string date; ///< of the release, "2026-11-23"

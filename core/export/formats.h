@@ -35,7 +35,7 @@ std::span<const Format<NullPoseSheet>> formats();
 template <>
 std::span<const Format<ReportSheet>> formats();
 
-/// Whether a file's name ends with a dot and this suffix, in whatever case.
+/// In whatever case.
 [[nodiscard]] bool hasSuffix(std::string_view name, std::string_view suffix);
 
 /// The format that a file's name asks for; the usual one where it ends with no suffix of the list.

@@ -52,7 +52,6 @@ std::string colourClass(std::size_t colour) {
     return "c" + std::to_string(colour % 8);
 }
 
-/// What the axis has to reach.
 double greatest(const SvgPlot& plot) {
     double top = plot.leastTop;
     std::vector<double> stack;

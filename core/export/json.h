@@ -16,7 +16,6 @@
 /// the wire's own, floats are written so that they read back to the same 32 bits.
 namespace posewire::exporting {
 
-/// Where a datagram was found.
 struct DatagramPlace {
     std::uint64_t index = 0;  ///< of the object in the output, from 0
     std::uint64_t offset = 0; ///< of its first byte in the file

@@ -14,7 +14,7 @@ namespace posewire::exporting {
 using Json = nlohmann::basic_json<nlohmann::ordered_map, std::vector, std::string, bool, std::int64_t,
                                   std::uint64_t, float>;
 
-/// Of a text of tag lines, which is a list of [name, value] pairs.
+/// A list of [name, value] pairs.
 inline constexpr const char* kTagsKey = "tags";
 
 /// The length of what follows it is not in JSON: it is known from that.

@@ -51,7 +51,6 @@ private:
         m_value;
 };
 
-/// What `toJson` makes of each item.
 template <class Item, class ToJson>
 JsonValue listOf(const std::vector<Item>& items, ToJson toJson) {
     JsonValue::List list;

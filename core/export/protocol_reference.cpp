@@ -49,7 +49,7 @@ constexpr std::array<RevisionDifference, 18> kDifferences{{
     {"type 25", "–", "12 characters", "the length 12 as int32, then 12 characters"},
 }};
 
-/// Bytes of an item of a message that is one list, or of a message of fixed size; empty where they vary.
+/// Bytes of an item of a message that is one list, or of a message of fixed size; empty if they vary.
 std::string itemSize(const wire::FormRow& form) {
     if (form.size != 0) {
         return std::to_string(form.size) + " in all";
@@ -186,8 +186,6 @@ void writeMessage(std::string& out, const wire::TypeInfo& info) {
         out += ". A value may contain colons: the first one of a line ends the tag.\n";
     }
 }
-
-// What the identifiers mean, from the tables of core/model/body.
 
 void writeSegments(std::string& out) {
     out += "\n## Segments\n\nA segment's ID is its place in the pose datagrams, from 1; type 05 has an order "

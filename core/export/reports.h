@@ -13,10 +13,8 @@
 #include <utility>
 #include <vector>
 
-/// What a session amounts to, for programs and for people.
 namespace posewire::exporting {
 
-/// What a session cannot know about itself.
 struct MonitorFacts {
     double durationS = 0;
     std::int64_t receiveBufferBytes = 0; ///< the smallest that a socket was granted; 0 without any
@@ -47,7 +45,7 @@ struct StreamReportOptions {
 /// A figure as people read it: "12,345", "2.50". What is not known is 0.
 [[nodiscard]] std::string figureText(const model::StreamFigures& figures, model::Figure figure, int decimals);
 
-/// False where all that came from a sender was something else.
+/// False if all that came from a sender was something else.
 [[nodiscard]] bool hasSentMxtp(const model::Sender& sender);
 
 [[nodiscard]] JsonValue verdictJson(const model::SessionView& session, const model::TakeVerdict& verdict);
@@ -62,16 +60,15 @@ class VerdictLines {
 public:
     explicit VerdictLines(log::Duration interval) : m_interval(interval) {}
 
-    /// The line that is due at a time of the log, without a newline; nothing where none is.
+    /// The line that is due at a time of the log, without a newline; nothing if none is.
     [[nodiscard]] std::optional<std::string> lineAt(const model::SessionView& session, log::Stamp now);
     /// Leaves out the line that is due, where one is: what it had to tell is told by the next one. False
     /// where none is due.
     bool skipLine(const model::SessionView& session, log::Stamp now);
-    /// The last one, also where none is due, once all is settled; nothing where the one before says all.
+    /// The last one, also where none is due, once all is settled; nothing if the one before says all.
     [[nodiscard]] std::optional<std::string> lastLine(const model::SessionView& session, log::Stamp now);
 
 private:
-    /// Of the incidents since the line before.
     struct Changes {
         JsonValue::List changed;
         std::vector<std::uint64_t> gone; ///< their numbers

@@ -166,7 +166,6 @@ void addRestarts(std::vector<Finding>& findings, const std::vector<model::Stream
                "times the sample counter of a character restarted.");
 }
 
-/// What this computer did not do in time, and what is no longer listed.
 void addSession(std::vector<Finding>& findings, const model::SessionView& session) {
     if (session.accounts().overtaken() != 0) {
         findings.push_back(
@@ -212,7 +211,7 @@ void addSenders(std::vector<Finding>& findings, const model::SessionView& sessio
     }
 }
 
-/// What all figures together mean: the first is the verdict, the others say why.
+/// The first is the verdict, the others give reasons.
 std::vector<Finding> findingsOn(const model::SessionView& session,
                                 const std::vector<model::StreamFigures>& streams,
                                 const StreamReportOptions& options) {

@@ -63,7 +63,6 @@ struct PoseSource {
 [[nodiscard]] PoseSource poseSourceOf(const model::SessionView& session, const model::TimeRange& range,
                                       std::span<const model::CharacterKey> characters);
 
-/// What is read of a character.
 enum class PoseContent : std::uint8_t {
     Segments, ///< the poses that the viewport shows
     Markers,  ///< the points of type 03
@@ -92,7 +91,7 @@ using TakePose = std::function<void(const PoseSample&)>;
 /// not grow with the range.
 class PoseFeed {
 public:
-    /// How long a sample waits for those before it, and for its other messages.
+    /// A sample waits this long for those before it, and for its other messages.
     static constexpr log::Duration kWait = std::chrono::seconds(4);
 
     /// The source outlives this. Of what is received live, `wait` is how late samples are at most.
@@ -104,7 +103,7 @@ public:
     /// Reads on for some packets; false if there were none left for now. At the end of the source's range all
     /// samples are handed out, before that those that have waited at `now`.
     bool advance(const TakePose& take, log::Stamp now = {});
-    /// How much of the range was read, from 0 to 1.
+    /// From 0 to 1.
     [[nodiscard]] double share() const;
     /// Packets of the range that the log had dropped before they were read.
     [[nodiscard]] std::uint64_t missed() const;

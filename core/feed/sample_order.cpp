@@ -172,7 +172,6 @@ HeldSample& SampleOrder::doubt(std::uint32_t number, log::Stamp stamp) {
     return m_doubted.back().sample;
 }
 
-/// Whether a doubted counter is believed by now.
 void SampleOrder::settle(std::uint32_t number) {
     const std::int32_t behind = distance(m_runs.back().highest, number);
     const bool mayBeLate = (behind > 0 && behind <= Probation::kMostLate) || mayStraggle(number);
@@ -181,7 +180,6 @@ void SampleOrder::settle(std::uint32_t number) {
     }
 }
 
-/// How many were doubted that are near a counter, since the run advanced.
 std::size_t SampleOrder::agreeing(std::uint32_t number) const {
     return static_cast<std::size_t>(std::ranges::count_if(
         m_doubted, [&](const Doubted& one) { return one.isFresh && isNear(number, one.sample.number()); }));

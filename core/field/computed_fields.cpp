@@ -26,7 +26,6 @@ Read fromHeader(Subject& subject, std::size_t index) {
     return header != nullptr ? Read(number(Get(*header))) : std::nullopt;
 }
 
-/// What is known of where the packet came from.
 template <auto Get>
 Read fromSender(Subject& subject, std::size_t index) {
     const log::SenderInfo* sender = subject.candidate.sender;

@@ -18,7 +18,6 @@
 /// The fields of packets by name, and how each is read: for filters, plots and whoever else asks for one.
 namespace posewire::field {
 
-/// What a number measures.
 enum class Dimension : std::uint8_t {
     None,
     Length,
@@ -48,7 +47,6 @@ struct UnitInfo {
 /// Null if nothing is written so.
 [[nodiscard]] const UnitInfo* findUnit(std::string_view symbol);
 
-/// The same quantity in another unit of its dimension.
 [[nodiscard]] double converted(double number, const UnitInfo& from, const UnitInfo& into);
 
 /// "a length".
@@ -90,7 +88,7 @@ struct Value {
 struct Subject {
     explicit Subject(const Candidate& from) : candidate(from) {}
 
-    /// Null where there is none.
+    /// Null if there is none.
     [[nodiscard]] const wire::Header* header();
 
     const Candidate& candidate;

@@ -132,7 +132,7 @@ double pointSegment(std::uint32_t id, std::uint32_t firstId) {
 }
 
 /// The number that a name means (see segmentNumber), since the ids of props and fingers differ between
-/// revisions; 0 where the item has no name. `item`: its place in the datagram.
+/// revisions; 0 if the item has no name. `item`: its place in the datagram.
 double namedSegment(const ItemIds& ids, const model::ItemPlaces& places, std::size_t item) {
     if (!ids.segment) {
         return ids.name ? segmentNumber(*ids.name).value_or(0) : 0;
@@ -198,7 +198,6 @@ struct Found {
     Counts counts{};
 };
 
-/// Where the walk is.
 struct Spot {
     std::size_t shape = 0;
     std::size_t list = 0;
@@ -223,7 +222,6 @@ Dimension dimensionOf(const wire::About& about) {
     return unit != nullptr ? unit->dimension : Dimension::None;
 }
 
-/// What a layout says of a length.
 std::optional<model::LengthUnit> lengthOf(const wire::About& about) {
     return dimensionOf(about) != Dimension::Length ? std::nullopt
            : about.unit == wire::Unit::Centimetres ? std::optional(model::LengthUnit::Centimetre)

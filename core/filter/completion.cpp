@@ -14,7 +14,6 @@ namespace posewire::filter {
 using namespace field;
 namespace {
 
-/// What may come next.
 enum class Next : std::uint8_t { Field, Operator, Value, SetMember, AfterMember, Join };
 
 struct Context {
@@ -98,7 +97,6 @@ std::string aboutField(const FieldInfo& field) {
     return field.types.empty() ? about : about + " (" + typesText(field) + ')';
 }
 
-/// The same as it was sent.
 std::string aboutSent(const FieldInfo& field) {
     const std::string unit = field.unitSent.empty() ? field.unit : field.unitSent;
     return "as sent, " + unit + ": " + field.text;
@@ -206,7 +204,7 @@ void offerValues(std::string_view asked, Collector& into) {
     }
 }
 
-/// A number as a constant; empty where it is none.
+/// A number as a constant; empty if it is none.
 std::string numeral(std::string_view value) {
     if (value == "nan" || value == "-nan" || value == "NaN") {
         return "NaN";

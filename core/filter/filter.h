@@ -42,7 +42,6 @@ public:
     [[nodiscard]] bool matches(const Candidate& candidate) const;
 
     [[nodiscard]] bool matchesEverything() const { return m_program == nullptr; }
-    /// Whether it matters to it what a candidate's positions come in.
     [[nodiscard]] bool comparesLengths() const;
     /// Whether what comes after a packet may change the answer: gaps, restarts and the like are judged later.
     [[nodiscard]] bool comparesJudged() const;

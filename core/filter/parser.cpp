@@ -33,7 +33,6 @@ private:
         m_at += isIt ? 1 : 0;
         return isIt;
     }
-    /// What is here, and what was expected.
     [[nodiscard]] FilterError unexpected(std::string_view wanted) const {
         const Token& token = here();
         std::string text = "Expected " + std::string(wanted) + " here.";

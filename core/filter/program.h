@@ -15,7 +15,6 @@ namespace posewire::filter {
 
 using namespace field; // of which all conditions are made
 
-/// What a value is compared with.
 struct Test {
     using Range = std::pair<double, double>;
 
@@ -27,7 +26,7 @@ struct Test {
     std::shared_ptr<const re2::RE2> pattern;
 
     [[nodiscard]] bool holds(const Value& value) const;
-    /// What is wrong with the regular expression; empty for nothing.
+    /// Empty if the regular expression is right.
     [[nodiscard]] std::string setPattern(const std::string& text);
 
 private:

@@ -176,7 +176,6 @@ bool ordersOnly(Operator op) {
     return op >= Operator::Less && op <= Operator::GreaterEqual;
 }
 
-/// Whether the operator suits the field.
 bool suits(const Asked& asked, const WrittenCondition& written) {
     const FieldInfo& field = asked.field;
     if (written.op == Operator::IsThere) {
@@ -204,7 +203,6 @@ bool suits(const Asked& asked, const WrittenCondition& written) {
     return !needsText(written.op) && (field.kind != Kind::Vector || asked.hasComponent) && fit;
 }
 
-/// What is wrong with the unit of a constant, if something is.
 std::optional<FilterError> unitComplaint(const Asked& asked, const std::string& name,
                                          const Constant& constant) {
     const auto amount = amountOf(constant);
@@ -220,7 +218,6 @@ std::optional<FilterError> unitComplaint(const Asked& asked, const std::string& 
                                                  : "`" + name + "` has no unit.");
 }
 
-/// What is wrong with a constant.
 FilterError constantComplaint(const Asked& asked, const std::string& name, const Constant& constant) {
     if (auto complaint = unitComplaint(asked, name, constant)) {
         return *std::move(complaint);

@@ -18,7 +18,6 @@
 
 namespace posewire::log {
 
-/// What the log keeps of a packet besides its bytes.
 struct Record {
     const std::byte* data;
     Stamp stamp;
@@ -125,7 +124,6 @@ struct LogLimits {
     std::size_t chunkSize = std::size_t{8} << 20; ///< bytes; at least 256 KiB
 };
 
-/// What the log holds, in figures for display.
 struct LogFigures {
     std::uint64_t begin = 0;     ///< number of the oldest packet kept: as many have been dropped from history
     std::uint64_t end = 0;       ///< one past the newest packet

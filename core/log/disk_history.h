@@ -18,7 +18,6 @@
 
 namespace posewire::log {
 
-/// Where what a log receives is kept, and how much of it.
 struct DiskHistoryChoice {
     std::string folder;                          ///< exists
     std::uint64_t most = std::uint64_t{8} << 30; ///< bytes of all files; at least 16 MiB
@@ -68,7 +67,6 @@ private:
     void run(const std::stop_token& stop);
     Result follow(const std::stop_token& stop);
     Result write(const Packet& packet);
-    /// What was written is in the file, and can be read from there.
     Result handOver();
     /// Whose first packet is `first`.
     Result beginFile(std::uint64_t first);

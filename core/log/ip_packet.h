@@ -77,7 +77,6 @@ inline constexpr std::uint8_t kUdp = 17;
 /// IP and BSD loopback, then IPv4 or IPv6. Empty for anything else.
 [[nodiscard]] std::optional<IpPacket> ipPacketOf(const CapturedFrame& frame);
 
-/// What an IP packet carries over UDP.
 struct UdpPayload {
     std::uint64_t offset = 0;         ///< in the file
     std::span<const std::byte> bytes; ///< as much as was captured

@@ -174,7 +174,6 @@ private:
         return {};
     }
 
-    /// Of the last system call.
     [[nodiscard]] tl::unexpected<FileError> failure() {
         const int error = errno;
         m_hasFailed = true;

@@ -62,7 +62,6 @@ struct Arrival {
     PacketFlags flags{};
 };
 
-/// What this computer dropped before a packet of the log.
 struct DropSums {
     std::uint64_t datagrams = 0; ///< the sum of kernelDropsBefore
     std::uint64_t records = 0;   ///< packets that are none, and only tell of that: PacketFlags::isDropRecord

@@ -50,7 +50,6 @@ public:
     [[nodiscard]] const Past& past() const { return m_past; }
     [[nodiscard]] const std::shared_ptr<Scratch>& scratch() const { return m_past.scratch(); }
 
-    /// What a LogReader looks at.
     [[nodiscard]] const ChunkHistory& history() const { return m_history; }
 
 private:

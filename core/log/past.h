@@ -23,7 +23,6 @@ namespace posewire::log {
 /// Parts come from one thread, which has written them or found them; they are read from any.
 class Past {
 public:
-    /// How large parts should be.
     static constexpr std::size_t kPacketsOfPart = 2048;
     static constexpr std::size_t kKeptBytesOfPart = std::size_t{4} << 20;
 

@@ -118,7 +118,6 @@ std::string_view clipped(std::string_view text) {
     return text.substr(0, most);
 }
 
-/// What the headers can say about a sender.
 struct Ends {
     IpEndpoint sender;
     IpEndpoint target;

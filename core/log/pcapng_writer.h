@@ -94,7 +94,7 @@ struct RecordedMark {
 /// The inverse; empty if the note says something else.
 [[nodiscard]] std::optional<RecordedMark> parseMark(std::string_view note);
 
-/// What a recording says about itself; what is empty is left out.
+/// What is empty is left out.
 struct RecordingInfo {
     std::string hardware;
     std::string system;
@@ -125,7 +125,6 @@ public:
     /// file count. `notes` are about all of it so far: UTF-8, cut as comments are.
     Result addStatistics(std::span<const std::string> notes = {});
 
-    /// Where the bytes of the packet added last begin in the file.
     [[nodiscard]] std::uint64_t packetOffset() const { return m_packetOffset; }
     [[nodiscard]] std::uint64_t packets() const { return m_packets; }
     [[nodiscard]] std::uint64_t bytes() const { return m_bytes; } ///< of the file so far

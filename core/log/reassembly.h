@@ -55,7 +55,6 @@ private:
 /// was part of comes out cut off, and the bytes up to the next one as skipped.
 class TcpStream {
 public:
-    /// How much may wait for a missing segment, and how long.
     static constexpr std::size_t kMostWaiting = std::size_t{256} << 10;
     static constexpr Duration kLongestWait = std::chrono::seconds(1);
 

@@ -30,7 +30,6 @@ struct FileRecord {
     bool isInOnePiece = true;
 };
 
-/// What the log keeps of a record of `sender`.
 [[nodiscard]] inline Arrival arrivalOf(const FileRecord& record, SenderId sender, Stamp stamp) {
     return {stamp, sender, record.kernelDropsBefore, record.flags};
 }

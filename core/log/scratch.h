@@ -25,7 +25,6 @@ struct ScratchFigures {
 /// thread; what was taken lasts as long as its last owner.
 class Scratch : public std::enable_shared_from_this<Scratch> {
 public:
-    /// How far the file grows at once.
     static constexpr std::size_t kSegment = std::size_t{16} << 20;
 
     /// Without a file.
@@ -44,7 +43,7 @@ public:
                     owner->give(reinterpret_cast<std::byte*>(used), sizeof(T));
                 }};
     }
-    /// Of a number of bytes above 0, not initialized.
+    /// Not initialized; `size` is above 0.
     [[nodiscard]] std::shared_ptr<std::byte[]> bytes(std::size_t size);
 
     /// True if what is taken lies in a file.

@@ -26,7 +26,6 @@ public:
     /// Null if it has no holder any more.
     [[nodiscard]] Held find(SenderId id) const;
 
-    /// How many are held by anybody.
     [[nodiscard]] std::size_t size() const;
 
 private:

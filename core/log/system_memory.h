@@ -19,7 +19,6 @@ inline constexpr MemoryFile kNoMemoryFile = -1;
 
 /// In a folder that exists; kNoMemoryFile if none can be made.
 [[nodiscard]] MemoryFile openMemoryFile(const std::string& folder);
-/// What is mapped stays.
 void closeMemoryFile(MemoryFile file);
 
 /// Lets the file grow by a segment at its end, `offset`, and maps that. Null if there is no room for it:

@@ -6,7 +6,6 @@
 
 namespace posewire::log {
 
-/// How long.
 using Duration = std::chrono::nanoseconds;
 
 /// A moment of the wall clock, since 1970-01-01 UTC, as in recordings and kernel stamps. It jumps where

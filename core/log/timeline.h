@@ -32,7 +32,6 @@ public:
     /// What the wall clock is ahead of now; empty if both could not be read at about the same time.
     [[nodiscard]] std::optional<Duration> wallAhead(const Clock& clock) const;
 
-    /// What the wall clock showed.
     [[nodiscard]] WallTime wallOf(Stamp stamp) const;
     /// What it was ahead of that stamp.
     [[nodiscard]] Duration setByAt(Stamp stamp) const { return wallOf(stamp) - asWallTime(stamp); }
@@ -40,7 +39,7 @@ public:
     [[nodiscard]] Stamp stampOf(WallTime time) const;
 
     void add(const ClockStep& step);
-    /// How many there are. Never goes back.
+    /// Never goes back.
     [[nodiscard]] std::size_t stepCount() const { return m_count.load(std::memory_order_acquire); }
     /// In the order in which they were noticed.
     [[nodiscard]] ClockStep step(std::size_t index) const;
@@ -102,7 +101,6 @@ public:
     /// `setBy`: what the recording says the clock had been set by since its beginning.
     [[nodiscard]] Stamp stampOf(WallTime time, Duration setBy);
 
-    /// What comes afterwards is not of this file.
     void end();
 
 private:

@@ -21,7 +21,6 @@ public:
     /// Of what is shown, with the ellipsis of what is clipped. The whole text is in the inspector of its
     /// packet.
     static constexpr std::size_t kMostBytes = 256;
-    /// Of fileName().
     static constexpr std::size_t kMostFileNameBytes = 80;
 
     ForeignText() = default;
@@ -47,7 +46,6 @@ public:
     [[nodiscard]] bool isEmpty() const { return m_shown.empty(); }
     /// Whether these are the bytes, also where they were forgotten.
     [[nodiscard]] bool isOf(std::string_view bytes) const;
-    /// What it holds beside itself, about.
     [[nodiscard]] std::size_t memoryBytes() const;
 
     friend bool operator==(const ForeignText& a, const ForeignText& b) {
@@ -62,11 +60,10 @@ private:
     ForeignText(std::string_view bytes, std::nullptr_t);
 
     std::string m_shown;
-    std::shared_ptr<const std::string> m_exact; ///< null where it is what is shown, or forgotten
-    std::uint64_t m_hash = 0;                   ///< of the exact bytes; 0 where they are what is shown
+    std::shared_ptr<const std::string> m_exact; ///< null if it is what is shown, or forgotten
+    std::uint64_t m_hash = 0;                   ///< of the exact bytes; 0 if they are what is shown
 };
 
-/// What is shown of a text that need not be kept.
 [[nodiscard]] std::string shownText(std::string_view bytes);
 
 /// The same symbols without a clip, for texts of ours that quote foreign ones; line breaks and tabs stay.

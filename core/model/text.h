@@ -10,27 +10,8 @@
 #include <limits>
 #include <string>
 #include <string_view>
-#include <vector>
 
-/// Pieces of sentences about what was found.
 namespace posewire::model {
-
-/// "a, b and c"; beyond four "a, b, c and 7 more".
-inline std::string listed(const std::vector<std::string>& names) {
-    constexpr std::size_t most = 4;
-    const bool isCut = names.size() > most;
-    const std::size_t shown = isCut ? most - 1 : names.size();
-    std::string text;
-    for (std::size_t i = 0; i < shown; ++i) {
-        text += i == 0 ? "" : i + 1 == shown && !isCut ? " and " : ", ";
-        text += names[i];
-    }
-    return isCut ? text + " and " + std::to_string(names.size() - shown) + " more" : text;
-}
-
-inline std::string quoted(std::string_view name) {
-    return "\"" + std::string(name) + "\"";
-}
 
 /// At most so many bytes of a text, with "…" where something is cut off. No character is cut in two.
 inline std::string clippedText(std::string text, std::size_t most) {
@@ -63,16 +44,6 @@ inline std::string padded(std::int64_t number, std::size_t width) {
     return std::string(width - std::min(width, digits.size()), '0') + digits;
 }
 
-/// "1 sample was", "3 samples were".
-inline std::string counted(std::uint64_t count, std::string_view one, std::string_view many) {
-    return grouped(count) + ' ' + std::string(count == 1 ? one : many);
-}
-
-/// "1 part", "3 parts".
-inline std::string counted(std::uint64_t count, std::string_view noun) {
-    return counted(count, noun, std::string(noun) + 's');
-}
-
 /// "−0.25", whatever the locale; "–" for what is no number.
 inline std::string fixedText(double value, int decimals) {
     constexpr std::size_t kMost = std::numeric_limits<double>::max_exponent10 + 32;
@@ -86,11 +57,6 @@ inline std::string fixedText(double value, int decimals) {
     const std::string digits(text.data(), end);
     const bool isZero = digits.find_first_not_of("0.") == std::string::npos;
     return value < 0 && !isZero ? "−" + digits : digits;
-}
-
-/// "1.684 m".
-inline std::string metresText(double metres) {
-    return fixedText(metres, 3) + " m";
 }
 
 /// "+12 mm": with a sign.

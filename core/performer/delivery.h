@@ -63,7 +63,6 @@ private:
         std::uint32_t sample;
         log::Duration time;
     };
-    /// How far a stream has come, as a receiver sees it.
     struct Front {
         bool isNative = false; ///< false while all of it is damaged datagrams of other streams
         std::uint32_t epoch = 0;

@@ -59,10 +59,9 @@ struct FaultSettings {
     bool isRecorded = false;
 };
 
-/// What is wrong with the settings, as one sentence; empty when Faults can be made of them.
+/// One sentence; empty if Faults can be made of the settings.
 std::optional<std::string> findProblem(const FaultSettings& settings);
 
-/// What was done to the datagrams of one sender.
 struct FaultTally {
     std::uint64_t offered = 0;    ///< after division into parts
     std::uint64_t dropped = 0;    ///< never sent
@@ -100,7 +99,6 @@ private:
     void restartAt(log::Duration due, Sending& sending);
     void send(Sending sending);
     void damage(Sending& sending, std::uint64_t key);
-    /// Whether the next datagram is lost: single ones, bursts, or after Gilbert and Elliott.
     bool loses(std::uint64_t key);
     void deliver(Sending sending);
     void sendCopy(const Sending& sending, std::uint64_t key);

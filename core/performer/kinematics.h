@@ -9,7 +9,6 @@
 
 namespace posewire::performer {
 
-/// Where the 23 body segments are.
 using BodyPose = std::array<model::SegmentPose, model::kBodySegmentCount>;
 
 /// How each segment is turned against its parent; the pelvis against the world.

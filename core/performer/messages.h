@@ -12,7 +12,6 @@
 /// From a character to the bodies of messages, in the wire's units and frames.
 namespace posewire::performer {
 
-/// What differs between revisions of the specification.
 struct MessageDialect {
     model::PointIdCoding pointIds = model::PointIdCoding::By256;
     int firstPropId = 24;             ///< 25 in the tables of revisions E to K
@@ -22,7 +21,6 @@ struct MessageDialect {
     bool sendsRealTags = true;        ///< the tags of type 12 that are in no specification but on the wire
 };
 
-/// What the messages of one frame are about.
 struct Subject {
     const Character& character;
     const CharacterMoment& moment;
@@ -47,7 +45,6 @@ void perform(const Subject& subject, wire::TrackerKinematics& message);
 void perform(const Subject& subject, wire::CentreOfMass& message);
 void perform(const Subject& subject, wire::TimeCode& message);
 
-/// How the body differs from the reference body (revision E).
 wire::ScaleInformation scaleInformation(const Character& character);
 wire::PropInformation propInformation(const Character& character, const MessageDialect& dialect);
 wire::MetaData metaData(const Character& character, int characterCount, const MessageDialect& dialect);

@@ -26,7 +26,6 @@ public:
     }
 };
 
-/// What makes one performance of a motion differ from another.
 struct MotionSettings {
     model::ReferenceBody body;
     std::uint64_t seed = 1;
@@ -34,7 +33,6 @@ struct MotionSettings {
     int characterCount = 1; ///< all that share the floor
 };
 
-/// What a standing character does.
 enum class StandAction : std::uint8_t { Idle, Wave, Squat };
 
 std::unique_ptr<Motion> makeWalk(const MotionSettings& settings);

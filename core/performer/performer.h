@@ -33,7 +33,7 @@ struct PerformerSettings {
 
 inline constexpr int kMaxCharacters = 32;
 
-/// What is wrong with the settings, as one sentence; empty when a Performer can be made of them.
+/// One sentence; empty if a Performer can be made of the settings.
 std::optional<std::string> findProblem(const PerformerSettings& settings);
 
 /// All types that a sender of the revision has.

@@ -11,7 +11,6 @@
 
 namespace posewire::performer {
 
-/// What the sender meant a datagram to be, whatever became of its bytes on the way.
 struct Origin {
     std::uint32_t sample = 0; ///< counter as sent, after restarts
     std::uint8_t type = 0;
@@ -43,7 +42,7 @@ struct Sending {
 /// as: the counter moves by a little, or so far that it can belong to nothing.
 struct CorruptionBounds {
     double periodMs = 1000.0 / 240.0; ///< of the samples
-    bool mayChangeIdentity = true;    ///< false where its samples come in parts
+    bool mayChangeIdentity = true;    ///< false if its samples come in parts
     bool mayChangeType = true;        ///< false where samples of other types do
 };
 

@@ -14,7 +14,6 @@ namespace posewire::performer {
 
 inline constexpr int kTrackerCount = 17;
 
-/// What one motion tracker measures.
 struct TrackerReading {
     int segment = 0;                                                 ///< body segment index
     Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity(); ///< worldFromTracker

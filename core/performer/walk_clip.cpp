@@ -231,7 +231,6 @@ struct FootTrack {
     const PelvisPath& path;
     std::size_t foot;
 
-    /// Of the lowest point.
     double height(std::size_t i) const { return lowest(soles[i][foot]) + path.roots[i].z(); }
 
     /// Horizontal velocity of what touches the floor, or would first, in metres per cycle.

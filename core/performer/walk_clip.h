@@ -88,7 +88,6 @@ private:
 /// origin.
 using SoleFrame = std::array<std::array<Eigen::Vector3d, kSolePointCount>, 2>;
 
-/// How the pelvis moves over one cycle.
 struct PelvisPath {
     std::vector<Eigen::Vector3d> roots; ///< against an evenly moving point, one for each frame of the soles
     double strideLength = 0.0;          ///< metres

@@ -26,7 +26,6 @@ struct Datagram {
 [[nodiscard]] Result<void> encodeInto(const Datagram& datagram, std::vector<std::byte>& into);
 [[nodiscard]] Result<std::vector<std::byte>> encode(const Datagram& datagram);
 
-/// How much of bytes 17–23 a sender fills in.
 enum class HeaderEra : std::uint8_t {
     Reserved, ///< revisions E to K: zero
     Counted,  ///< since MVN 2018/2019: counts and payload size

@@ -39,7 +39,6 @@ enum class Unit : std::uint8_t {
 /// Symbol as shown to people, such as "m/s²"; empty if there is nothing to say.
 std::string_view unitSymbol(Unit unit);
 
-/// What a number names, or what the items of a list are about.
 enum class RefersTo : std::uint8_t {
     Nothing,
     Character,
@@ -79,7 +78,6 @@ struct About {
     std::span<const FieldPart> parts{};
 };
 
-/// What a value is made of, deduced from the member's type.
 enum class Scalar : std::uint8_t { Uint8, Uint16, Uint32, Int32, Float32, Characters, Text };
 
 /// "uint8", "float32", "characters", "text".
@@ -205,13 +203,11 @@ template <class T, Form F = Form::Standard>
 inline constexpr std::size_t
     kWireSize = std::apply([](const auto&... field) { return (field.kLeastSize + ...); }, kLayout<T, F>);
 
-/// How many numbers the type of a member has: 3 for Vec3.
 template <class V>
 inline constexpr std::uint8_t kComponents = 1;
 template <std::size_t N>
 inline constexpr std::uint8_t kComponents<std::array<float, N>> = N;
 
-/// What the type of a member is on the wire.
 template <class V>
 inline constexpr Scalar kScalar = V::isNoValueOfTheWire;
 template <>

@@ -36,7 +36,6 @@ struct FieldNode {
     std::string_view section;                                 ///< of the specification
 };
 
-/// How far a tree goes.
 enum class FieldDetail : std::uint8_t {
     Fields, ///< each leaf is a field; every byte has one leaf
     Parts,  ///< vectors, texts and bit fields are divided; what a fault cuts off and leaves unread is there

@@ -35,6 +35,18 @@ void clip(Fact& fact, std::size_t most) {
     for (NamedValue& each : fact.values) {
         if (auto* text = std::get_if<std::string>(&each.value)) {
             *text = model::clippedText(std::move(*text), most);
+        } else if (auto* part = std::get_if<Fact>(&each.value)) {
+            clip(*part, most);
+        } else if (auto* parts = std::get_if<std::vector<Fact>>(&each.value)) {
+            const std::uint64_t left = parts->size() > kMostListed ? parts->size() - (kMostListed - 1) : 0;
+            parts->resize(parts->size() - left);
+            parts->shrink_to_fit();
+            for (Fact& one : *parts) {
+                clip(one, most / (3 * parts->size()));
+            }
+            if (left != 0) {
+                each.value = Fact{Kind::NamesAndMore, {{"names", std::move(*parts)}, {"n", left}}};
+            }
         }
     }
 }
@@ -46,6 +58,11 @@ std::size_t memoryBytes(const Fact& fact) {
             bytes += text->capacity();
         } else if (const auto* part = std::get_if<Fact>(&each.value)) {
             bytes += memoryBytes(*part);
+        } else if (const auto* parts = std::get_if<std::vector<Fact>>(&each.value)) {
+            bytes += parts->capacity() * sizeof(Fact);
+            for (const Fact& one : *parts) {
+                bytes += memoryBytes(one);
+            }
         } else if (const auto* names = std::get_if<std::vector<std::string>>(&each.value)) {
             bytes += names->capacity() * sizeof(std::string);
         }

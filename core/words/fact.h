@@ -13,7 +13,6 @@
 /// them.
 namespace posewire::words {
 
-/// What can be said: a row each in the table of words.
 enum class Kind : std::uint8_t {
     Nothing,
     Text,
@@ -70,6 +69,7 @@ enum class Kind : std::uint8_t {
     ReadInOtherUnit,
     UnitChanged,
     MetadataChanged,
+    TagChanged,
     NullPoseChanged,
     Overtaken,
     RelayStopped,
@@ -131,8 +131,109 @@ enum class Kind : std::uint8_t {
     PartlySolved,
     WrongScale,
     AssumedBody,
+    // What a sender follows, and how that is known.
+    RevisionUnknown,
+    RevisionE,
+    RevisionJOrK,
+    RevisionN,
+    CountsInHeader,
+    ReservedHeader,
+    DeprecatedType,
+    PelvisAt,
+    ReachOf,
+    UnitBy,
+    // Null poses, errors.
+    NameTwice,
+    MoreNamesTwice,
+    PartsMissing,
+    TooLarge,
+    FewerSegments,
+    OtherUnit,
+    StandsAskew,
+    Mirrored,
+    PartlyMirrored,
+    PointsWithoutSegment,
+    NotNumbers,
+    // Warnings.
+    PartsMissingNow,
+    EarlierPartsMissing,
+    NamesUnknown,
+    NamesMoved,
+    MoreSegments,
+    MatricesUnusable,
+    ScalesDisagree,
+    NoScaleMessage,
+    Stature,
+    BelowFloor,
+    PointIdsTwice,
+    JointsApart,
+    LengthsChanged,
+    // Notes.
+    EarlierPartsMissed,
+    NamesRespelled,
+    ScalesDiffer,
+    DeprecatedScaleAlone,
+    PelvisAtOrigin,
+    AboveFloor,
+    Asymmetric,
+    PointNames,
+    // Parts of these.
+    LastPart,
+    Beside,
+    Numbered,
+    MovedTo,
+    LeftBy,
+    ApartBy,
+    KnownAs,
+    RightSide,
+    LeftSide,
+    Parts,
+    Segments,
+    Props,
+    Metres,
+    Centimetres,
+    Millimetres,
+    Inches,
+    // Connections.
+    NoInput,
+    CannotOpen,
+    AddressGone,
+    NotJoined,
+    NotListenedTo,
+    ForeignDatagrams,
+    NotReachable,
+    SilentPeer,
+    GarbledPeer,
+    NothingArrives,
+    OtherTransport,
+    FirewallOn,
+    WentSilent,
+    Either,
+    HostOn,
+    LooksLikeArtNet,
+    LooksLikeHttp,
+    LooksLikeDTrack,
+    LooksLikeJson,
+    LooksLikeXml,
+    LooksLikeOsc,
+    LooksLikeNatNet,
+    LooksLikeVicon,
+    LooksLikeQualisys,
+    MxtpBehind,
+    // Files that were written.
+    Exported,
+    MarkerSamples,
+    SamplesMissing,
+    RestartedTimes,
+    PauseLeftOut,
+    GapsWithoutValues,
+    GapsNull,
+    GapsRepeat,
+    GapsBridged,
+    GapsUnmeasured,
+    GapsLeftOut,
 };
-inline constexpr std::size_t kKinds = 111;
+inline constexpr std::size_t kKinds = static_cast<std::size_t>(Kind::GapsLeftOut) + 1;
 
 /// A number with so many decimals; `isTrimmed`: without zeros at its end, as somebody set a limit.
 struct Number {
@@ -156,8 +257,9 @@ struct Fact {
     friend bool operator==(const Fact& one, const Fact& other);
 };
 
-/// A name or address, a count, a measure, a list of names, or a fact that is a part of this one.
-using Value = std::variant<std::string, std::uint64_t, Number, std::vector<std::string>, Fact>;
+/// A name or address, a count, a measure, a list of names, or facts that are parts of this one.
+using Value =
+    std::variant<std::string, std::uint64_t, Number, std::vector<std::string>, Fact, std::vector<Fact>>;
 
 struct NamedValue {
     std::string_view name; ///< a literal
@@ -174,7 +276,10 @@ inline Fact::Fact(Kind what, std::vector<NamedValue> with) : kind(what), values(
 void set(Fact& fact, std::string_view name, Value value);
 /// Adds a value unless there is one of the same name.
 void add(Fact& fact, std::string_view name, Value value);
-/// Cuts texts in a fact off after so many bytes, with "…" at their end.
+/// A longer list is said as one shorter than this and how many more there are.
+inline constexpr std::size_t kMostListed = 4;
+/// Cuts the texts of a fact off, with "…" at their end, and its lists, which are said as before: they take
+/// about so many bytes.
 void clip(Fact& fact, std::size_t most);
 [[nodiscard]] std::size_t memoryBytes(const Fact& fact);
 

@@ -26,6 +26,8 @@ const Text& textOf(const Wording& row, Form form) {
         return either(row.brief, row.headline);
     case Form::Cell:
         return either(row.cell, either(row.brief, row.headline));
+    case Form::Advice:
+        return row.advice;
     }
     return row.headline;
 }
@@ -50,7 +52,10 @@ struct NumberOf {
     std::uint64_t operator()(const std::string& /*name*/) const { return 1; }
     std::uint64_t operator()(std::uint64_t count) const { return count; }
     std::uint64_t operator()(const Number& number) const { return number.value == 1 ? 1 : 2; }
-    std::uint64_t operator()(const std::vector<std::string>& names) const { return names.size(); }
+    template <class Part>
+    std::uint64_t operator()(const std::vector<Part>& parts) const {
+        return parts.size();
+    }
     std::uint64_t operator()(const Fact& part) const {
         const char* text = rowOf(part.kind).headline.text;
         return text == nullptr ? 1 : numberOf(part, text);
@@ -81,7 +86,15 @@ struct Phrase {
     std::string operator()(std::uint64_t count) const { return model::grouped(count); }
     std::string operator()(const Number& number) const { return numberText(number); }
     std::string operator()(const std::vector<std::string>& names) const;
-    std::string operator()(const Fact& part) const { return say(part, form, language); }
+    /// Only whole facts have advice.
+    std::string operator()(const Fact& part) const {
+        return say(part, form == Form::Advice ? Form::Headline : form, language);
+    }
+    std::string operator()(const std::vector<Fact>& parts) const {
+        std::vector<std::string> names;
+        std::ranges::transform(parts, std::back_inserter(names), *this);
+        return (*this)(names);
+    }
 
     [[nodiscard]] std::string whole(std::string_view text) const {
         std::string said;
@@ -132,13 +145,18 @@ struct Phrase {
     }
 };
 
-/// "a, b and c"; beyond four "a, b, c and 7 more".
+/// "a, b and c"; beyond four "a, b, c and 7 more", of which clip() has left "a, b, c".
 std::string Phrase::operator()(const std::vector<std::string>& names) const {
-    constexpr std::size_t kMost = 4;
-    const std::size_t first = names.size() > kMost ? kMost - 1 : std::max<std::size_t>(names.size(), 1) - 1;
+    const bool isClipped = fact.kind == Kind::NamesAndMore;
+    const std::size_t first = isClipped                    ? names.size()
+                              : names.size() > kMostListed ? kMostListed - 1
+                                                           : std::max<std::size_t>(names.size(), 1) - 1;
     std::string joined;
     for (std::size_t i = 0; i < first; ++i) {
         joined += (i == 0 ? "" : ", ") + names[i];
+    }
+    if (isClipped) {
+        return joined;
     }
     if (first == 0) {
         return names.empty() ? joined : names.front();

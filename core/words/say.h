@@ -10,7 +10,6 @@
 /// Facts in words.
 namespace posewire::words {
 
-/// How long, and for which place.
 enum class Form : std::uint8_t {
     Headline, ///< what, to whom and why, without a stop
     Sentence, ///< with its stop and what it rests on, without whom
@@ -18,8 +17,9 @@ enum class Form : std::uint8_t {
     Line,     ///< beside columns that say whom and why
     Brief,    ///< a few words, with the cause
     Cell,     ///< without the cause
+    Advice,   ///< what follows from it, and what to do
 };
-inline constexpr std::size_t kForms = 6;
+inline constexpr std::size_t kForms = 7;
 
 /// A text of the table: the source string of a translation, and its singular if it has one. The number is
 /// that of the first placeholder: a count, or the size of a list.
@@ -41,9 +41,12 @@ struct Wording {
     Text brief{};
     Text cell{};
     Text narrow{};
+    Text advice{};
 };
 /// By kind: what catalogues of other languages are made from.
 [[nodiscard]] std::span<const Wording> wordings();
+/// The rows of findings.cpp, which are the last ones of wordings().
+[[nodiscard]] std::span<const Wording> findingWordings();
 
 /// The text for a number in one language.
 using Language = std::string (*)(const Text& text, std::uint64_t number);

@@ -3,8 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <vector>
 
-/// Every sentence about incidents, verdicts and poses.
+/// Every sentence about incidents, verdicts and poses. The second half of the kinds is in findings.cpp.
 namespace posewire::words {
 namespace {
 
@@ -125,8 +126,8 @@ constexpr std::array kTable{
             .line = {"Also from {other}"},
             .brief = {"also from {other}"}},
     Wording{.kind = K::Contradiction,
-            .headline = {"{who}: {clause}"},
-            .sentence = {"{text}"},
+            .headline = {"{who}: {what}"},
+            .sentence = {"{what}"},
             .brief = {"contradiction"}},
     Wording{.kind = K::SendsCounts,
             .headline = {"{who}: declared {declared}, but header counts are filled"},
@@ -159,6 +160,7 @@ constexpr std::array kTable{
             .headline = {"{who}: {changes}"},
             .sentence = {"{changes}"},
             .brief = {"metadata change"}},
+    Wording{.kind = K::TagChanged, .headline = {"{name}: {from} → {to}"}},
     Wording{.kind = K::NullPoseChanged,
             .headline = {"{who}: the null pose changed"},
             .sentence = {"The null pose changed."},
@@ -285,17 +287,30 @@ constexpr std::array kTable{
     Wording{.kind = K::PartlySolved, .headline = {"partly solved"}},
     Wording{.kind = K::WrongScale, .headline = {"wrong scale"}},
     Wording{.kind = K::AssumedBody, .headline = {"assumed body"}},
+    // What a sender follows, and how that is known.
+    Wording{.kind = K::RevisionUnknown, .headline = {"not known yet"}},
+    Wording{.kind = K::RevisionE, .headline = {"E"}},
+    Wording{.kind = K::RevisionJOrK, .headline = {"J or K"}},
+    Wording{.kind = K::RevisionN, .headline = {"L to N"}},
+    Wording{.kind = K::CountsInHeader, .headline = {"counts in its header"}},
+    Wording{.kind = K::ReservedHeader, .headline = {"type {type} with a reserved header"}},
+    Wording{.kind = K::DeprecatedType, .headline = {"deprecated type {type} on the air"}},
+    Wording{.kind = K::PelvisAt, .headline = {"pelvis at {value}"}},
+    Wording{.kind = K::ReachOf, .headline = {"reach of {value}"}},
+    Wording{.kind = K::UnitBy, .headline = {"{looks} ({evidence})"}},
 };
 
-// Each once, in the order of the enum.
-static_assert(kTable.size() == kKinds &&
-              std::ranges::is_sorted(kTable, std::ranges::less(), &Wording::kind) &&
-              std::ranges::adjacent_find(kTable, {}, &Wording::kind) == kTable.end());
+static_assert(std::ranges::is_sorted(kTable, std::ranges::less(), &Wording::kind));
 
 } // namespace
 
 std::span<const Wording> wordings() {
-    return kTable;
+    static const std::vector<Wording> kAll = [] {
+        std::vector<Wording> all(kTable.begin(), kTable.end());
+        all.insert(all.end(), findingWordings().begin(), findingWordings().end());
+        return all;
+    }();
+    return kAll;
 }
 
 } // namespace posewire::words

@@ -2,9 +2,13 @@
 // Prints the texts of the core's tables as lupdate reads them: the window translates them by their source.
 #include "core/export/formats.h"
 #include "core/export/motion/motion_export.h"
+#include "core/log/packet_log.h"
 #include "core/model/accounting/stream_figures.h"
+#include "core/model/body/null_pose_measures.h"
 #include "core/model/incidents/incident.h"
 #include "core/model/incidents/thresholds.h"
+#include "core/model/session/memory_figures.h"
+#include "core/model/session/session.h"
 #include "core/wire/faults.h"
 #include "core/wire/type_table.h"
 #include "core/words/say.h"
@@ -93,7 +97,6 @@ void addTables() {
     for (const exporting::MotionFormat& format : exporting::motionFormats()) {
         add(format.kind);
         add(format.holds);
-        add(format.gaps);
     }
     addKinds(exporting::formats<exporting::EventSheet>());
     addKinds(exporting::formats<exporting::NullPoseSheet>());
@@ -101,8 +104,15 @@ void addTables() {
     for (const model::IncidentKindFacts& kind : model::kIncidentKindTable) {
         add(kind.name);
     }
-    for (const char* text : {"counts in its header", "Check", "Debug", "Inspect"}) {
+    for (const char* text : {"Check", "Debug", "Inspect", "bodies drawn"}) {
         add(text);
+    }
+    const log::PacketLog log;
+    for (const model::MemoryFigures::Part& part : model::Session(log).memory().parts) {
+        add(part.name);
+    }
+    for (const model::SegmentLength& length : model::measure({}).lengths) {
+        add(length.name);
     }
     for (std::size_t cause = 0; cause < model::kLossCauses; ++cause) {
         add(model::nameOf(static_cast<model::LossCause>(cause)));
@@ -119,7 +129,7 @@ int main() {
     }
     for (const words::Wording& row : words::wordings()) {
         for (const words::Text& text :
-             {row.headline, row.sentence, row.line, row.brief, row.cell, row.narrow}) {
+             {row.headline, row.sentence, row.line, row.brief, row.cell, row.narrow, row.advice}) {
             if (text.text != nullptr && *text.text != '\0') {
                 std::printf("%s(\"posewire::words\", %s)\n",
                             text.one != nullptr ? "QT_TRANSLATE_N_NOOP" : "QT_TRANSLATE_NOOP",

@@ -35,8 +35,10 @@ struct RestReading {
     float armsBelowLevel = 0.0F;
     /// How far the file was turned for Z up and X ahead, degrees.
     float turned = 0.0F;
-    /// What is odd about it, in sentences; empty for nothing.
-    std::vector<std::string> remarks;
+    /// In metres the body would have no person's height.
+    bool isInOtherUnit = false;
+    /// Left and right may be swapped.
+    bool pointsBackwards = false;
 };
 
 /// A joint of a body that moves as one or between two of the mannequin's.

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <string>
 
@@ -122,27 +121,16 @@ std::optional<glm::quat> turnOf(const Places& places, int quarterTurns) {
     return glm::angleAxis(angle, glm::vec3(0.0F, 0.0F, 1.0F)) * snapped(*turn);
 }
 
-/// "0.18", whatever the locale.
-std::string hundredths(float number) {
-    std::array<char, 64> text{};
-    const auto end =
-        std::to_chars(text.data(), text.data() + text.size(), number, std::chars_format::fixed, 2).ptr;
-    return {text.data(), end};
+bool isPersons(float height) {
+    return height >= kLeastHeight && height <= kMostHeight;
 }
 
 void remark(const Places& places, float ownHeight, RestReading& reading) {
-    if (reading.height < kLeastHeight || reading.height > kMostHeight) {
-        reading.remarks.push_back("The body is " + hundredths(reading.height) + " m high.");
-    } else if (ownHeight < kLeastHeight || ownHeight > kMostHeight) {
-        reading.remarks.emplace_back(
-            "In metres the body would have no person's height: another unit was taken.");
-    }
+    reading.isInOtherUnit = isPersons(reading.height) && !isPersons(ownHeight);
     if (places.has(LeftToe) && places.has(RightToe)) {
         const glm::vec3 ahead =
             places.of(LeftToe) - places.of(LeftFoot) + places.of(RightToe) - places.of(RightFoot);
-        if (ahead.x < 0.0F) {
-            reading.remarks.emplace_back("The feet point backwards: left and right may be swapped.");
-        }
+        reading.pointsBackwards = ahead.x < 0.0F;
     }
 }
 

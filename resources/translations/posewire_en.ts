@@ -113,7 +113,7 @@
     </message>
 </context>
 <context>
-    <name>posewire::gui::CharactersPanel</name>
+    <name>posewire::gui::EndedSenders</name>
     <message numerus="yes">
         <source>%n ended senders</source>
         <translation>
@@ -149,6 +149,23 @@
         <translation>
             <numerusform>%n field differs</numerusform>
             <numerusform>%n fields differ</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>posewire::gui::NullPosePanel</name>
+    <message numerus="yes">
+        <source>%n errors</source>
+        <translation>
+            <numerusform>%n error</numerusform>
+            <numerusform>%n errors</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n warnings</source>
+        <translation>
+            <numerusform>%n warning</numerusform>
+            <numerusform>%n warnings</numerusform>
         </translation>
     </message>
 </context>
@@ -281,6 +298,181 @@
         <translation>
             <numerusform>{n} object</numerusform>
             <numerusform>{n} objects</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>{n} more segments have a name that occurred before</source>
+        <translation>
+            <numerusform>{n} more segment has a name that occurred before</numerusform>
+            <numerusform>{n} more segments have a name that occurred before</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>{n} more segments have a name that occurred before.</source>
+        <translation>
+            <numerusform>{n} more segment has a name that occurred before.</numerusform>
+            <numerusform>{n} more segments have a name that occurred before.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>[Parts {parts}|The last part][ of {all}] of the newest scale message never came; {count} did.</source>
+        <translation>
+            <numerusform>[Part {parts}|The last part][ of {all}] of the newest scale message never came; {count} did.</numerusform>
+            <numerusform>[Parts {parts}|The last part][ of {all}] of the newest scale message never came; {count} did.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>{n} segments and points were left out: the scale message takes more than {limit} KB</source>
+        <translation>
+            <numerusform>{n} segment or point was left out: the scale message takes more than {limit} KB</numerusform>
+            <numerusform>{n} segments and points were left out: the scale message takes more than {limit} KB</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>{n} segments and points were left out: the scale message takes more than {limit} KB.</source>
+        <translation>
+            <numerusform>{n} segment or point was left out: the scale message takes more than {limit} KB.</numerusform>
+            <numerusform>{n} segments and points were left out: the scale message takes more than {limit} KB.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>{n} points on segments that do not exist: {names}; there are {all}</source>
+        <translation>
+            <numerusform>{n} point on segments that do not exist: {names}; there are {all}</numerusform>
+            <numerusform>{n} points on segments that do not exist: {names}; there are {all}</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>{n} points on segments that do not exist: {names}; there are {all}.</source>
+        <translation>
+            <numerusform>{n} point on segments that do not exist: {names}; there are {all}.</numerusform>
+            <numerusform>{n} points on segments that do not exist: {names}; there are {all}.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>{n} earlier scale messages arrived incomplete.</source>
+        <translation>
+            <numerusform>{n} earlier scale message arrived incomplete.</numerusform>
+            <numerusform>{n} earlier scale messages arrived incomplete.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>{n} segment names are not in the specification: {names}.</source>
+        <translation>
+            <numerusform>{n} segment name is not in the specification: {names}.</numerusform>
+            <numerusform>{n} segment names are not in the specification: {names}.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>Type 10 has no usable matrix or offset for segments {segments}: a scale must not turn a segment inside out or flatten it.</source>
+        <translation>
+            <numerusform>Type 10 has no usable matrix or offset for segment {segments}: a scale must not turn a segment inside out or flatten it.</numerusform>
+            <numerusform>Type 10 has no usable matrix or offset for segments {segments}: a scale must not turn a segment inside out or flatten it.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>{n} segments below the floor: {names}.</source>
+        <translation>
+            <numerusform>{n} segment below the floor: {names}.</numerusform>
+            <numerusform>{n} segments below the floor: {names}.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>{n} point IDs given twice: {names}.</source>
+        <translation>
+            <numerusform>{n} point ID given twice: {names}.</numerusform>
+            <numerusform>{n} point IDs given twice: {names}.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>Points and segments disagree about {n} joints: {names}.</source>
+        <translation>
+            <numerusform>Points and segments disagree about {n} joint: {names}.</numerusform>
+            <numerusform>Points and segments disagree about {n} joints: {names}.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>{n} lengths changed in mid-stream: {names}.</source>
+        <translation>
+            <numerusform>{n} length changed in mid-stream: {names}.</numerusform>
+            <numerusform>{n} lengths changed in mid-stream: {names}.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>{n} segment names are spelled otherwise than in the specification: {names}.</source>
+        <translation>
+            <numerusform>{n} segment name is spelled otherwise than in the specification: {names}.</numerusform>
+            <numerusform>{n} segment names are spelled otherwise than in the specification: {names}.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>{n} points have unfamiliar names: {names}.</source>
+        <translation>
+            <numerusform>One point has an unfamiliar name: {names}.</numerusform>
+            <numerusform>{n} points have unfamiliar names: {names}.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>{n} parts</source>
+        <translation>
+            <numerusform>{n} part</numerusform>
+            <numerusform>{n} parts</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>{n} segments</source>
+        <translation>
+            <numerusform>{n} segment</numerusform>
+            <numerusform>{n} segments</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>{n} props</source>
+        <translation>
+            <numerusform>{n} prop</numerusform>
+            <numerusform>{n} props</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>{n} datagrams have arrived from hosts that are not listened to.</source>
+        <translation>
+            <numerusform>{n} datagram has arrived from hosts that are not listened to.</numerusform>
+            <numerusform>{n} datagrams have arrived from hosts that are not listened to.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>{n} datagrams from {address}[ ({ports} ports)] are not MXTP; the newest begins with {value}[, which looks like {looks}].</source>
+        <translation>
+            <numerusform>{n} datagram from {address} is not MXTP; it begins with {value}[, which looks like {looks}].</numerusform>
+            <numerusform>{n} datagrams from {address}[ ({ports} ports)] are not MXTP; the newest begins with {value}[, which looks like {looks}].</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>MXTP behind {n} other bytes (a tunnel, or a length prefix)</source>
+        <translation>
+            <numerusform>MXTP behind {n} other byte (a tunnel, or a length prefix)</numerusform>
+            <numerusform>MXTP behind {n} other bytes (a tunnel, or a length prefix)</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>{n} samples of markers</source>
+        <translation>
+            <numerusform>{n} sample of markers</numerusform>
+            <numerusform>{n} samples of markers</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>{n} are missing: {gaps}</source>
+        <translation>
+            <numerusform>{n} is missing: {gaps}</numerusform>
+            <numerusform>{n} are missing: {gaps}</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>its sender was restarted {n} times[: {pause}]</source>
+        <translation>
+            <numerusform>its sender was restarted {n} time[: {pause}]</numerusform>
+            <numerusform>its sender was restarted {n} times[: {pause}]</numerusform>
         </translation>
     </message>
 </context>

@@ -36,7 +36,7 @@ inline std::optional<double> numberIn(const Fact& fact, std::string_view name) {
                                : std::nullopt;
 }
 
-/// Names, or what is said in their place: "4 characters", "Ana of 192.0.2.1:4000".
+/// Names, parts in words, or what is said in their place: "4 characters", "Ana of 192.0.2.1:4000".
 inline std::vector<std::string> namesIn(const Fact& fact, std::string_view name) {
     const Value* value = find(fact, name);
     if (value == nullptr) {
@@ -44,6 +44,13 @@ inline std::vector<std::string> namesIn(const Fact& fact, std::string_view name)
     }
     if (const auto* names = std::get_if<std::vector<std::string>>(value)) {
         return *names;
+    }
+    if (const auto* parts = std::get_if<std::vector<Fact>>(value)) {
+        std::vector<std::string> names;
+        for (const Fact& part : *parts) {
+            names.push_back(say(part, Form::Headline));
+        }
+        return names;
     }
     const auto* text = std::get_if<std::string>(value);
     return {text != nullptr ? *text : say(partOf(fact, name), Form::Headline)};

@@ -12,7 +12,6 @@
 
 namespace posewire::gui {
 
-/// How the operator wants what is shown compared with a second recording.
 struct ComparisonChoice {
     std::optional<exporting::AlignBy> by{}; ///< nothing: by what both have in common
     double offset = 0;                      ///< as exporting::Alignment
@@ -32,7 +31,7 @@ struct ComparisonState {
     std::optional<exporting::CharacterPair> pair;
     std::optional<exporting::Alignment> alignment; ///< in force; nothing before it is known
     double step = 1;                               ///< of its offset, for one sample
-    std::optional<model::PoseDifference> atCursor; ///< nothing where there is no partner
+    std::optional<model::PoseDifference> atCursor; ///< nothing if there is no partner
     /// Differences over the range of the figures; null before they are worked out.
     std::shared_ptr<const exporting::MotionComparison> range;
     bool isWorking = false;

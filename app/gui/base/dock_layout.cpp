@@ -46,7 +46,7 @@ Qt::Orientation orientationOf(Qt::DockWidgetArea area) {
     return area == Qt::BottomDockWidgetArea ? Qt::Horizontal : Qt::Vertical;
 }
 
-/// The first dock of the place, with the others as tabs behind it; null where the program has none of them.
+/// The first dock of the place, with the others as tabs behind it; null if the program has none of them.
 QDockWidget* putPlace(const DockLayout::Place& place, Qt::DockWidgetArea area, QMainWindow& window) {
     QDockWidget* first = nullptr;
     for (const QString& name : place.docks) {
@@ -68,7 +68,7 @@ QDockWidget* putPlace(const DockLayout::Place& place, Qt::DockWidgetArea area, Q
     return first;
 }
 
-/// How wide a column of docks at a side is, or how high the row at the bottom, in pixels.
+/// The width of a column of docks at a side, the height of the row at the bottom, in pixels.
 int extentOf(Qt::DockWidgetArea area, double share, const QMainWindow& window) {
     // A share of a small window would cut its tables: docks have room for words and rows, up to a third of
     // its width and two fifths of its height.

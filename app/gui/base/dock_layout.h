@@ -13,7 +13,7 @@
 
 namespace posewire::gui {
 
-/// Where each dock goes. Docks that are not named are closed.
+/// Docks that are not named are closed.
 struct DockLayout {
     /// One place in an area, from top to bottom (at the bottom: from left to right); several docks are tabs.
     struct Place {

@@ -53,12 +53,11 @@ parseOptions(const QStringList& arguments, const std::function<std::string()>& l
 /// else the port that MVN sends to.
 [[nodiscard]] std::vector<InputAddress> inputsToOpen(const Options& options, const InputChoices& choices);
 
-/// Whom to listen to at the start: likewise, else everyone.
 [[nodiscard]] QStringList allowedAtStart(const Options& options, const InputChoices& choices);
 
 /// "dark", "light", "system": on the command line and in files.
 [[nodiscard]] QString themeName(ThemeChoice choice);
-/// Nothing where no theme has this name.
+/// Nothing if no theme has this name.
 [[nodiscard]] std::optional<ThemeChoice> themeNamed(const QString& name);
 
 } // namespace posewire::gui

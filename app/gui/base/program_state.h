@@ -18,7 +18,7 @@ namespace posewire::gui {
 
 struct PortState {
     InputAddress port;
-    QString problem; ///< why nothing can come from it now, and what to do; empty where it can
+    QString problem;                  ///< why nothing can come from it now, and what to do; empty if it can
     std::optional<net::InputId> id{}; ///< once it is open
     net::InputStatus status{};        ///< of an open one, as last measured
     double datagramsPerSecond = 0;
@@ -45,7 +45,7 @@ struct ReceivingState {
     double datagramsPerSecond = 0;
     double bytesPerSecond = 0;
     std::vector<RelayState> relays{};
-    std::vector<net::Finding> findings{};       ///< why no characters are seen; empty where all is well
+    std::vector<words::Fact> findings{};        ///< why no characters are seen; empty if all is well
     std::vector<net::LocalAddress> addresses{}; ///< of this computer, to type into a sender, the best first
 };
 
@@ -55,7 +55,7 @@ struct PictureHealth {
     bool isPoor = false; ///< what is left out may be missed
 };
 
-/// How this program itself is doing, measured a few times a second; nothing where the system does not report
+/// How this program itself is doing, measured a few times a second; nothing if the system does not report
 /// it. Shares of a processor are of one core: 1.5 is one and a half.
 struct MonitorHealth {
     std::optional<double> bufferFill{};    ///< share of the fullest receive buffer, the most since before

@@ -56,7 +56,6 @@ struct AlertChoices {
 /// Entries that are missing or make no sense are as shipped.
 [[nodiscard]] AlertChoices alertChoicesOf(const QJsonObject& object);
 
-/// How much of what is received is kept on the disk, too.
 struct HistoryChoice {
     static constexpr int kMostGigabytes = 10'000;
     bool isOnDisk = true;

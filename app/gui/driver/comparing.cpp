@@ -235,7 +235,7 @@ void Comparing::updatePair(model::SessionView& shown) {
     }
 }
 
-/// Of the selected character; the first pair if none is selected, or it has no partner.
+/// The first pair if no character is selected or it has no partner.
 std::optional<exporting::CharacterPair> Comparing::choosePair(model::SessionView& shown) const {
     const auto& selected = shown.choices().selection.character;
     const auto pairs = exporting::pairCharacters(shown, m_file->session());

@@ -85,7 +85,6 @@ signals:
     void askForRecording();
 
 private:
-    /// What a result is of.
     struct Subject {
         const log::PacketLog* log = nullptr;
         exporting::CharacterPair pair;

@@ -14,7 +14,6 @@
 
 namespace posewire::gui {
 
-/// What files of ours say about who wrote them.
 [[nodiscard]] log::RecordingInfo writtenByUs();
 
 /// For what a log keeps of each packet, in a folder that is made if it is missing; in memory without one.

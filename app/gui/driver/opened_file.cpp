@@ -230,7 +230,7 @@ namespace {
 /// At once, so that the time that was given is kept to.
 constexpr std::size_t kPacketsInTurn = 1'000;
 
-/// Of a file that is read again when it is wanted.
+/// The file is read again if this is too little.
 constexpr std::size_t kMemoryCap = std::size_t{64} << 20;
 
 log::LogLimits limitsOf(const log::Scratch& scratch) {

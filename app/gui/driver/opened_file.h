@@ -70,7 +70,7 @@ public:
     [[nodiscard]] const QString& path() const { return m_path; }
     /// The follower has looked at all packets below one.
     void follow(std::uint64_t position);
-    /// How much of it is in the log, from 0 to 1.
+    /// From 0 to 1.
     [[nodiscard]] double share() const;
     /// Of a packet of the file, by its number; its bytes as they are there, clipped.
     using Comment = std::pair<std::uint64_t, std::string>;
@@ -123,7 +123,7 @@ public:
     [[nodiscard]] QString name() const;
 
     [[nodiscard]] bool isReading() const { return m_import != nullptr; }
-    /// How much of it was read, from 0 to 1.
+    /// From 0 to 1.
     [[nodiscard]] double share() const { return m_import == nullptr ? 1 : m_import->share(); }
     /// Follows what was read, for about as long as `most`; true if anything was new.
     bool follow(log::Duration most);

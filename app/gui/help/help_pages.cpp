@@ -46,7 +46,7 @@ qsizetype headingsWith(const QString& markdown, const QRegularExpression& word) 
         lines, [&](const QString& line) { return line.startsWith(u'#') && line.contains(word); });
 }
 
-/// How much a page is about a word; 0 where it does not have it.
+/// 0 if the page does not have the word.
 double weightOf(const HelpPage& page, const QRegularExpression& word) {
     constexpr double kTitle = 20;
     constexpr double kHeading = 6;

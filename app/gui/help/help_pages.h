@@ -39,7 +39,7 @@ public:
 
     /// In the order of their names.
     [[nodiscard]] const std::vector<HelpPage>& all() const { return m_pages; }
-    /// Null where there is none.
+    /// Null if there is none.
     [[nodiscard]] const HelpPage* find(const QString& id) const;
     [[nodiscard]] const std::vector<HelpChapter>& chapters() const { return m_chapters; }
 
@@ -54,11 +54,11 @@ private:
     std::vector<HelpChapter> m_chapters;
 };
 
-/// What is searched for: the words of a line, in small letters.
+/// The words of a line, in small letters.
 [[nodiscard]] QStringList searchedWords(const QString& line);
 
 /// "packets#filter" for the link "packets.md#filter" on any page, "page#filter" for "#filter" on `page`;
-/// empty where a link leads out of the guide.
+/// empty if a link leads out of the guide.
 [[nodiscard]] QString placeOfLink(const QString& link, const QString& page);
 
 } // namespace posewire::gui

@@ -77,7 +77,6 @@ public:
 
     void refresh();
 
-    // What the buttons do.
     void submit(); ///< adds what is typed, or changes the input that is being edited into it
     void editSelected();
     void removeSelected(); ///< until it is undone

@@ -24,7 +24,6 @@ public:
 
     void refresh();
 
-    // What the buttons do.
     void submit();
     void removeSelected(); ///< until it is undone
 

@@ -107,7 +107,6 @@ void addFigureColumns(std::vector<TableColumn<Row>>& columns) {
                                       [](const Row& row) { return ageText(row.ageS); })
                           .in({.usual = QStringLiteral("99.9"), .order = 3})
                           .withColour([](const Row& row) {
-                              // What has no rate is sent now and then.
                               const double patience = patienceAt(row.nominalHz.value_or(0));
                               return !row.nominalHz                               ? QVariant()
                                      : row.ageS >= std::max(kStaleAge, patience)  ? QVariant(theme().error)

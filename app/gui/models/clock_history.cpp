@@ -157,7 +157,7 @@ bool ClockHistory::isStraggler(const Reading& reading) {
     return m_doubtful.size() < kAgreeing;
 }
 
-/// How far the time code is off, in ms; nothing where it advanced with the samples.
+/// In ms; nothing if it advanced with the samples.
 std::optional<double> ClockHistory::jumpBetween(const Reading& before, const Reading& reading) const {
     const auto samples = static_cast<std::int32_t>(reading.sample - before.sample);
     const auto advanced = model::timeCodeStep(before.timeCode, reading.timeCode);

@@ -47,7 +47,7 @@ public:
 
     /// Header time code of the newest sample; nothing before the first.
     [[nodiscard]] std::optional<std::uint32_t> headerMs() const;
-    /// Text of the newest type 25, "10:42:17.511"; nothing where none came or it is no time code.
+    /// Text of the newest type 25, "10:42:17.511"; nothing if none came or it is no time code.
     [[nodiscard]] const std::optional<std::string>& type25() const { return m_type25; }
     /// Type 25 minus the header time code of the same datagram, in ms within half a day.
     [[nodiscard]] std::optional<double> offsetMs() const { return m_offsetMs; }
@@ -67,7 +67,7 @@ public:
     };
     [[nodiscard]] const std::optional<Jump>& lastJump() const { return m_jump; }
 
-    /// Of the newest datagram; 0 before there is one.
+    /// 0 before there is one.
     [[nodiscard]] log::Stamp lastStamp() const { return m_lastStamp; }
 
 private:
@@ -94,7 +94,6 @@ private:
     std::optional<double> m_offsetMs;
 };
 
-/// Which clock of the sender the large figures show.
 enum class ClockChoice { Header, Type25 };
 
 /// "00:10:39.175", or dashes where there is none.

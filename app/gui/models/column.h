@@ -17,7 +17,7 @@
 
 namespace posewire::gui {
 
-/// What a cell may have besides its text; CellDelegate paints it.
+/// Painted by CellDelegate.
 inline constexpr int kDotRole = Qt::UserRole + 1;       ///< CharacterMark before the text
 inline constexpr int kSwatchRole = Qt::UserRole + 2;    ///< QColor: a square before the text
 inline constexpr int kSuffixRole = Qt::UserRole + 3;    ///< QString: dim text after the text
@@ -30,7 +30,6 @@ inline constexpr int kMarksRole = Qt::UserRole + 6;
 /// ColumnRoom of a horizontal header.
 inline constexpr int kRoomRole = Qt::UserRole + 9;
 
-/// How wide FittingHeader makes a column, by texts that fit into it.
 struct ColumnRoom {
     static constexpr int kOnChoice = -1;
 
@@ -43,7 +42,7 @@ struct ColumnRoom {
                          ///< has before its first letter if that begins with a blank
 };
 
-/// What one cell says, made whenever it is painted: in shape, colour and text.
+/// Made whenever the cell is painted.
 struct PropertyValue {
     QString text{};
     Health health = Health::Unknown; ///< other than Unknown: shown with its symbol and colour
@@ -53,7 +52,7 @@ struct PropertyValue {
     [[nodiscard]] QString display() const;
     /// The same without a symbol, for screen readers: "warning, 31".
     [[nodiscard]] QString spoken() const;
-    /// Of the health; nothing where it is unknown.
+    /// Nothing if the health is unknown.
     [[nodiscard]] QVariant colour() const;
 };
 

@@ -61,10 +61,10 @@ QString comparisonText(const ComparisonState& state) {
     if (!state.alignment) {
         return tr("compared with %1").arg(state.name);
     }
-    const QString by = alignedByText(state.alignment->by).toLower();
+    const QString by = alignedByText(state.alignment->by);
     const QString offset = offsetText(*state.alignment);
-    const QString text = tr("compared with %1 by %2").arg(state.name, by);
-    return offset.isEmpty() ? text : text + QStringLiteral(", ") + offset;
+    return offset.isEmpty() ? tr("compared with %1 · %2").arg(state.name, by)
+                            : tr("compared with %1 · %2, %3").arg(state.name, by, offset);
 }
 
 QStringList comparedText(const ComparisonState& state) {

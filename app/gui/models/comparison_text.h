@@ -16,13 +16,13 @@ namespace posewire::gui {
 /// "+12.5 ms", "−3 samples"; empty for none.
 [[nodiscard]] QString offsetText(const exporting::Alignment& alignment);
 
-/// "compared with take-2.pcapng by time code, +12.5 ms"; empty where nothing is compared.
+/// "compared with take-2.pcapng · Time code, +12.5 ms"; empty if nothing is compared.
 [[nodiscard]] QString comparisonText(const ComparisonState& state);
 
 /// How much of the range was compared, and what the operator must know of that; a few words each.
 [[nodiscard]] QStringList comparedText(const ComparisonState& state);
 
-/// How differences are coloured, in the viewport and in tables: from good over warning to error.
+/// From good over warning to error.
 struct DifferenceScale {
     double full = 10; ///< mm, from here on it is an error's colour
 

@@ -123,7 +123,6 @@ PropertyValue accounting(const Source& from) {
             isLate || health.followShare > kMuchFollowing ? Health::Warning : Health::Unknown};
 }
 
-/// What the session keeps, and the viewport.
 model::MemoryFigures memoryFigures(const Source& from) {
     model::MemoryFigures figures = from.view.memory();
     const MonitorHealth& health = from.monitor;

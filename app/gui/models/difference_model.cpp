@@ -17,7 +17,7 @@ using Row = DifferenceRow;
 using DifferenceColumn = TableColumn<Row>;
 using exporting::DifferenceFigures;
 
-/// What a column shows; NaN for nothing.
+/// NaN for nothing.
 double valueIn(const Row& row, int column) {
     constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
     const auto now = [&](double model::SegmentDifference::*value) {

@@ -8,10 +8,9 @@
 
 namespace posewire::gui {
 
-/// How far a segment of what is shown is from that of the second recording.
 struct DifferenceRow {
     int slot = 0;                                  ///< see model::kAllSegments
-    std::optional<model::SegmentDifference> now{}; ///< nothing where there is no partner
+    std::optional<model::SegmentDifference> now{}; ///< nothing if there is no partner
     std::optional<exporting::SegmentFigures> range{};
     QColor colour{}; ///< as in the viewport; none without a partner
 };
@@ -39,7 +38,7 @@ public:
     void refresh(const ComparisonState& state);
     void sort(int column, Qt::SortOrder direction) override;
 
-    /// -1 where there is none.
+    /// -1 if there is none.
     [[nodiscard]] int rowOf(int slot) const;
 
 private:

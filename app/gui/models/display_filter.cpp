@@ -30,7 +30,6 @@ QString expression(const char* field, const std::string& value) {
     return QString::fromStdString(filter::expressionFor(field, value));
 }
 
-/// Of those that are given.
 QStringList conditionsOf(std::optional<std::uint8_t> type, std::optional<std::uint8_t> character,
                          const model::Sender* source) {
     QStringList conditions;
@@ -58,7 +57,7 @@ QString anySource(const model::SessionView& view, const std::set<log::SenderId>&
     return sources.size() < 2 ? any : QLatin1Char('(') + any + QLatin1Char(')');
 }
 
-/// What packets have at which such a thing happened; null where no packet shows it.
+/// What packets have at which such a thing happened; null if no packet shows it.
 const char* conditionOf(model::IncidentKind kind) {
     using enum model::IncidentKind;
     constexpr std::pair<model::IncidentKind, const char*> kConditions[] = {

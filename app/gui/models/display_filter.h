@@ -23,7 +23,7 @@ enum class PacketLook {
 
 /// Selects such a packet and brings the list of packets to the front. In its context the operator's own
 /// filter stays; where that would hide the packet, it lets these through as well. Commands::goBack() brings
-/// back what was filtered and selected before. False where none of them is in memory: nothing happens then.
+/// back what was filtered and selected before. False if none of them is in memory: nothing happens then.
 bool showPackets(model::SessionView& view, Commands& commands, const PacketsBehind& behind, PacketLook look);
 
 /// True if a display filter lets a packet through, or cannot be read; false if the log has dropped the
@@ -68,10 +68,9 @@ struct LossesSought {
 /// For the packets at which an event happened; empty for what no packet shows.
 [[nodiscard]] QString packetFilterOf(model::SessionView& view, const model::Incident& event);
 
-/// For packets that have in common what a cell of the packet list says; empty where nothing could say it.
+/// For packets that have in common what a cell of the packet list says; empty if nothing could say it.
 [[nodiscard]] QString packetCellFilter(model::SessionView& view, std::uint64_t number, int column);
 
-/// How a condition joins the filter there is.
 enum class FilterJoin { Replace, And, Or, AndNot };
 [[nodiscard]] QString joinedFilter(const QString& filter, const QString& condition, FilterJoin join);
 

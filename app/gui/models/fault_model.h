@@ -20,7 +20,6 @@ struct FaultRow {
     model::FaultCounts counts{};
     std::vector<log::StreamKey> streams{}; ///< that it sums
 
-    /// Whether it is the same row as another, whatever the counts.
     [[nodiscard]] bool isSame(const FaultRow& other) const {
         return kind == other.kind && first == other.first && type == other.type;
     }

@@ -28,16 +28,13 @@ Health worse(Health a, Health b) {
     return rank(b) > rank(a) ? b : a;
 }
 
-// What is wrong, in sentences that an operator can act on.
-
-/// "Segment 16 · Left Upper Leg, orientation".
+/// "Segment 16 · Left Upper Leg · Orientation".
 QString place(const FieldDocument& document, std::int32_t node) {
     const std::int32_t item = document.itemOf(node);
     const QString field = fieldTitle(document, node);
-    return item < 0 || item == node ? field : tr("%1, %2").arg(fieldTitle(document, item), field.toLower());
+    return item < 0 || item == node ? field : fieldTitle(document, item) + QStringLiteral(" · ") + field;
 }
 
-/// What the field that reading ended in lacks.
 QString cutText(const FieldDocument& document) {
     const wire::FieldTree& tree = document.tree;
     const wire::WireError& error = tree.cutError;
@@ -95,7 +92,6 @@ QString faultText(const FieldDocument& document) {
     return tr("malformed: %1 (byte %2)").arg(both, grouped(offset));
 }
 
-/// What bytes are that are no datagram.
 QString outsideText(const FieldDocument& document) {
     return document.kind == model::PacketKind::Skipped
                ? tr("skipped: bytes of a byte stream that belong to no datagram")

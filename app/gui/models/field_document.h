@@ -26,10 +26,9 @@ struct FieldProblem {
     QString text;
     std::uint32_t offset = 0;
     std::uint32_t length = 0;
-    std::int32_t node = -1; ///< of the tree, -1 where it concerns the whole packet
+    std::int32_t node = -1; ///< of the tree, -1 if it concerns the whole packet
 };
 
-/// Of a node in what is kept for each.
 inline std::size_t nodeIndex(std::int32_t node) {
     return static_cast<std::size_t>(node);
 }
@@ -57,34 +56,33 @@ struct FieldDocument {
         return tree.nodes[static_cast<std::size_t>(index)];
     }
     [[nodiscard]] std::int32_t count() const { return static_cast<std::int32_t>(tree.nodes.size()); }
-    /// Of -1: those at the top.
     [[nodiscard]] std::span<const std::int32_t> children(std::int32_t node) const;
-    /// The item that a node belongs to (or is); -1 where it is in none.
+    /// The item that a node belongs to (or is); -1 if it is in none.
     [[nodiscard]] std::int32_t itemOf(std::int32_t node) const;
     /// The innermost node on a byte; of those that share it (bits) the whole.
     [[nodiscard]] std::int32_t nodeAt(std::uint32_t offset) const;
-    /// The node of that path; -1 where there is none.
+    /// The node of that path; -1 if there is none.
     [[nodiscard]] std::int32_t find(const std::string& path) const;
 
     [[nodiscard]] bool isInHeader(std::int32_t node) const;
-    /// The number of the item's field that refers to `what`; nothing where there is none or it is cut off.
+    /// The number of the item's field that refers to `what`; nothing if there is none or it is cut off.
     [[nodiscard]] std::optional<std::uint32_t> numberOf(std::int32_t item, wire::RefersTo what) const;
     /// The point that an id of this datagram names; nothing for tags.
     [[nodiscard]] std::optional<model::PointReference> pointOf(std::uint32_t id) const {
         return model::knownPoint(m_coding, id);
     }
 
-    /// Where an item stands in its message, from 0: a sample may come in several datagrams. -1 where that is
+    /// Where an item stands in its message, from 0: a sample may come in several datagrams. -1 if that is
     /// not known.
     [[nodiscard]] int placeOf(std::int32_t item) const;
     /// What a node is called in every datagram that has it, whatever part of the sample that is.
     [[nodiscard]] std::string lastingPath(std::int32_t node) const;
 
-    /// Position in a pose datagram of the segment that a node is about, -1 where it is about none.
+    /// Position in a pose datagram of the segment that a node is about, -1 if it is about none.
     [[nodiscard]] int segmentOf(std::int32_t node) const;
-    /// The item about a segment; -1 where there is none.
+    /// The item about a segment; -1 if there is none.
     [[nodiscard]] std::int32_t nodeOfSegment(int segment) const;
-    /// "Right Upper Arm": what the segment of an item is called; empty where it has no name.
+    /// "Right Upper Arm": what the segment of an item is called; empty if it has no name.
     [[nodiscard]] std::string_view segmentTitle(std::int32_t item) const;
 
     /// The worst that is wrong with the node itself, and with what is below it.

@@ -3,7 +3,6 @@
 
 #include "app/gui/models/field_document.h"
 
-/// How fields are shown to people.
 namespace posewire::gui {
 
 /// "Segment 7 · Head", "Free acceleration".

@@ -18,8 +18,8 @@ namespace posewire::gui {
 struct IncidentLine {
     using Incident = model::Incident;
 
-    const Incident* settled = nullptr; ///< null where nothing of it is settled
-    const Incident* pending = nullptr; ///< what late packets may still bring; null where there is none
+    const Incident* settled = nullptr; ///< null if nothing of it is settled
+    const Incident* pending = nullptr; ///< what late packets may still bring; null if there is none
     model::ListedIncident::State state{};
     bool isPart = false;
     const Incident::Part* settledPart = nullptr;
@@ -50,7 +50,6 @@ public:
         kGroup,
     };
 
-    /// What is listed.
     struct Filter {
         bool onlyCurrent = false;
         std::array<bool, 3> severities{true, true, true};   ///< by IncidentSeverity
@@ -77,10 +76,10 @@ public:
         std::size_t unseen = 0;
         std::array<std::size_t, 3> severities{}; ///< by IncidentSeverity
     };
-    /// Of all that is settled, whatever the filter.
+    /// Settled incidents, whatever the filter.
     [[nodiscard]] Counts counts() const;
 
-    /// Nothing where it is gone. Valid until the next refresh.
+    /// Nothing if it is gone. Valid until the next refresh.
     [[nodiscard]] std::optional<IncidentLine> line(const QModelIndex& index) const;
     /// The row of an incident as a whole; invalid where it is not listed.
     [[nodiscard]] QModelIndex indexOf(std::uint64_t number) const;
@@ -107,7 +106,7 @@ private:
 
     [[nodiscard]] std::optional<IncidentLine> whole(Key key) const;
     [[nodiscard]] bool matches(const IncidentLine& line) const;
-    /// Which incident something that is not here yet belongs to, as far as can be told; nothing where it may
+    /// Which incident something that is not here yet belongs to, as far as can be told; nothing if it may
     /// become one of its own.
     [[nodiscard]] std::optional<Key> hostOf(const model::Incident& pending) const;
     /// Reads what may change without the list: whether any did.

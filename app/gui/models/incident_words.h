@@ -25,11 +25,10 @@ namespace posewire::gui {
 [[nodiscard]] QString helpPlaceOf(model::LossCause cause);
 
 /// The packet where the newest of it is to be seen: its own, or the last one before where it has none.
-/// Nothing where the log has dropped it.
+/// Nothing if the log has dropped it.
 [[nodiscard]] std::optional<std::uint64_t> incidentPacket(model::SessionView& view,
                                                           const model::Incident& incident);
 
-/// What shows an incident, or one part of it.
 [[nodiscard]] PacketsBehind packetsBehind(model::SessionView& view, const model::Incident& incident,
                                           const model::Incident::Part* part = nullptr);
 

@@ -115,11 +115,11 @@ std::vector<MetadataColumn> metadataColumns(model::SessionView& view) {
 
 using Key = model::CharacterKey;
 
-QString withEvidence(const QString& conclusion, const std::string& evidence) {
-    return evidence.empty() ? conclusion : conclusion + QStringLiteral(" · ") + translatedText(evidence);
+QString withEvidence(words::Kind conclusion, const words::Fact& evidence) {
+    const QString text = said(conclusion, words::Form::Headline);
+    return evidence.isNothing() ? text : text + QStringLiteral(" · ") + said(evidence, words::Form::Headline);
 }
 
-/// What was detected about a sender, unless the operator has said something else.
 PropertyValue concluded(const QString& detected, const std::optional<QString>& said, const QString& toolTip) {
     if (!said) {
         return {detected, Health::Unknown, toolTip};
@@ -128,29 +128,25 @@ PropertyValue concluded(const QString& detected, const std::optional<QString>& s
             toolTip + QLatin1Char('\n') + tr("Detected: %1").arg(detected)};
 }
 
-QString unitText(model::LengthUnit unit) {
-    return unit == model::LengthUnit::Metre ? tr("metres") : tr("centimetres");
-}
-
 PropertyValue revision(const model::Sender& sender) {
     const model::Detection& found = sender.detector.result();
-    const auto said = sender.overrides.revision
-                          ? std::optional(translatedText(model::revisionName(sender.revision())))
-                          : std::nullopt;
-    return concluded(
-        withEvidence(translatedText(model::revisionName(found.revision)), found.revisionEvidence), said,
-        tr("Revision of the specification that this sender follows · the evidence"));
+    const auto own = sender.overrides.revision
+                         ? std::optional(said(model::revisionName(sender.revision()), words::Form::Headline))
+                         : std::nullopt;
+    return concluded(withEvidence(model::revisionName(found.revision), found.revisionEvidence), own,
+                     tr("Revision of the specification that this sender follows · the evidence"));
 }
 
 PropertyValue units(const model::Sender& sender) {
     const model::Detection& found = sender.detector.result();
-    const auto said =
-        sender.overrides.positionUnit ? std::optional(unitText(sender.positionUnit())) : std::nullopt;
+    const auto own = sender.overrides.positionUnit
+                         ? std::optional(said(model::unitName(sender.positionUnit()), words::Form::Headline))
+                         : std::nullopt;
     return concluded(
-        found.unitEvidence.empty() ? tr("not known before type 02")
-                                   : withEvidence(unitText(found.positionUnit), found.unitEvidence),
-        said,
-        tr("Unit of positions in types 02, 05, 21 and 24, judged by the size of a body · the evidence"));
+        found.unitEvidence.isNothing()
+            ? tr("not known before type 02")
+            : withEvidence(model::unitName(found.positionUnit), found.unitEvidence),
+        own, tr("Unit of positions in types 02, 05, 21 and 24, judged by the size of a body · the evidence"));
 }
 
 PropertyValue address(const model::Sender& sender) {
@@ -184,7 +180,7 @@ PropertyValue nullPose(model::SessionView& view, const Key& key) {
             .arg(timeOfDay(view.wallOf(pose->stamp)))};
 }
 
-/// What was concluded about a character besides its tags. `key` is read whenever a value is.
+/// Reads `key` whenever a value is read.
 std::vector<Property> characterFacts(model::SessionView& view, const std::optional<Key>& key) {
     const auto ofSender = [&view, &key](const QString& label, PropertyValue (*read)(const model::Sender&)) {
         return Property{label, [&view, &key, read] {

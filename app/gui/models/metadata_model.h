@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/gui/models/column.h"
+#include "core/model/session/metadata.h"
 #include "core/model/session/session_view.h"
 
 #include <optional>

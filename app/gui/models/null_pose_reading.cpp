@@ -221,9 +221,10 @@ Health healthOf(model::Severity severity) {
 QString findingsText(const std::vector<model::NullPoseFinding>& findings) {
     QString text;
     for (const model::NullPoseFinding& finding : findings) {
-        const Health health = healthOf(finding.severity);
+        const Health health = healthOf(finding.severity());
         text += (health == Health::Unknown ? QStringLiteral("○") : healthSymbol(health)) + QLatin1Char(' ') +
-                fromUtf8(finding.what + ' ' + finding.meaning + '\n');
+                said(finding.fact, words::Form::Sentence) + QLatin1Char(' ') +
+                said(finding.fact, words::Form::Advice) + QLatin1Char('\n');
     }
     return text;
 }

@@ -14,7 +14,7 @@
 
 namespace posewire::gui {
 
-/// What a list says about one packet. Holds nothing of the packet's memory, so it may be kept.
+/// Holds nothing of the packet's memory, so it may be kept.
 struct PacketFacts {
     std::uint64_t number = 0;
     log::Stamp stamp{};
@@ -22,10 +22,10 @@ struct PacketFacts {
     std::size_t size = 0;
     model::PacketDigest digest;
     std::optional<wire::Header> header;
-    QString findings; ///< all that is wrong or odd, in words; empty where nothing is
+    QString findings; ///< all that is wrong or odd, in words; empty if nothing is
 };
 
-/// Nothing where the log has dropped the packet or the session has not followed so far.
+/// Nothing if the log has dropped the packet or the session has not followed so far.
 [[nodiscard]] std::optional<PacketFacts> packetFacts(model::SessionView& view, std::uint64_t number);
 
 /// True for bytes that are no datagram.

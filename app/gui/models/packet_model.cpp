@@ -24,7 +24,6 @@ using namespace std::chrono_literals;
 
 constexpr int kTimeDecimals = 4;
 constexpr double kMsPerSecond = 1000;
-/// What the rows of a table can count.
 constexpr std::uint64_t kMostRows = std::numeric_limits<int>::max() - 1;
 
 bool describesBody(std::uint8_t type) {

@@ -45,7 +45,7 @@ public:
 
     /// The packet's number; the row must be one of the list.
     [[nodiscard]] std::uint64_t packetAt(int row) const;
-    /// -1 where the packet is not listed.
+    /// -1 if the packet is not listed.
     [[nodiscard]] int rowOf(std::uint64_t number) const;
     /// The first row at or after a packet; rowCount() where there is none.
     [[nodiscard]] int rowFrom(std::uint64_t number) const;
@@ -89,7 +89,6 @@ private:
     mutable std::optional<PacketFacts> m_facts; ///< of the row last asked for, until the next refresh()
 };
 
-/// How the bytes of a packet can be copied.
 enum class ByteFormat {
     Text,   ///< offsets, sixteen bytes a line in hexadecimal, the readable ones beside them
     Raw,    ///< hexadecimal digits and nothing else
@@ -97,7 +96,7 @@ enum class ByteFormat {
     Json,   ///< the object that `posewire-cli decode --json` writes
 };
 
-/// Empty where the log has dropped the packet.
+/// Empty if the log has dropped the packet.
 [[nodiscard]] QString packetBytesText(model::SessionView& view, std::uint64_t number, ByteFormat format);
 
 /// Rows as they stand in the list, cells set apart by tabs, one line each.

@@ -48,7 +48,6 @@ public:
     [[nodiscard]] bool empty() const { return size() == 0; }
     /// The number at a place, which is below size().
     [[nodiscard]] std::uint64_t operator[](std::size_t place) const;
-    /// How many are below a number.
     [[nodiscard]] std::size_t placeOf(std::uint64_t number) const;
 
 private:
@@ -89,7 +88,6 @@ private:
     wire::Datagram m_datagram;
 };
 
-/// What is looked for in the bytes of packets.
 struct BytePattern {
     std::vector<std::byte> bytes;
     bool ignoresCase = false; ///< of the letters a to z
@@ -99,7 +97,7 @@ struct BytePattern {
 /// spaces, commas or "0x" where one likes. The error says what is wrong.
 [[nodiscard]] tl::expected<BytePattern, QString> parsePattern(const QString& text, bool isHexadecimal);
 
-/// Where a pattern begins in bytes; nothing where it does not occur.
+/// Nothing if the pattern does not occur.
 [[nodiscard]] std::optional<std::size_t> findPattern(const BytePattern& pattern, wire::Bytes bytes);
 
 /// Looks for a pattern in the packets of a log, on a thread of its own, from a packet on in one direction and
@@ -152,7 +150,7 @@ public:
     void cancel() { m_thread.request_stop(); }
     [[nodiscard]] bool isCancelled() const { return m_thread.get_stop_token().stop_requested(); }
 
-    /// How far it is. Up to date where `done` has come to `total`.
+    /// Up to date if `done` has come to `total`.
     struct Progress {
         std::uint64_t done = 0;  ///< packets that it is through with
         std::uint64_t total = 0; ///< packets handed to it

@@ -92,8 +92,8 @@ PropertyValue relayStage(const RelayState& relay) {
 namespace {
 
 /// Without words.
-Advice adviceOf(net::Finding::Kind kind) {
-    using Found = net::Finding::Kind;
+Advice adviceOf(words::Kind kind) {
+    using Found = words::Kind;
     using Topic = HelpTopic;
     switch (kind) {
     case Found::NoInput:
@@ -102,7 +102,7 @@ Advice adviceOf(net::Finding::Kind kind) {
         return {Health::Error, {}, {}, Topic::CannotListen};
     case Found::AddressGone:
         return {Health::Error, {}, {}, Topic::NothingArrives, true};
-    case Found::NotMxtp:
+    case Found::ForeignDatagrams:
         return {Health::Warning, {}, {}, Topic::NotMxtp};
     case Found::GarbledPeer:
         return {Health::Warning, {}, {}, Topic::NotMxtp, true};
@@ -119,23 +119,14 @@ Advice adviceOf(net::Finding::Kind kind) {
     }
 }
 
-QString sentence(const std::string& text) {
-    QString sentence = QString::fromStdString(text).trimmed();
-    if (!sentence.isEmpty()) {
-        sentence[0] = sentence[0].toUpper();
-        sentence += sentence.endsWith(QLatin1Char('.')) ? QString() : QStringLiteral(".");
-    }
-    return sentence;
-}
-
 } // namespace
 
 std::vector<Advice> adviceOn(const ReceivingState& receiving) {
     std::vector<Advice> all;
-    for (const net::Finding& finding : receiving.findings) {
+    for (const words::Fact& finding : receiving.findings) {
         all.push_back(adviceOf(finding.kind));
-        all.back().text = sentence(finding.text);
-        all.back().remedy = sentence(finding.remedy);
+        all.back().text = said(finding, words::Form::Sentence);
+        all.back().remedy = said(finding, words::Form::Advice);
     }
     return all;
 }

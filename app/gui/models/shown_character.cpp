@@ -28,7 +28,7 @@ std::vector<const model::Character*> namesakesOf(const model::SessionView& view,
     return others;
 }
 
-/// Where the port begins, with its colon.
+/// Includes the colon.
 qsizetype portAt(const QString& address) {
     return std::max<qsizetype>(0, address.lastIndexOf(QLatin1Char(':')));
 }
@@ -140,7 +140,7 @@ QString staleText(double ageSeconds, double rateHz) {
 
 namespace {
 
-/// What the time without data says; nothing before a stream is silent.
+/// Nothing before a stream is silent.
 PropertyValue ageState(double age, double rateHz) {
     const double patience = patienceAt(rateHz);
     if (const QString stale = staleText(age, rateHz); !stale.isEmpty()) {

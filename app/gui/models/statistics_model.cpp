@@ -70,7 +70,7 @@ constexpr std::array<Column, kStatisticsColumns> kColumns{{
 constexpr log::Duration kLeastPart = std::chrono::milliseconds(500);
 constexpr log::Duration kLeastOverviewPart = std::chrono::seconds(1);
 
-/// A figure as it is shown; empty where the row has none of that kind.
+/// A figure as it is shown; empty if the row has none of that kind.
 QString figureText(const model::StreamFigures& figures, model::Figure figure) {
     const model::FigureStyle& style = model::rowOf(figure).style;
     const double value = figures[figure];
@@ -102,7 +102,7 @@ QString figureNumber(const model::StreamFigures& figures, model::Figure figure) 
     return QString::number(isZero ? 0 : value, 'f', style.digits.window);
 }
 
-/// Whether a figure is one to look at. Unknown for all that is neither good nor bad.
+/// Unknown for all that is neither good nor bad.
 Health figureHealth(const model::StreamFigures& figures, model::Figure figure) {
     using enum Health;
     constexpr std::array kHealths{Unknown, Unknown, Warning, Error}; // by FigureTrouble

@@ -28,12 +28,12 @@ public:
     StreamTreeModel(model::SessionView& view, std::vector<TableColumn<StreamRow>> columns,
                     QObject* parent = nullptr);
 
-    /// What a row is about; nothing above its own level is filled in for senders.
+    /// Nothing above its own level is filled in for senders.
     [[nodiscard]] std::optional<model::CharacterKey> character(const QModelIndex& index) const;
     [[nodiscard]] std::optional<log::SenderId> sender(const QModelIndex& index) const;
     /// Of the row of a sender: others have taken over all its characters.
     [[nodiscard]] bool isEnded(const QModelIndex& index) const;
-    /// Null where the row is not one of a stream.
+    /// Null if the row is not one of a stream.
     [[nodiscard]] const model::Stream* stream(const QModelIndex& index) const;
     /// The row of a character, or an invalid index.
     [[nodiscard]] QModelIndex indexOf(const model::CharacterKey& key) const;
@@ -47,7 +47,6 @@ protected:
     /// senders were retired the model is reset; true then.
     bool insertNew();
     [[nodiscard]] const StreamRow& rowOf(const QModelIndex& index) const;
-    // What a row is of. Cells are asked for only where it is there.
     [[nodiscard]] const model::Sender& senderOf(const StreamRow& row) const {
         return *m_view.roster().find(row.key.sender);
     }
@@ -69,14 +68,13 @@ private:
     using Nodes = std::unordered_map<log::StreamKey, int>;
 
     [[nodiscard]] std::vector<StreamRow> rowsWithout(Kind kind) const;
-    /// Adds the rows without a node that have the same parent as the first of them. False where none has.
+    /// Adds the rows without a node that have the same parent as the first of them. False if none has.
     bool insert(Kind kind);
     void insertStreams();
-    /// Where a row belongs among those of its parent.
     [[nodiscard]] int placeBelow(int parent, const StreamRow& row) const;
     /// With all that belongs under it.
     void addNode(const StreamRow& row, int parent);
-    /// -1 for the top; nothing where the parent has no node yet.
+    /// -1 for the top; nothing if the parent has no node yet.
     [[nodiscard]] std::optional<int> parentOf(const StreamRow& row) const;
     [[nodiscard]] bool isThere(const StreamRow& row) const;
 

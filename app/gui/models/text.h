@@ -18,9 +18,7 @@
 /// How figures are written everywhere in the window: fixed decimals, a true minus, thousands set apart.
 namespace posewire::gui {
 
-/// What a sender wrote, as a text of the window.
 [[nodiscard]] QString shown(const model::ForeignText& text);
-/// The same of a text that the core keeps as it came.
 [[nodiscard]] QString shownText(std::string_view bytes);
 
 /// UTF-8 of the core's own words as a text of the window.

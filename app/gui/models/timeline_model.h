@@ -48,7 +48,6 @@ public:
     /// Shows or hides the streams of a character.
     void toggle(const model::CharacterKey& key);
 
-    /// How far apart parts lie to which something came, in parts, as most do; 0 where there are too few.
     [[nodiscard]] static std::size_t spacingOf(const std::vector<model::RangePart>& parts);
     /// From one part to before another: where nothing came for longer than that, between what came.
     using Gap = std::pair<std::size_t, std::size_t>;

@@ -296,7 +296,6 @@ std::vector<Property> trackerFacts(const TrackerModel& trackers) {
                             return tracker == nullptr ? PropertyValue{} : read(*tracker);
                         }};
     };
-    // What was sent, neither good nor bad.
     const auto sent = [&row](const QString& label, const QString& help, auto text) {
         return row(label, [text, help](const auto& tracker) {
             return PropertyValue{text(tracker), Health::Unknown, help};

@@ -23,7 +23,7 @@ public:
     /// assumption from published data sheets, since the stream does not say.
     static constexpr float kSaturatedAcceleration = 156.0F;   ///< m/s²
     static constexpr float kSaturatedAngularVelocity = 34.0F; ///< rad/s
-    /// How far the norm of the magnetic field may be from its own median.
+    /// The norm of the magnetic field may be this far from its own median.
     static constexpr double kDisturbedShare = 0.15;
 
     /// Takes in what is new; starts over where character or tracker change or the cursor went back.
@@ -42,7 +42,7 @@ public:
     /// Median of a tracker's magnetic field norm over the last minute read; nothing before its first second.
     [[nodiscard]] std::optional<float> magneticMedian(std::uint32_t trackerId) const;
     [[nodiscard]] bool isDisturbed(const wire::Tracker& tracker) const;
-    /// Whether a component reached full scale within the last ten seconds.
+    /// Within the last ten seconds.
     [[nodiscard]] bool isSaturated(std::uint32_t trackerId) const;
 
 private:
@@ -84,7 +84,7 @@ public:
 
     void refresh();
 
-    /// The tracker to be looked at closely: that of the selected segment, else the first. Null where there is
+    /// The tracker to be looked at closely: that of the selected segment, else the first. Null if there is
     /// no tracker.
     [[nodiscard]] const wire::Tracker* shown() const;
     [[nodiscard]] int shownRow() const { return m_shownRow; }
@@ -99,7 +99,7 @@ public:
     [[nodiscard]] bool isStale() const { return !m_stale.isEmpty(); }
     /// "stale 3.2 s"; empty while it is not.
     [[nodiscard]] const QString& staleText() const { return m_stale; }
-    /// What is wrong with a tracker; good and without text where nothing is.
+    /// Good and without text if all is well.
     [[nodiscard]] PropertyValue state(const wire::Tracker& tracker) const;
 
 private:

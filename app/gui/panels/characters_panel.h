@@ -39,7 +39,7 @@ public:
     [[nodiscard]] bool isDetailShown() const;
     void toggleDetail() { setDetailShown(!isDetailShown()); }
 
-    // Of the selected character; it is said where none is.
+    // Says so if no character is selected.
     void frameSelected();
     /// Hides all others; shows all again where that is so already, or none is selected and some are hidden.
     void soloSelected();

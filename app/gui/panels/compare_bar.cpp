@@ -177,7 +177,7 @@ void CompareBar::refresh(const ComparisonState& state) {
     }
     const auto& [by, offset, frame, pair, isBeside] = state.choice;
     setText(*m_by, 0,
-            state.alignment && !by ? tr("Automatic: %1").arg(alignedByText(state.alignment->by).toLower())
+            state.alignment && !by ? tr("Automatic: %1").arg(alignedByText(state.alignment->by))
                                    : tr("Automatic"));
     m_by->setCurrentIndex(by ? 1 + static_cast<int>(std::ranges::find(kAlignments, *by) - kAlignments.begin())
                              : 0);

@@ -103,7 +103,6 @@ namespace {
 
 using exporting::DifferenceCourse;
 
-/// Of the selected segment over that of all.
 TimePlot* makePlot(QWidget* parent) {
     auto* plot = new TimePlot(ComparePanel::tr("Differences over time"), 1, parent);
     for (const double least : {1.0, 0.5}) { // mm, degrees

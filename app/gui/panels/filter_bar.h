@@ -30,7 +30,7 @@ public:
     /// Puts the keyboard into the line.
     void focusLine();
 
-    /// Says that a jump put the filter there, and what was filtered by before; nothing where none did.
+    /// Says that a jump put the filter there, and what was filtered by before; nothing if none did.
     void setJump(const std::optional<QString>& before);
 
     /// How far a filter has come through what was there when it was set, as a share; nothing while none is on
@@ -75,7 +75,6 @@ private:
     std::vector<Saved> m_saved;
 };
 
-/// What ships.
 [[nodiscard]] std::vector<FilterBar::Saved> defaultFilters();
 
 } // namespace posewire::gui

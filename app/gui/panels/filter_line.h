@@ -28,9 +28,7 @@ public:
     void setApplied(const QString& filter);
     /// Applies what is written, if it is right.
     void apply();
-    /// Whether what is written is right; says what is wrong.
     bool check();
-    /// What is wrong with the text in the line; empty if it is right.
     [[nodiscard]] const std::optional<filter::FilterError>& error() const { return m_error; }
 
     /// Filters used before, the newest first.

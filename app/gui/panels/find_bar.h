@@ -41,7 +41,7 @@ private:
     void close();
     void showKind();
     void takeResult();
-    /// What came of it; `isProblem` makes it red.
+    /// `isProblem` makes it red.
     void say(const QString& text, bool isProblem);
 
     ComboBox* m_kind;

@@ -31,12 +31,11 @@ public:
 
     void setModel(QAbstractItemModel* model) override;
 
-    /// Whether there are columns that leave or are shown only if chosen.
     [[nodiscard]] bool isChoosable() const;
     /// The columns that the operator chose, by their titles as they were at first; none for the usual ones.
     /// Titles of no column are left out.
     void setChosen(const QStringList& columns);
-    /// The same as a panel keeps it: "columns", or nothing where the operator chose none.
+    /// The same as a panel keeps it: "columns", or nothing if the operator chose none.
     [[nodiscard]] QJsonObject state() const;
     void restore(const QJsonObject& state);
     /// One entry for each column that can be chosen.
@@ -48,10 +47,10 @@ public:
     /// sight: a figure that is cut would be another one. Once there, the width stays.
     void keepWhole(const QModelIndex& row);
     void keepWhole();
-    /// Where the words of the last title in sight end, in pixels from the left.
+    /// In pixels from the left.
     [[nodiscard]] int titlesEnd() const;
     /// Puts a button at the end of the line of titles, with the first of these words that cover none of them.
-    /// False where all would: it has the first words then, and covers one.
+    /// False if all would: it has the first words then, and covers one.
     bool seat(QAbstractButton& button, const QStringList& words) const;
     /// The next column that is shown; the same one at the end.
     [[nodiscard]] int columnBeside(int column, int direction) const;

@@ -197,7 +197,6 @@ IncidentsPanel::~IncidentsPanel() {
     m_table->verticalScrollBar()->disconnect(this);
 }
 
-/// What somebody elsewhere asked for, once.
 void IncidentsPanel::showAskedFor() {
     const model::IncidentRequest& request = m_view.choices().incidentRequest;
     if (std::exchange(m_requests, request.count) == request.count) {

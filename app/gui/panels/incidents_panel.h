@@ -16,7 +16,6 @@ namespace posewire::gui {
 
 class TableView;
 
-/// What the dock of incidents lists: now or all that happened, which severities and groups, and a text.
 class IncidentBar final : public QWidget {
     Q_OBJECT
 
@@ -70,7 +69,6 @@ public:
 
     /// Shows the packets of an incident, or of what it was to one stream, in the dock of packets.
     void jump(const QModelIndex& index, PacketLook look = PacketLook::InContext);
-    /// Of the current row, and nothing else.
     void showOnlyCurrent();
     /// Opens the guide where it explains the selected incident.
     void explain();
@@ -78,7 +76,6 @@ public:
     /// nothing.
     [[nodiscard]] QString save(const QString& path);
     [[nodiscard]] bool isFollowing() const { return m_isFollowing; }
-    /// What was said last below the list.
     [[nodiscard]] QString message() const { return m_message->said(); }
 
     [[nodiscard]] const IncidentModel::Filter& filter() const { return m_incidents.filter(); }

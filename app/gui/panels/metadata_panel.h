@@ -20,7 +20,6 @@ public:
 
     /// `sender` is whom the choices are about; without one the bar is hidden.
     void showSender(std::optional<log::SenderId> sender);
-    /// What is declared about the sender that is shown.
     [[nodiscard]] model::SenderOverride declared() const;
     /// Nothing happens where none is shown.
     void declare(const model::SenderOverride& overrides);

@@ -30,7 +30,7 @@ public:
         return {fontMetrics().height() * 8, fontMetrics().height() * 6};
     }
 
-    /// Where a segment is on the widget, in the view from the front; for tests and scripts.
+    /// For tests and scripts.
     [[nodiscard]] QPointF placeOfSegment(int segment) const { return inFront({segment, -1}); }
     [[nodiscard]] QPointF placeOfPoint(int point) const { return inFront({-1, point}); }
 

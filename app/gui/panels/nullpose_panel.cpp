@@ -49,8 +49,8 @@ void NullPoseNotices::write() {
     const Theme& colours = theme();
     QString html;
     for (const model::NullPoseFinding& finding : m_findings) {
-        const Health health = healthOf(finding.severity);
-        QString what = QString::fromStdString(finding.what).toHtmlEscaped();
+        const Health health = healthOf(finding.severity());
+        QString what = said(finding.fact, words::Form::Sentence).toHtmlEscaped();
         if (finding.segment >= 0) {
             what = QStringLiteral("<a href=\"%1\" style=\"color:%2;text-decoration:none\">%3</a>")
                        .arg(finding.segment)
@@ -60,7 +60,7 @@ void NullPoseNotices::write() {
                                "<span style=\"color:%4\">%5</span> <span style=\"color:%6\">%7</span></p>")
                     .arg(fontMetrics().height() / 3)
                     .arg(healthColour(health).name(), healthSymbol(health), colours.text.name(), what,
-                         colours.dim.name(), QString::fromStdString(finding.meaning).toHtmlEscaped());
+                         colours.dim.name(), said(finding.fact, words::Form::Advice).toHtmlEscaped());
     }
     setHtml(html);
 }
@@ -316,9 +316,21 @@ QString NullPosePanel::summary() const {
     if (m_reading.isEmpty()) {
         return {};
     }
-    const std::string findings = model::findingsSummary(m_reading.findings());
-    const QString name = m_reading.character() ? characterName(m_view, *m_reading.character()) : QString();
-    return findings.empty() ? name : name + QStringLiteral(" · ") + QString::fromStdString(findings);
+    QStringList parts;
+    if (m_reading.character()) {
+        parts += characterName(m_view, *m_reading.character());
+    }
+    const auto count = [this](model::Severity severity) {
+        return static_cast<int>(
+            std::ranges::count(m_reading.findings(), severity, &model::NullPoseFinding::severity));
+    };
+    if (const int errors = count(model::Severity::Error); errors != 0) {
+        parts += tr("%n errors", nullptr, errors);
+    }
+    if (const int warnings = count(model::Severity::Warning); warnings != 0) {
+        parts += tr("%n warnings", nullptr, warnings);
+    }
+    return parts.join(QStringLiteral(" · "));
 }
 
 exporting::NullPoseSheet NullPosePanel::sheet() const {

@@ -9,7 +9,7 @@ namespace posewire::gui {
 
 class FittingHeader;
 
-/// Of the rows: of equal width, and a little smaller than the window's.
+/// Of equal width, and a little smaller than the window's.
 [[nodiscard]] QFont packetFont();
 
 /// A table for tens of millions of rows that all have one height: its cost does not grow with the number of
@@ -31,10 +31,8 @@ public:
     void setCatchingUp(bool isCatchingUp) { m_isCatchingUp = isCatchingUp; }
     /// Makes a row the current and only selected one and shows it.
     void showRow(int row);
-    /// Whether the whole row is in sight.
     [[nodiscard]] bool isShown(const QModelIndex& index) const;
     [[nodiscard]] int topRow() const;
-    /// How many rows there is room for in full.
     [[nodiscard]] int wholeRows() const;
     [[nodiscard]] FittingHeader& header() const { return *m_header; }
 

@@ -59,12 +59,11 @@ private:
     [[nodiscard]] std::vector<std::uint64_t> meantPackets(Meant meant) const;
     void copy(Copied what);
     void copyBytes(ByteFormat format);
-    /// Whether there are any, and all of them are marked.
     [[nodiscard]] bool areMarked() const;
-    /// Marks all of them, or none where all are marked.
+    /// Marks all of them, or none if all are marked.
     void toggleMark();
     void editComment();
-    /// The condition that the current cell means; empty where it has none.
+    /// The condition that the current cell means; empty if it has none.
     [[nodiscard]] QString cellFilter() const;
     void applyCell(FilterJoin join);
 

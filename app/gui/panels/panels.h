@@ -8,7 +8,7 @@
 
 namespace posewire::gui {
 
-/// What panels are made of; all of it outlives them. The constructor of each says what it reads and may do.
+/// All of it outlives the panels. The constructor of each says what it reads and may do.
 struct PanelParts {
     model::SessionView& view;
     Commands& commands;

@@ -9,7 +9,6 @@ class QMenu;
 
 namespace posewire::gui {
 
-/// What to do where a list is empty, in the middle of its viewport.
 void drawEmptyText(QWidget& view, const QString& text);
 /// The lines of it from the first on that have room, wrapped; the first one cut where even that has none.
 [[nodiscard]] QString fittingLines(const QFontMetrics& metrics, const QString& text, const QSizeF& room);

@@ -27,7 +27,6 @@ public:
 
     void refresh();
 
-    /// Where the history is drawn, and the lens in it.
     [[nodiscard]] QRectF strip() const;
     [[nodiscard]] QRectF lens() const;
 

@@ -21,7 +21,6 @@ public:
 
     void refresh();
 
-    /// What is in sight, and how long that may be.
     [[nodiscard]] const model::TimeRange& window() const { return m_window; }
     static constexpr log::Duration kShortest = std::chrono::milliseconds(1);
     /// Makes the window this many times as long; `about` stays where it is.

@@ -57,7 +57,7 @@ public:
     /// The values that the axis of a chart spans, as of the last replot().
     [[nodiscard]] std::pair<double, double> valueRange(int chart) const;
 
-    /// How many values are written beside a chart, and how high it is, as of the last replot().
+    /// As of the last replot().
     [[nodiscard]] int valueLabels(int chart) const;
     [[nodiscard]] int chartHeight(int chart) const;
 
@@ -69,7 +69,6 @@ public:
     }
 
 signals:
-    /// Of a click, where setCursor() was called.
     void momentPicked(double time);
 
 protected:
@@ -85,7 +84,7 @@ private:
     std::unique_ptr<Parts> m_parts;
 };
 
-/// What draws them, and its version: "QCustomPlot 2.1.0".
+/// "QCustomPlot 2.1.0".
 [[nodiscard]] QString plottingName();
 
 } // namespace posewire::gui

@@ -23,7 +23,6 @@ inline constexpr const char* kHelpScheme = "posewire-help";
 
 void openHelp(const QString& place);
 
-/// What F1 opens where the keyboard is in this widget.
 void setHelpPlace(QWidget& widget, const QString& place);
 /// That of the widget or of the nearest one around it; empty for none.
 [[nodiscard]] QString helpPlaceOf(const QWidget* widget);

@@ -110,7 +110,6 @@ QPalette paletteOf(const Theme& theme) {
     return palette;
 }
 
-/// What the palette cannot say: lines, paddings, rounded corners.
 constexpr const char* kSheet = R"(
 QMainWindow, QDialog, QMessageBox { background: @window; }
 QMainWindow::separator { background: @window; width: 3px; height: 3px; }

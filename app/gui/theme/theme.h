@@ -56,7 +56,7 @@ enum class Health { Good, Warning, Error, Unknown };
 [[nodiscard]] QString healthText(Health health, const QString& text);
 
 /// An icon of resources/icons by its file name without ending, in the theme's text colour (or `colour`),
-/// sharp at any pixel ratio. Made again when the theme changes: ask again then. Null where there is no such
+/// sharp at any pixel ratio. Made again when the theme changes: ask again then. Null if there is no such
 /// icon.
 [[nodiscard]] QIcon themedIcon(const QString& name, const QColor& colour = {});
 
@@ -74,7 +74,6 @@ enum class Health { Good, Warning, Error, Unknown };
     return plain.isEmpty() ? QVariant() : QVariant(toolTipText(plain));
 }
 
-/// Whether toolTipText() had to escape it: what is shown is text all the same.
 [[nodiscard]] bool isEscapedToolTip(const QString& toolTip);
 
 /// An entry of a menu or the text of a button: no mnemonic, one line, at most 80 characters.

@@ -66,7 +66,6 @@ protected:
     void paintEvent(QPaintEvent* event) override;
 };
 
-/// How much of a session a dialog is about: all there is, or the time that figures are of.
 class RangeBox final : public ComboBox {
     Q_OBJECT
 
@@ -115,7 +114,6 @@ public:
 
     /// Shows a text for its time, nothing for an empty one; a narrow label has it as its tooltip as well.
     void say(const QString& text);
-    /// What is being said; empty where nothing is.
     [[nodiscard]] QString said() const { return isHidden() ? QString() : text(); }
 
 protected:
@@ -155,7 +153,7 @@ struct TextPrompt {
 };
 
 /// Asks for one line of text in a dialog and shows there what is wrong with it: what `problemOf` returns,
-/// empty for nothing. Nothing where the operator cancels.
+/// empty for nothing. Nothing if the operator cancels.
 [[nodiscard]] std::optional<QString>
 askForText(const TextPrompt& words, const std::function<QString(const QString&)>& problemOf, QWidget* parent);
 

@@ -49,9 +49,9 @@ public:
     [[nodiscard]] std::shared_ptr<const FigureBody>
     of(const render::NullPose& performer, const render::FingerOrigins& fingers = render::unknownFingers());
 
-    /// What is kept here, and the mannequin once more on the graphics side.
+    /// With the mannequin once more on the graphics side.
     [[nodiscard]] std::size_t memoryBytes() const;
-    /// What that can become; 0 before anything was asked for.
+    /// 0 before anything was asked for.
     [[nodiscard]] std::size_t mostBytes() const;
 
 private:
@@ -80,7 +80,7 @@ struct DressedBody {
     [[nodiscard]] std::size_t textureBytes() const;
 };
 
-/// Who has which body of the user's own. By the name that a character is shown by.
+/// By the name that a character is shown by.
 struct Wardrobe {
     std::shared_ptr<const DressedBody> forAll; ///< null for the mannequin
     std::map<QString, std::shared_ptr<const DressedBody>> byName;
@@ -113,9 +113,8 @@ public:
     [[nodiscard]] std::shared_ptr<const OwnFigure> of(const std::shared_ptr<const DressedBody>& dressed,
                                                       const render::NullPose& origins);
 
-    /// What is kept here, and as much again on the graphics side; textures once for each figure there.
+    /// As much again is on the graphics side; textures once for each figure there.
     [[nodiscard]] std::size_t memoryBytes() const;
-    /// What that can become with the largest of the bodies there are.
     [[nodiscard]] std::size_t mostBytes() const;
 
 private:

@@ -18,7 +18,6 @@ namespace posewire::gui {
 class CameraMotion {
 public:
     [[nodiscard]] const render::Camera& camera() const { return m_camera; }
-    /// Whether follow() moves it.
     [[nodiscard]] bool isFollowing() const { return m_isFollowing; }
     /// On its way to where what it follows is.
     [[nodiscard]] bool isGliding() const { return m_isFollowing && m_isGliding; }

@@ -20,7 +20,7 @@ namespace posewire::gui {
 
 namespace {
 
-/// Of the poses that are shown; 0 where there is none.
+/// 0 if no pose is shown.
 double poseRateHz(model::SessionView& session, const model::CharacterKey& key) {
     const model::CharacterPose* pose = session.messages().pose(key);
     const model::Stream* stream =
@@ -80,9 +80,9 @@ EmptyState withoutPort(const ReceivingState& receiving) {
 }
 
 EmptyState foreign(const model::Sender& sender) {
-    const std::string guess = net::protocolThatBegins(sender.foreignHead);
-    const QString what = guess.empty() ? tr("Something else uses this port.")
-                                       : tr("It looks like %1.").arg(QString::fromStdString(guess));
+    const words::Fact guess = net::protocolThatBegins(sender.foreignHead);
+    const QString what = guess.isNothing() ? tr("Something else uses this port.")
+                                           : tr("It looks like %1.").arg(said(guess, words::Form::Headline));
     return {Health::Warning,
             tr("These datagrams are not MXTP"),
             {tr("%1 from %2, the newest begins with").arg(grouped(sender.foreign), shown(sender.address())),
@@ -97,7 +97,7 @@ void addFindings(const ReceivingState& receiving, EmptyState& state) {
     for (const Advice& advice : adviceOn(receiving)) {
         if (advice.isCertain) {
             state.level = Health::Warning;
-            state.lines += advice.text + QLatin1Char(' ') + advice.remedy;
+            state.lines += (advice.text + QLatin1Char(' ') + advice.remedy).trimmed();
         }
         hasMore = hasMore || advice.topic != HelpTopic::CannotListen; // its problem has a line already
     }

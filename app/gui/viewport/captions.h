@@ -23,7 +23,7 @@ namespace posewire::gui {
 /// on got its name about when it fell silent. Who has no name of their own never does.
 [[nodiscard]] bool isRenumbered(model::SessionView& session, const model::CharacterKey& key);
 
-/// What the viewport says while there is no character to see. Nothing where `title` is empty.
+/// Nothing if `title` is empty.
 struct EmptyState {
     Health level = Health::Unknown;
     QString title;
@@ -31,7 +31,7 @@ struct EmptyState {
     HelpTopic topic = HelpTopic::NothingArrives;
 };
 
-/// `file` is the name of the file that the session is of; empty where it is received.
+/// `file` is the name of the file that the session is of; empty if it is received.
 [[nodiscard]] EmptyState emptyState(model::SessionView& session, const ReceivingState& receiving,
                                     const QString& file = {});
 

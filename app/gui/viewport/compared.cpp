@@ -18,7 +18,6 @@ namespace {
 constexpr float kComparedOpacity = 0.45F;
 constexpr double kAside = 1.2; // metres, across the room
 
-/// Where the second body is drawn.
 model::SegmentPose placeOf(const ComparisonState& comparison, const Eigen::Vector3d& moved) {
     const Eigen::Vector3d aside(0, comparison.choice.isBeside ? kAside : 0, 0);
     return model::composed({moved + aside, Eigen::Quaterniond::Identity()}, comparison.atCursor->overlay);

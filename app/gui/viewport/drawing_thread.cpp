@@ -19,7 +19,6 @@ constexpr std::chrono::milliseconds kStillAfter(250);
 /// The longest that a step which leaves out every other picture waits.
 constexpr std::chrono::milliseconds kLongestPause(150);
 
-/// Of any pane.
 bool hasCameraMoved(const SceneFrame& frame, const SceneFrame& before) {
     return frame.camera != before.camera ||
            !std::ranges::equal(frame.panes, before.panes, {}, &SceneFrame::camera, &SceneFrame::camera);
@@ -66,7 +65,7 @@ public:
 
     void giveBack(render::Image image) { m_renderer.giveBack(std::move(image)); }
 
-    /// When the last frame is to be drawn once more; nothing where it has been.
+    /// When the last frame is to be drawn once more; nothing if it has been.
     [[nodiscard]] std::optional<SteadyClock::time_point> stillDue() const {
         return m_last == nullptr || m_isStill ? std::nullopt : std::optional(m_moved + kStillAfter);
     }

@@ -20,9 +20,8 @@ namespace posewire::gui {
 /// nothing has moved for a moment, what is shown is drawn once more as well as it can be.
 class DrawingThread {
 public:
-    /// What there is to say since the last take().
     struct Result {
-        std::optional<render::Image> image{};      ///< Bgra; nothing where the last one still holds
+        std::optional<render::Image> image{};      ///< Bgra; nothing if the last one still holds
         std::shared_ptr<const SceneFrame> frame{}; ///< that is drawn now; null for one that nobody asked for
         std::string rendererName{};
         std::string failure{}; ///< why there will be no pictures

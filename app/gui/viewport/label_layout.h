@@ -14,7 +14,6 @@
 
 namespace posewire::gui {
 
-/// How much of a label there is room for.
 enum class LabelForm : std::uint8_t {
     Whole, ///< name and state
     Named, ///< the name, without its middle where it is long, and the symbol of the state
@@ -38,7 +37,7 @@ struct LabelPlace {
     QSizeF whole{};
     QSizeF brief{};
     std::optional<PlacedLabel> before{}; ///< in the picture before, so that nothing flickers
-    QSizeF named{};                      ///< empty where the brief form shows as much
+    QSizeF named{};                      ///< empty if the brief form shows as much
 };
 
 /// Finds a place for each label by its head: nowhere on another, on what is `taken`, on its own head or
@@ -47,7 +46,7 @@ struct LabelPlace {
 [[nodiscard]] std::vector<PlacedLabel> placeLabels(std::span<const LabelPlace> places, const QRectF& view,
                                                    std::vector<QRectF> taken);
 
-/// The line from a plate to its head; nothing where they are so close that none is needed. It ends where it
+/// The line from a plate to its head; nothing if they are so close that none is needed. It ends where it
 /// would go on behind a head that is `nearer`.
 [[nodiscard]] std::optional<QLineF> leaderOf(const PlacedLabel& label, const LabelPlace& place,
                                              std::span<const QRectF> nearer = {});

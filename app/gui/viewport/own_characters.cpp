@@ -23,10 +23,10 @@ namespace {
 
 /// Texels of all textures of a character together.
 constexpr double kMostTexels = 2048.0 * 2048.0;
-/// Of a picture before it is made smaller, megabytes.
+/// Megabytes of one decoded picture.
 constexpr int kMostDecoded = 512;
 
-/// The size of each texture in the file; empty where it cannot be read.
+/// The size of each texture in the file; empty if it cannot be read.
 QSize sizeOf(const render::ImportedTexture& texture) {
     if (texture.width > 0) {
         return {texture.width, texture.height};

@@ -23,9 +23,8 @@ struct CharacterFile {
     QString sum; ///< SHA-256 of its bytes
     render::ImportedCharacter character;
     render::BoneMapping mapping;
-    std::shared_ptr<const std::vector<render::TextureImage>>
-        textures;        ///< by texture; empty where there is none
-    QStringList remarks; ///< what is odd about it, in sentences
+    std::shared_ptr<const std::vector<render::TextureImage>> textures; ///< by texture; empty if there is none
+    QStringList remarks;                                               ///< what is odd about it, in sentences
 };
 using ReadCharacter = tl::expected<std::shared_ptr<const CharacterFile>, QString>;
 
@@ -48,7 +47,6 @@ public:
     void begin(const QString& path, std::function<void(const ReadCharacter&)> done);
 
 private:
-    /// Whom what was read is for.
     struct Recipient {
         std::mutex mutex;
         CharacterReading* reading; ///< null once it is gone
@@ -114,7 +112,7 @@ private:
     CharacterReading m_reading{this};
 };
 
-/// What reads the files of such characters, and its version: "Assimp 5.2".
+/// "Assimp 5.2".
 [[nodiscard]] QString importerName();
 
 } // namespace posewire::gui

@@ -154,7 +154,7 @@ using render::Simplification;
 /// Seconds a picture; where they take longer, movement is not seen as one.
 constexpr double kSlow = 0.1;
 
-/// What a step leaves out, beside what those before it do.
+/// Beside what the steps before it leave out.
 QString leftOut(Simplification step) {
     switch (step) {
     case Simplification::LowShadows:

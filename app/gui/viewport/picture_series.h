@@ -43,7 +43,6 @@ public:
     /// Session and playback must outlive it.
     PictureSeries(model::SessionView& session, Playback& playback, const ViewLook& look,
                   PictureRequest request);
-    /// What has been written stays.
     ~PictureSeries() override;
 
     /// What is compared is in the pictures as well: it outlives this.
@@ -64,7 +63,7 @@ private:
     void draw(double seconds);
     void take();
     void compose();
-    /// False where what was compressed last could not be written.
+    /// False if what was compressed last could not be written.
     [[nodiscard]] bool writeCompressed();
     void end(const QString& problem);
 

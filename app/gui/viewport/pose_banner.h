@@ -14,7 +14,6 @@ class QToolButton;
 
 namespace posewire::gui {
 
-/// What is to be said of the poses of some characters, the same of all of them.
 struct PoseNote {
     Health level = Health::Unknown;
     QString text;

@@ -12,12 +12,11 @@
 
 namespace posewire::gui {
 
-/// How pictures are drawn, and what they cost, where the processor draws.
 struct PictureLoad {
     render::Simplification step = render::Simplification::None;
-    double typical = 0;   ///< seconds a picture takes; 0 where that is not known
-    double cause = 0;     ///< seconds one took before the last step down; 0 where there was none
-    double budget = 0;    ///< seconds one may take; 0 where nothing is left out
+    double typical = 0;   ///< seconds a picture takes; 0 if that is not known
+    double cause = 0;     ///< seconds one took before the last step down; 0 if there was none
+    double budget = 0;    ///< seconds one may take; 0 if nothing is left out
     bool isStill = false; ///< nothing moves: what is shown was drawn as well as it can be
 };
 
@@ -34,7 +33,7 @@ public:
 
     /// GL_RENDERER, for diagnostics; empty before the first picture.
     [[nodiscard]] virtual QString rendererName() const = 0;
-    /// Why there is no picture; empty where there is one or there may still be.
+    /// Why there is no picture; empty if there is one or there may still be.
     [[nodiscard]] virtual QString failure() const = 0;
 
     [[nodiscard]] virtual PictureLoad load() const = 0;

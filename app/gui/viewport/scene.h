@@ -21,7 +21,6 @@
 
 namespace posewire::gui {
 
-/// What can be drawn over the figures, each switched on its own.
 enum class Overlay : std::uint8_t {
     SegmentNames,
     JointAngles,
@@ -35,7 +34,6 @@ enum class Overlay : std::uint8_t {
 };
 inline constexpr std::size_t kOverlayCount = 9;
 
-/// Which are on.
 class Overlays {
 public:
     [[nodiscard]] bool has(Overlay overlay) const { return m_on[static_cast<std::size_t>(overlay)]; }
@@ -83,7 +81,7 @@ struct Figure {
         const auto mannequin = body != nullptr ? body->mannequin : nullptr;
         return own != nullptr ? std::shared_ptr<const void>(own) : std::shared_ptr<const void>(mannequin);
     }
-    /// By joint of that; none where it is drawn as it is.
+    /// By joint of that; none if it is drawn as it is.
     [[nodiscard]] std::span<const render::Stretch> fit() const {
         return own != nullptr || body == nullptr ? std::span<const render::Stretch>() : body->fit.stretches;
     }
@@ -127,7 +125,6 @@ struct SceneFrame {
 
     bool operator==(const SceneFrame&) const = default;
 
-    /// Where it is drawn in the picture that it is a pane of.
     [[nodiscard]] render::Pane place() const { return {x, y, width, height}; }
 };
 
@@ -195,7 +192,7 @@ private:
     void addProps(const model::CharacterPose& pose, Figure& figure) const;
     void addFigure(const model::Character& character, const model::CharacterPose& pose, SceneFrame& frame);
     void addObjects(const model::Character& character, const model::CharacterPose& pose, SceneFrame& frame);
-    /// On the floor under the live pelvis, turned as it is; nothing where no null pose was sent.
+    /// On the floor under the live pelvis, turned as it is; nothing if no null pose was sent.
     void addGhost(const Figure& figure, const model::CharacterPose& pose, SceneFrame& frame);
     /// The bodies of the second recording, and how far the segments of the compared one are apart.
     void addCompared(SceneFrame& frame);

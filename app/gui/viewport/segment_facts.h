@@ -31,7 +31,6 @@ template <class Body>
     const model::Message* message = freshMessage(subject, Body::kType);
     return message != nullptr ? std::get_if<Body>(&message->datagram.body) : nullptr;
 }
-/// Of positions in messages of a type.
 [[nodiscard]] model::LengthUnit unitOf(const PoseSubject& subject, std::uint8_t type);
 
 /// The joint between a body segment and its parent.
@@ -51,7 +50,6 @@ struct SegmentFact {
     friend bool operator==(const SegmentFact&, const SegmentFact&) = default;
 };
 
-/// What is known of one segment at the moment that is shown.
 struct SegmentFacts {
     CharacterMark mark;
     QString segment;

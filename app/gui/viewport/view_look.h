@@ -23,7 +23,7 @@ public:
     [[nodiscard]] bool isSplit() const { return m_count > 1; }
     [[nodiscard]] int active() const { return m_active; }
 
-    /// Of all panes together, logical pixels.
+    /// Logical pixels of all panes together.
     void resize(const QSize& view) { m_view = view; }
 
     /// 1, 2 or 4. Views that were never shown look level from the front, the left and the top, about
@@ -50,7 +50,7 @@ public:
     /// What makes no sense stays as it is.
     void restoreState(const QJsonObject& state);
 
-    /// What a pane shows: "Front", or how it is projected where it was turned by hand.
+    /// "Front", or the projection if the view was turned by hand.
     [[nodiscard]] QString name(int pane) const;
 
 private:
@@ -61,7 +61,6 @@ private:
     int m_active = 0;
 };
 
-/// What the operator chose to see of a session, and from where.
 struct ViewLook {
     AxesMode axes = AxesMode::Selected;
     Overlays overlays;

@@ -36,7 +36,6 @@ public:
     void setCard(const EmptyState& card);
     [[nodiscard]] const EmptyState& card() const { return m_card; }
     [[nodiscard]] const std::vector<ViewportLabel>& labels() const { return m_labels; }
-    /// Where each of them was painted last.
     [[nodiscard]] const std::vector<PlacedLabel>& placed() const { return m_placed; }
 
 protected:

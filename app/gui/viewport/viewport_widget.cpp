@@ -169,7 +169,7 @@ void ViewportWidget::updateWords() {
     }
 }
 
-/// Of what the pointer rests on, else of the selected segment.
+/// The hovered segment, else the selected one.
 void ViewportWidget::updateCard() {
     std::optional<PickedSegment> about = m_hovered;
     if (const model::Selection& selected = m_session->choices().selection;

@@ -34,7 +34,7 @@ class CommandPalette final : public QDialog {
 public:
     CommandPalette(const QMenuBar& bar, QWidget* window);
 
-    /// What was asked for; null for nothing. Still to be carried out.
+    /// Null for nothing. Still to be carried out.
     [[nodiscard]] QAction* chosen() const { return m_chosen; }
 
 protected:

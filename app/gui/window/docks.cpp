@@ -27,10 +27,8 @@ namespace posewire::gui {
 namespace {
 
 constexpr int kLeastLines = 3;
-/// Of the edge that shows where the keyboard is.
 constexpr int kKeyboardMark = 3;
 
-/// What the content needs at a width without being squeezed.
 int leastHeight(const QWidget& content, int width) {
     const QLayout* layout = content.layout();
     const bool isWrapping = layout != nullptr && layout->hasHeightForWidth();

@@ -61,7 +61,6 @@ public:
     void moveFocus(int direction, QWidget& first, QWidget* last);
 
 private:
-    /// What a dock shows of one session.
     struct Page {
         QWidget* scroll = nullptr;
         Panel* panel = nullptr;

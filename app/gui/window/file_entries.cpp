@@ -116,7 +116,7 @@ exporting::StreamReportOptions optionsFor(model::SessionView& session,
     return options;
 }
 
-/// Nothing where it was cancelled.
+/// Nothing if it was cancelled.
 std::optional<std::optional<model::TimeRange>> askForRange(model::SessionView& session, QWidget* parent) {
     const auto range = session.range();
     if (!range) {
@@ -268,7 +268,6 @@ QString historyStateText(const model::SessionView& live, const History& history)
     return inMemory + u' ' + onDisk + u' ' + since;
 }
 
-/// What is kept of what is received when memory is full.
 void editHistory(Window& window) {
     HistoryChoice& kept = window.kept().history;
     const History& history = window.driver().history();

@@ -53,7 +53,6 @@ void showFigure(QLabel& label, Health level, const QString& text) {
     label.setMinimumWidth(std::max(label.minimumWidth(), label.sizeHint().width()));
 }
 
-/// What is said of those that have no room.
 QString leftOut(std::size_t all, std::size_t fitting) {
     if (fitting != 0) {
         return HealthBar::tr("+ %1 more").arg(grouped(all - fitting));

@@ -31,13 +31,12 @@ public:
     void showSession(model::SessionView& session);
     void refresh(const ReceivingState& receiving);
 
-    /// What the keyboard goes to here; null without characters.
+    /// Null without characters.
     [[nodiscard]] QWidget* firstEntry() const;
 
     /// Shows a line for a while, beside the rest; with the place in the guide that tells more, where there is
     /// one.
     void say(const QString& text, const QString& helpPlace = {});
-    /// What it says now; empty where that has passed.
     [[nodiscard]] QString said() const;
 
 private:

@@ -37,7 +37,6 @@ public:
     [[nodiscard]] Opening& opening() const { return *m_opening; }
     [[nodiscard]] Guide& guide() const { return *m_guide; }
 
-    /// What the operator chose, for the next run.
     [[nodiscard]] Settings& kept() { return m_settings; }
     [[nodiscard]] const Settings& kept() const { return m_settings; }
     /// The same with what is only known when the window is left.
@@ -55,7 +54,7 @@ public:
     void say(const QString& text);
     /// The same with a way to what the guide says about it.
     void say(const QString& text, HelpTopic topic);
-    /// What that line says now; empty once it has passed.
+    /// Empty once the message has passed.
     [[nodiscard]] QString message() const;
 
 protected:

@@ -69,8 +69,8 @@ void writeReceiving(QTextStream& out, const ReceivingState& receiving) {
             << relay.sent << " sent, " << relay.refused << " refused, " << relay.skipped << " skipped, "
             << relay.behind << " behind\n";
     }
-    for (const net::Finding& finding : receiving.findings) {
-        out << "found: " << QString::fromStdString(finding.text) << '\n';
+    for (const words::Fact& finding : receiving.findings) {
+        out << "found: " << QString::fromStdString(words::say(finding, words::Form::Sentence)) << '\n';
     }
     out << "receive buffer " << receiving.receiveBufferBytes << " bytes, dropped here "
         << receiving.kernelDropped << ", " << receiving.datagramsPerSecond << " datagrams/s, "
@@ -217,7 +217,6 @@ void showEvidence(Window& window) {
     window.docks().showEvidence(commands(window).live().verdicts().all().all.incident);
 }
 
-/// What figures are of: the newest seconds, or all.
 template <int seconds>
 void useNewest(Window& window) {
     commands(window).selectRange({.last = std::chrono::seconds(seconds)});

@@ -36,7 +36,7 @@ class Menus {
 public:
     Menus(MainWindow& window, QMenuBar& bar);
 
-    /// Null where no entry has this id.
+    /// Null if no entry has this id.
     [[nodiscard]] QAction* action(const QString& id) const { return m_actions.value(id); }
     /// Checks the entries as what they stand for is now; a menu that opens does so by itself.
     void showStates();
@@ -52,7 +52,6 @@ private:
     QMap<QString, QAction*> m_actions;
 };
 
-/// What the window does with files: opens, compares, saves, exports, records and replays them.
 [[nodiscard]] std::span<const ActionInfo> fileEntries();
 
 /// Writes a report on the streams, of a range of time or of all there is. Returns what went wrong, empty for
@@ -60,7 +59,6 @@ private:
 [[nodiscard]] QString writeStreamReport(model::SessionView& session,
                                         const std::optional<model::TimeRange>& range, const QString& path);
 
-/// What the menus do in the viewport: camera, axes, overlays, and whose figure is selected.
 [[nodiscard]] std::span<const ActionInfo> viewportEntries();
 
 /// The menu at a path as in ActionInfo, new if need be.

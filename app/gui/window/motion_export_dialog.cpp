@@ -110,10 +110,9 @@ std::vector<model::CharacterKey> MotionExportDialog::chosen() const {
     return keys;
 }
 
-/// What the format holds, and in how many files.
 void MotionExportDialog::describe() {
     QString text = tr("Holds %1. A sample that is missing: %2.")
-                       .arg(translatedText(format().holds), translatedText(format().gaps));
+                       .arg(translatedText(format().holds), said(format().gaps, words::Form::Headline));
     if (!format().holdsSeveral && chosen().size() > 1) {
         text += u' ' + tr("Each character has a file of its own, with its name behind yours.");
     }
@@ -192,7 +191,7 @@ void MotionExportDialog::watch() {
     }
     QStringList lines;
     for (const exporting::ExportedMotion& one : *result) {
-        lines += QString::fromStdString(exporting::describe(one, m_job->source, m_job->request.format));
+        lines += said(exporting::describe(one, m_job->source, m_job->request.format), words::Form::Headline);
     }
     showState(
         lines.isEmpty()

@@ -23,7 +23,7 @@ public:
     void compareWith(const QString& path);
     /// Puts a recording on top of the list of recent files.
     void noteRecent(const QString& path);
-    /// Where a recording is looked for: beside the newest, else where takes go.
+    /// Beside the newest recording, else where takes go.
     [[nodiscard]] QString folder() const;
 
     bool eventFilter(QObject* window, QEvent* event) override;

@@ -350,8 +350,11 @@ void OwnCharacterDialog::describe() {
         lines += tr("%1 m tall, in %2 · %3")
                      .arg(fixed(static_cast<double>(reading.height), 2), unitName(reading.unit),
                           restName(reading.armsBelowLevel));
-        for (const std::string& remark : reading.remarks) {
-            lines += QString::fromStdString(remark);
+        if (reading.isInOtherUnit) {
+            lines += tr("In metres the body would have no person's height: another unit was taken.");
+        }
+        if (reading.pointsBackwards) {
+            lines += tr("The feet point backwards: left and right may be swapped.");
         }
     }
     const bool hasProblem = !m_isReading && !m_problem.isEmpty();

@@ -28,11 +28,9 @@ public:
 
     /// Reads a file, as the button does that asks for one.
     void read(const QString& path);
-    /// What it says about the file, or about what is wrong with it.
     [[nodiscard]] QString stateText() const;
     [[nodiscard]] bool isReading() const { return m_isReading; }
 
-    /// What is chosen becomes the body of the characters that are chosen.
     void accept() override;
 
 signals:
@@ -54,7 +52,7 @@ private:
     CharacterReading m_reading;
     bool m_isReading = false;
     std::shared_ptr<const CharacterFile> m_file;
-    std::shared_ptr<const DressedBody> m_body; ///< null where what is chosen makes none
+    std::shared_ptr<const DressedBody> m_body; ///< null if what is chosen makes none
     QString m_problem;                         ///< with the file or the choice; empty for none
     QLineEdit* m_path;
     QPushButton* m_browse;

@@ -95,7 +95,6 @@ class ReplayDialog final : public QDialog {
 public:
     ReplayDialog(Replaying& replaying, const Commands& commands, QWidget* parent);
 
-    /// What the button does: begins, or ends what runs.
     void toggle();
 
 private:

@@ -47,7 +47,6 @@ public:
     void showSession(model::SessionView& session, bool isLive);
 
     void refresh();
-    /// Of the recording that runs, if any.
     void showTake(const std::optional<TakeState>& take);
     void setReceiving(const ReceivingState& receiving);
 

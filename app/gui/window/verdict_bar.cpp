@@ -45,7 +45,6 @@ QString liveText(const model::SessionView& live, const model::TakeVerdict& verdi
                : VerdictBar::tr("%1 of %2 good").arg(good).arg(characters.size());
 }
 
-/// What time the verdict is of, and when the operator began to count anew.
 QString spanOf(const model::SessionView& live) {
     if (live.choices().reset == log::Stamp()) {
         return boardSpanText(live);

@@ -11,7 +11,6 @@
 #include <utility>
 #include <vector>
 
-/// Which sample of one recording belongs to which of another.
 namespace posewire::exporting {
 
 /// When a sample was made, by everything that may tell.
@@ -32,15 +31,15 @@ public:
     /// Further ones are left out: 24 bytes each. Two hours at 240 Hz.
     static constexpr std::size_t kMost = 2'000'000;
 
-    /// Of the first character of the source. Fails as cancelled only.
+    /// Reads the first character of the source. Fails as cancelled only.
     [[nodiscard]] static tl::expected<Timetable, log::FileError> of(const feed::PoseSource& source,
                                                                     const ExportProgress& progress);
 
     [[nodiscard]] const std::vector<SampleMoment>& samples() const { return m_samples; }
     [[nodiscard]] bool isCut() const { return m_isCut; }
-    [[nodiscard]] std::uint32_t step() const { return m_step; } ///< of the counters; 0 where there is none
-    [[nodiscard]] double rateHz() const { return m_rateHz; }    ///< 0 where it is not known
-    /// Between two samples, in ms; 0 where it is not known.
+    [[nodiscard]] std::uint32_t step() const { return m_step; } ///< of the counters; 0 if there is none
+    [[nodiscard]] double rateHz() const { return m_rateHz; }    ///< 0 if it is not known
+    /// Between two samples, in ms; 0 if it is not known.
     [[nodiscard]] double periodMs() const { return m_rateHz > 0 ? 1000 / m_rateHz : 0; }
 
     /// Since the first sample, in ms: by counters, so that no jitter is in it, through restarts by when it
@@ -95,7 +94,7 @@ public:
     /// The same, moved by hand. Costs nothing.
     [[nodiscard]] Partners withOffset(double offset) const;
 
-    /// Place in the second timetable; nothing where no sample there is of that moment: none is nearer than
+    /// Place in the second timetable; nothing if no sample there is of that moment: none is nearer than
     /// half the time between two samples of whichever recording has more of them, or half a count. Of several
     /// that are as near the first one.
     [[nodiscard]] std::optional<std::size_t> of(const SampleMoment& moment) const;
@@ -103,7 +102,6 @@ public:
     [[nodiscard]] const Timetable& first() const { return *m_first; }
     [[nodiscard]] const Timetable& second() const { return *m_second; }
     [[nodiscard]] const Alignment& alignment() const { return m_alignment; }
-    /// Whether a moment of the first recording is in the time that both have.
     [[nodiscard]] bool isCommon(const SampleMoment& moment) const;
 
 private:

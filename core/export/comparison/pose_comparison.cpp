@@ -90,7 +90,6 @@ void addTo(DifferenceCourse& course, log::Stamp at, const model::PoseDifference&
     raise(course.degrees[DifferenceCourse::kMean], part, parts, difference.meanDegrees());
 }
 
-/// What comes of the pairs of a range.
 class Comparing {
 public:
     explicit Comparing(const ComparisonTask& task) : m_task(task) { setTime(task, m_result.course); }
@@ -142,7 +141,7 @@ class SecondSamples {
 public:
     explicit SecondSamples(const feed::PoseSource& source) : m_source(source) { restart(); }
 
-    /// Null where it cannot be read any more. Valid until the next call.
+    /// Null if it cannot be read any more. Valid until the next call.
     const model::CharacterPose* at(std::size_t place) {
         if (place < m_first) {
             if (m_restarts++ == kMostRestarts) {

@@ -98,7 +98,6 @@ public:
 
     /// Whole blocks.
     [[nodiscard]] std::string section() const;
-    /// How many blocks these are.
     [[nodiscard]] std::size_t blocks() const;
 
 private:

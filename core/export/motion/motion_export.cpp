@@ -77,7 +77,7 @@ tl::expected<std::vector<Share>, FileError> surveyed(const MotionRequest& reques
     return shares;
 }
 
-/// Opens the files of a share; which of them a character goes to, by its place in the share: null where it
+/// Opens the files of a share; which of them a character goes to, by its place in the share: null if it
 /// has no sample.
 tl::expected<std::vector<OpenFile*>, FileError> opened(const MotionRequest& request, const Share& share,
                                                        const std::vector<std::string>& paths,
@@ -161,10 +161,6 @@ void tell(const Share& share, const std::vector<std::string>& paths, std::vector
     }
 }
 
-std::string countText(std::uint64_t count, const char* one, const char* several) {
-    return std::to_string(count) + ' ' + (count == 1 ? one : several);
-}
-
 tl::expected<void, FileError> checkAll(const MotionRequest& request, const std::vector<std::string>& paths) {
     std::error_code error;
     const auto kind = std::filesystem::status(log::pathOf(request.path), error).type();
@@ -189,7 +185,7 @@ constexpr MotionFormat kFormats[] = {
      .kind = "Comma-separated values",
      .suffix = "csv",
      .holds = "a row for each sample, with position and quaternion of each segment",
-     .gaps = "a row without values",
+     .gaps = words::Kind::GapsWithoutValues,
      .holdsSeveral = true,
      .hasTimes = true,
      .make = makeMotionCsv},
@@ -197,7 +193,7 @@ constexpr MotionFormat kFormats[] = {
      .kind = "JSON Lines",
      .suffix = "jsonl",
      .holds = "an object for each sample, one on a line",
-     .gaps = "an object whose segments are null",
+     .gaps = words::Kind::GapsNull,
      .holdsSeveral = true,
      .hasTimes = true,
      .make = makeMotionJsonLines},
@@ -205,13 +201,13 @@ constexpr MotionFormat kFormats[] = {
      .kind = "Biovision hierarchy",
      .suffix = "bvh",
      .holds = "body and fingers as a skeleton of constant bones, in centimetres",
-     .gaps = "the pose before it once more",
+     .gaps = words::Kind::GapsRepeat,
      .make = makeBvh},
     {.title = "glTF",
      .kind = "Binary glTF 2.0",
      .suffix = "glb",
      .holds = "animated figures, with props",
-     .gaps = "bridged evenly",
+     .gaps = words::Kind::GapsBridged,
      .holdsSeveral = true,
      .hasTimes = true,
      .make = makeGlb},
@@ -219,34 +215,43 @@ constexpr MotionFormat kFormats[] = {
      .kind = "C3D",
      .suffix = "c3d",
      .holds = "markers where they were sent, else segment origins, in millimetres",
-     .gaps = "points without a measurement",
+     .gaps = words::Kind::GapsUnmeasured,
      .takesMarkers = true,
      .make = makeC3d},
     {.title = "MVNX",
      .kind = "MVN XML",
      .suffix = "mvnx",
      .holds = "body, null pose and joint angles as XML of version 4",
-     .gaps = "a frame left out",
+     .gaps = words::Kind::GapsLeftOut,
      .hasTimes = true,
      .make = makeMvnx},
 };
 
 } // namespace
 
-std::string describe(const ExportedMotion& exported, const feed::PoseSource& source,
+words::Fact describe(const ExportedMotion& exported, const feed::PoseSource& source,
                      const MotionFormat& format) {
-    std::string line = source.characters[exported.character].name.shown() + ": " +
-                       countText(exported.frames - exported.gaps, "sample", "samples") +
-                       (exported.content == feed::PoseContent::Markers ? " of markers" : "") + " to " +
-                       exported.path;
+    using K = words::Kind;
+    const auto counted = [](K kind, std::uint64_t count) {
+        return words::Fact{kind, {{"n", words::Number{static_cast<double>(count)}}}};
+    };
+    const bool isMarkers = exported.content == feed::PoseContent::Markers;
+    words::Fact fact{
+        K::Exported,
+        {{"name", source.characters[exported.character].name.shown()},
+         {"samples", counted(isMarkers ? K::MarkerSamples : K::Samples, exported.frames - exported.gaps)},
+         {"path", exported.path}}};
     if (exported.gaps != 0) {
-        line += "; " + countText(exported.gaps, "is missing", "are missing") + ": " + format.gaps;
+        words::Fact missing = counted(K::SamplesMissing, exported.gaps);
+        set(missing, "gaps", words::Fact(format.gaps));
+        set(fact, "missing", std::move(missing));
     }
     if (exported.restarts != 0) {
-        line += "; its sender was restarted " + countText(exported.restarts, "time", "times") +
-                (format.hasTimes ? "" : ": the pause is left out");
+        words::Fact restarts = counted(K::RestartedTimes, exported.restarts);
+        set(restarts, "pause", words::Fact(format.hasTimes ? K::Nothing : K::PauseLeftOut));
+        set(fact, "restarts", std::move(restarts));
     }
-    return line;
+    return fact;
 }
 
 std::vector<std::string> motionPaths(const MotionRequest& request) {

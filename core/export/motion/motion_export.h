@@ -3,6 +3,7 @@
 
 #include "core/export/motion/motion_writer.h"
 #include "core/log/output_file.h"
+#include "core/words/fact.h"
 
 #include <memory>
 #include <span>
@@ -19,7 +20,7 @@ struct MotionFormat {
     const char* kind;          ///< "Comma-separated values", for file dialogs
     const char* suffix;        ///< without the dot, in small letters; names the format in commands
     const char* holds;         ///< what is in it, half a sentence
-    const char* gaps;          ///< what stands for a sample that did not come whole, half a sentence
+    words::Kind gaps;          ///< what stands for a sample that did not come whole
     bool holdsSeveral = false; ///< characters in one file; else each has a file of its own
     bool takesMarkers = false; ///< instead of segments, where they were sent
     bool hasTimes = false;     ///< of samples; else a pause at a restart is left out
@@ -28,9 +29,9 @@ struct MotionFormat {
 
 [[nodiscard]] std::span<const MotionFormat> motionFormats();
 
-/// By the suffix, in whatever case; null where there is none.
+/// By the suffix, in whatever case; null if there is none.
 [[nodiscard]] const MotionFormat* findMotionFormat(std::string_view suffix);
-/// The one that a file's name asks for; null where it ends with no suffix of the list.
+/// The one that a file's name asks for; null if it ends with no suffix of the list.
 [[nodiscard]] const MotionFormat* motionFormatOf(std::string_view fileName);
 
 struct MotionRequest {
@@ -56,8 +57,8 @@ struct ExportedMotion {
     std::uint64_t restarts = 0;
 };
 
-/// What was written of it, in a line: "Mira: 1200 samples to take.csv; 3 are missing: a row without values".
-[[nodiscard]] std::string describe(const ExportedMotion& exported, const feed::PoseSource& source,
+/// A line: "Mira: 1200 samples to take.csv; 3 are missing: a row without values".
+[[nodiscard]] words::Fact describe(const ExportedMotion& exported, const feed::PoseSource& source,
                                    const MotionFormat& format);
 
 /// Writes the motion of a source; each file is there whole or not at all. What was written, those without a

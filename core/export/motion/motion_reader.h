@@ -11,7 +11,7 @@
 /// The motion of a range of a log, sample by sample. Memory does not grow with the range.
 namespace posewire::exporting {
 
-/// How far long work is, from 0 to 1. It goes on if the answer is true.
+/// `share` is from 0 to 1. Work goes on if the answer is true.
 using ExportProgress = std::function<bool(double share)>;
 
 /// One sample of one character, or the place of one that did not come whole.
@@ -26,12 +26,11 @@ struct MotionFrame {
     [[nodiscard]] bool isGap() const { return pose == nullptr; }
 };
 
-/// What a range holds of one character.
 struct CharacterSurvey {
     std::uint64_t frames = 0; ///< with gaps
     std::uint64_t gaps = 0;
     std::uint64_t restarts = 0;
-    std::uint32_t step = 0; ///< of its sample counters; 0 where there is none: no gaps are known then
+    std::uint32_t step = 0; ///< of its sample counters; 0 if there is none: no gaps are known then
     double rateHz = 0;      ///< frames a second; a whole number where it is within 0.5 % of one
     log::Stamp first{};
     log::Stamp last{};

@@ -31,7 +31,7 @@ private:
     tl::expected<void, log::FileError> m_result;
 };
 
-/// What a writer knows before the first sample. All of it outlives the writer.
+/// All of it outlives the writer.
 struct MotionTask {
     const feed::PoseSource& source;
     const MotionSurvey& survey;

@@ -31,7 +31,6 @@ int positionIn(const model::SegmentLayout& layout, const model::SegmentPlace& pl
     return -1;
 }
 
-/// Of a segment in the null pose that was sent.
 std::optional<Vector3d> sentOrigin(const feed::PoseCharacter& character, std::string_view name,
                                    int position) {
     if (!character.nullPose) {

@@ -21,7 +21,6 @@ constexpr std::size_t kMostLooked = 8'192;
 constexpr std::size_t kMostJudged = 16'384;
 // So many equal gaps in a row may be the spacing of a new rate.
 constexpr std::uint32_t kEven = 3;
-// How often gaps that may be one are looked at.
 constexpr log::Duration kHeldCheck = std::chrono::milliseconds(50);
 
 // Datagrams of a stream after which nothing of it waits to be judged any longer.

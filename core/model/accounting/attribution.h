@@ -57,7 +57,6 @@ public:
     /// At least; longer after samples that came later.
     static constexpr log::Duration kPatience = std::chrono::milliseconds(150);
     static constexpr std::size_t kMostGaps = 65'536;
-    /// What memoryBytes() can become, about.
     static constexpr std::size_t kMostBytes = std::size_t{32} << 20;
 
     /// The sink outlives this.
@@ -103,7 +102,6 @@ public:
             }
         }
     }
-    /// How long after a gap it is judged.
     [[nodiscard]] log::Duration patience() const { return m_patience; }
     /// The newest ones, oldest first.
     [[nodiscard]] const std::deque<Gap>& gaps() const { return m_gaps; }
@@ -122,7 +120,6 @@ public:
     /// The first packet that ended a gap after a moment and is yet to be judged; UINT64_MAX for none.
     [[nodiscard]] std::uint64_t firstPending(log::Stamp after) const;
 
-    /// What a gap lacks that was counted again.
     struct Recount {
         std::uint64_t packet = 0; ///< that ended the gap
         std::uint32_t lost = 0;

@@ -58,7 +58,6 @@ public:
     [[nodiscard]] std::uint64_t malformedBetween(log::Stamp from, log::Stamp to) const {
         return between(from, to).malformed;
     }
-    /// Of the newest generation in the range.
     [[nodiscard]] ClockSkew skewBetween(log::Stamp from, log::Stamp to) const;
     /// At the end of the range.
     [[nodiscard]] double jitterMsAt(log::Stamp to) const;
@@ -72,7 +71,6 @@ public:
     /// How many buckets there may be; three if fewer.
     void setMost(std::size_t buckets);
     [[nodiscard]] std::size_t memoryBytes() const { return m_buckets.capacity() * sizeof(Bucket); }
-    /// What memoryBytes() can become.
     [[nodiscard]] static constexpr std::size_t mostBytes(std::size_t buckets) {
         return buckets * sizeof(Bucket);
     }
@@ -84,7 +82,7 @@ private:
         log::Duration sum{};   ///< of the inter-arrival times
         double sumSquares = 0; ///< ms²
         std::uint32_t arrivals = 0;
-        // Of this bucket alone:
+        // These are of this bucket alone:
         std::uint32_t longestGap = 0;
         float leastMs = std::numeric_limits<float>::infinity(); ///< where nothing came
         float mostMs = 0;
@@ -96,7 +94,6 @@ private:
     };
     /// The newest bucket before one, empty if there is none.
     [[nodiscard]] const Bucket& before(std::size_t index) const;
-    /// What came between the ends of a range.
     [[nodiscard]] Counters between(log::Stamp from, log::Stamp to) const;
     static void merge(Bucket& bucket, const Bucket& before);
     Bucket& bucketAt(log::Stamp stamp);

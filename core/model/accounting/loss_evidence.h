@@ -20,7 +20,6 @@ namespace posewire::model {
 
 /// Samples of a stream that did not come between two that did, and whose loss each was.
 struct Gap {
-    /// What a cause rests on.
     enum class Evidence : std::uint8_t {
         None,         ///< nothing speaks for anybody
         Dropped,      ///< this computer dropped datagrams of the socket meanwhile
@@ -71,7 +70,6 @@ public:
     /// The stream outlives this, or is retired with its sender before it goes.
     void addStream(const Stream& stream, const log::SenderInfo& info);
     void retire(log::SenderId sender);
-    /// What a packet says of itself.
     void takePacket(const log::Packet& packet, std::uint16_t localPort);
     void takeOvertaken(std::uint64_t packet, std::uint64_t count, log::Stamp stamp);
     /// A datagram of a type that counts samples, unless it is late: that is no sign of life.
@@ -121,7 +119,6 @@ private:
         std::optional<std::uint16_t> localPort{}; ///< nothing: of the log, not looked at in time
         bool isClosed = false; ///< the port was not listened to; nobody knows how many there were
     };
-    /// What this computer lost between two packets.
     struct LostHere {
         std::uint64_t dropped = 0;
         std::uint64_t overtaken = 0;

@@ -52,7 +52,7 @@ static_assert(sizeof(PacketDigest) == 12, "one is kept for every packet of the l
 static_assert(sizeof(log::StreamEntry) + sizeof(PacketDigest) + 2 <= log::kBesidePacket,
               "the cap of the log is for what is kept of its packets");
 
-/// What a packet shows by itself. `datagram` is what it was decoded to, null if that failed.
+/// `datagram` is null if it could not be decoded.
 [[nodiscard]] PacketDigest digestOf(const log::Packet& packet, const wire::Datagram* datagram);
 
 /// Copies what a digest has of its verdict.

@@ -29,7 +29,6 @@ public:
     /// Where they may have come late, a burst of late arrivals looks the same: more must agree, closely.
     /// Networks that reorder hold back a few datagrams in a row, so eight are a choice on the safe side.
     static constexpr std::size_t kAgreeingClosely = 8;
-    /// What is further back than this is not late.
     static constexpr std::int32_t kMostLate = 4'096;
 
     struct Waiting {
@@ -40,7 +39,6 @@ public:
     };
 
     enum class Outcome : std::uint8_t { Expected, Alone, Begun, Restarted };
-    /// What is to be done with those that wait, the oldest first.
     struct Decision {
         std::size_t decided = 0; ///< how many of them; 0 while nothing is clear
         std::array<Outcome, kMost> outcomes{};

@@ -71,7 +71,6 @@ std::uint32_t mostFrequent(Differences differences) {
 
 constexpr std::uint32_t kMostUnlikely = 8;
 
-/// What is usual before a change, or after it.
 struct Side {
     std::uint32_t step = 0;
     std::uint32_t usual = 0; ///< if there is no step
@@ -275,7 +274,6 @@ void SampleSequence::reconsiderStep(CountHistory* history) {
         return;
     }
     const std::int64_t totalBefore = lostNow();
-    // What seems lost before each of the newest entries.
     const auto lostAfter = [this](std::size_t entry) {
         std::array<std::int64_t, kStepHistory> lost{};
         const Run* run = nullptr;

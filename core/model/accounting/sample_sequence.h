@@ -39,7 +39,6 @@ inline constexpr std::size_t kStepHistory = 128;
 [[nodiscard]] std::size_t placeOfChange(std::span<const std::uint32_t> differences, std::uint32_t before,
                                         std::uint32_t after);
 
-/// Where a datagram of a stream has its place among the samples.
 struct Placement {
     enum class Kind : std::uint8_t {
         Advance,   ///< of a sample above all before

@@ -11,7 +11,7 @@
 
 namespace posewire::model {
 
-/// How far a sample counter is ahead of another, modulo 2^32.
+/// Modulo 2^32.
 [[nodiscard]] constexpr std::int32_t distance(std::uint32_t to, std::uint32_t from) {
     return static_cast<std::int32_t>(to - from);
 }
@@ -41,7 +41,6 @@ public:
     /// True once samples below the first have been forgotten.
     [[nodiscard]] bool hasForgotten() const { return m_hasForgotten; }
 
-    /// Where a sample is, or where it would be inserted.
     struct Slot {
         std::size_t index = 0;
         bool isThere = false;
@@ -60,12 +59,11 @@ public:
 
     void clear();
 
-    /// How many samples are kept, a power of two.
+    /// A power of two.
     [[nodiscard]] std::size_t most() const { return m_most; }
     /// Forgets the lowest ones where there are more; returns how many.
     std::size_t setMost(std::size_t most);
     [[nodiscard]] std::size_t memoryBytes() const;
-    /// What memoryBytes() can become.
     [[nodiscard]] static constexpr std::size_t mostBytes(std::size_t most) {
         return most * (sizeof(Entry) + sizeof(Mask) + sizeof(std::uint16_t));
     }

@@ -10,7 +10,7 @@
 
 namespace posewire::model {
 
-/// What a time code moved by, in ms. It may be a time of day: back by a day is midnight.
+/// In ms. It may be a time of day: back by a day is midnight.
 [[nodiscard]] std::int32_t timeCodeStep(std::uint32_t before, std::uint32_t after);
 
 /// Compares the sender's clock with ours. The sender's is the header time code where it advances with the

@@ -12,7 +12,7 @@
 
 namespace posewire::model {
 
-/// How fast one stream is now, from receive stamps alone. O(1) in time and memory for each packet.
+/// From receive stamps alone. O(1) in time and memory for each packet.
 class StreamStatistics {
 public:
     /// Adds a datagram.

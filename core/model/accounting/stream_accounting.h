@@ -18,7 +18,6 @@
 
 namespace posewire::model {
 
-/// What one datagram turned out to be.
 struct Verdict {
     std::uint64_t packet = 0;
     log::Stamp stamp{};

@@ -39,7 +39,7 @@ using LossesByCause = std::array<std::uint64_t, kLossCauses>;
     return wire::isSampled(type);
 }
 
-/// What came and what did not, of a stream or of several. A sum has the step and the samples 0.
+/// A sum has the step and the samples 0.
 struct StreamCounts {
     std::uint64_t datagrams = 0; ///< well-formed ones, duplicates included
     std::uint64_t bytes = 0;

@@ -47,7 +47,6 @@ struct RangeFigures {
 /// With all rates but those of now and of whole samples.
 [[nodiscard]] RangeFigures figuresOf(const StreamAccounting& stream, const std::optional<TimeRange>& range);
 
-/// What came and what did not in a part of a range.
 struct RangePart {
     std::uint32_t datagrams = 0;
     std::uint32_t samples = 0;
@@ -119,7 +118,6 @@ enum class Figure : std::uint8_t {
 };
 inline constexpr std::size_t kFigures = static_cast<std::size_t>(Figure::Bandwidth) + 1;
 
-/// How a figure is written.
 enum class FigureForm : std::uint8_t {
     Count,   ///< how many, a whole number
     Counter, ///< a whole number that is none of things: its digits are not grouped
@@ -128,7 +126,6 @@ enum class FigureForm : std::uint8_t {
     Share,   ///< a ratio, which people read as percent
 };
 
-/// What the figure of several streams is.
 enum class FigureSum : std::uint8_t {
     None, ///< makes no sense of several
     Sum,
@@ -136,10 +133,9 @@ enum class FigureSum : std::uint8_t {
     Mean, ///< weighted by the samples expected
 };
 
-/// What a figure above zero means.
 enum class FigureTrouble : std::uint8_t { None, Odd, Warning, Error };
 
-/// What a figure applies to: only streams that count samples, or messages (types 10 to 13) as well.
+/// Only streams that count samples, or messages (types 10 to 13) as well.
 enum class FigureScope : std::uint8_t { Samples, Messages };
 
 /// Decimals: of JSON, of reports and of the window. A share counts as percent in the last two.

@@ -119,7 +119,6 @@ bool readUnity(const wire::PoseUnity& message, const wire::Header& header,
     return true;
 }
 
-/// What messages of types 21 and 22 tell of one sample.
 struct SentItems {
     SegmentLayout layout;
     bool isObjects = false;
@@ -178,7 +177,6 @@ void addMarkers(const wire::PointPositions& message, LengthUnit unit, const Body
     }
 }
 
-/// What was sent of a pose for the solver.
 PoseEvidence evidenceOf(const CharacterPose& pose) {
     PoseEvidence evidence;
     for (std::size_t i = 0; i < std::min(pose.segments.size(), kBodySegments); ++i) {
@@ -199,7 +197,7 @@ bool holdsAnything(const PoseEvidence& evidence) {
            std::ranges::any_of(evidence.markers, [](const auto& list) { return !list.empty(); });
 }
 
-/// Where something is missing of the body; false where all is.
+/// Where something is missing of the body; false if all is.
 bool complete(const BodyOrigins& body, CharacterPose& pose) {
     const auto isWhole = [](const SegmentSource& source) { return source.weaker() != Provenance::None; };
     if (pose.isObjects || pose.sources.size() < kBodySegments ||
@@ -231,7 +229,6 @@ void takeOthers(const SentItems& sent, std::size_t first, CharacterPose& pose) {
     }
 }
 
-/// Of types 21, 22 and 03.
 bool solve(std::span<const PosePart> parts, const BodyOrigins& body, CharacterPose& pose) {
     SentItems sent;
     PoseEvidence evidence;

@@ -27,7 +27,6 @@ struct CharacterPose {
     bool isPlaceAssumed = false;
     /// The operator has put it on the floor: it was sent below.
     bool isLifted = false;
-    /// How far all of it was moved from where it was sent, or solved.
     Eigen::Vector3d moved = Eigen::Vector3d::Zero();
     std::uint32_t sample = 0;
     std::uint32_t timeCode = 0;
@@ -36,7 +35,7 @@ struct CharacterPose {
 
     /// Moves all of it, in metres.
     void move(const Eigen::Vector3d& way);
-    /// False where there is no item at a position, or one that is not finite.
+    /// False if there is no item at a position, or one that is not finite.
     [[nodiscard]] bool isPresent(std::size_t position) const {
         return position < sources.size() && sources[position].position != Provenance::None;
     }
@@ -49,12 +48,12 @@ struct CharacterPose {
 /// Where the items of one datagram stand in their message, which may come in several.
 struct ItemPlaces {
     SegmentLayout layout;       ///< of the whole message, as far as this datagram shows it
-    std::optional<int> first{}; ///< place of the first item, the others follow; empty where it is not known
+    std::optional<int> first{}; ///< place of the first item, the others follow; empty if it is not known
     bool isCounted = false;     ///< the header has counts, as those of newer senders do
 
     /// The one rule for which segment an item is about, as its position in a whole pose: an id of the body
     /// names its segment; props and fingers, and what has no id, go by place. Revision E gives the left foot
-    /// the id of the left toe. -1 where nothing is known.
+    /// the id of the left toe. -1 if nothing is known.
     [[nodiscard]] int positionOf(std::size_t item, std::optional<std::uint32_t> id) const;
 };
 /// The first datagram of a sample begins with the pelvis; a later one with what its first item's id names,
@@ -87,12 +86,11 @@ inline constexpr log::Duration kSentTogether = std::chrono::milliseconds(250);
 
 /// Whether poses can be taken from messages of a type: 01, 02, 05; 21, 22, 03.
 [[nodiscard]] bool hasPoses(std::uint8_t type);
-/// Whether a type is one of kWholePoseTypes.
 [[nodiscard]] bool hasWholePoses(std::uint8_t type);
 
 /// A whole pose from what was sent for one sample: one message of type 01, 02 or 05, or any of 21
 /// (positions), 22 (orientations) and 03 (markers). What is missing of a body is solved (solveBody) with the
-/// performer's own body. False where the messages hold no pose, or nothing of one.
+/// performer's own body. False if the messages hold no pose, or nothing of one.
 [[nodiscard]] bool poseFromParts(std::span<const PosePart> parts, const BodyOrigins& body,
                                  CharacterPose& pose);
 

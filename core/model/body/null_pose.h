@@ -16,7 +16,6 @@
 
 namespace posewire::model {
 
-/// How a scale message came, whether it differs from the one before or not.
 struct NullPoseMessage {
     std::uint64_t firstPacket = 0; ///< number of the part that came first
     log::Stamp firstStamp{};       ///< its stamp
@@ -81,7 +80,6 @@ public:
     /// and points then.
     [[nodiscard]] const NullPose& arriving() const { return m_arriving; }
 
-    /// Of the message that is arriving, about.
     [[nodiscard]] std::size_t memoryBytes() const;
     /// Gives up all that has come.
     void forget();
@@ -103,15 +101,15 @@ private:
     std::vector<std::optional<Part>> m_parts; ///< by place
 };
 
-/// What was known of a character's null pose at one moment. Valid until the history grows.
+/// Valid until the history grows.
 struct NullPoseRecord {
-    const NullPose* pose = nullptr;          ///< null where there was none by then
-    const NullPose* before = nullptr;        ///< the newest that differs, null where none does
+    const NullPose* pose = nullptr;          ///< null if there was none by then
+    const NullPose* before = nullptr;        ///< the newest that differs, null if none does
     log::Stamp changed{};                    ///< when `pose` came first
     const NullPoseMessage* newest = nullptr; ///< the newest message, maybe still arriving
     std::uint64_t messages = 0;              ///< begun so far
     std::size_t incompleteMessages = 0;      ///< of the newest 64, without the newest
-    log::Duration repetition{};              ///< median time between messages, 0 where unknown
+    log::Duration repetition{};              ///< median time between messages, 0 if unknown
 };
 
 /// The scale messages of one character over time, as far as they differ; the same body is kept once however
@@ -122,14 +120,13 @@ public:
     static constexpr std::size_t kMostVersions = 32; ///< 16 bodies: each may have two, see keep()
     static constexpr std::size_t kMostMessages = 64;
 
-    /// True where it makes another body of what was known before.
+    /// True if it makes another body of what was known before.
     bool add(const wire::NullPose& part, std::uint8_t datagramCounter, std::uint64_t packet,
              log::Stamp stamp);
 
-    /// As of a packet number; null where there was none by then. What is older than the history counts as its
+    /// As of a packet number; null if there was none by then. What is older than the history counts as its
     /// oldest.
     [[nodiscard]] const NullPose* at(std::uint64_t packet) const;
-    /// The same with its circumstances.
     [[nodiscard]] NullPoseRecord record(std::uint64_t packet) const;
 
     /// Calls f(first packet, pose) for each body that is kept, the oldest first.

@@ -16,23 +16,9 @@ namespace posewire::model {
 namespace {
 
 using Findings = std::vector<NullPoseFinding>;
-
-/// "Parts 2 and 3 of 6", "The last part".
-std::string partsText(const NullPoseMessage& message) {
-    const bool isOpen = message.partsExpected == 0;
-    if (isOpen && message.missingParts.empty()) {
-        return "The last part";
-    }
-    std::vector<std::string> names;
-    for (const unsigned part : message.missingParts) {
-        names.push_back(std::to_string(part + 1));
-    }
-    if (isOpen) {
-        names.emplace_back("the last");
-    }
-    const std::string text = (names.size() == 1 ? "Part " : "Parts ") + listed(names);
-    return isOpen ? text : text + " of " + std::to_string(message.partsExpected);
-}
+using words::counted;
+using words::Fact;
+using K = words::Kind;
 
 /// "rightupperarm" for "Right Upper Arm".
 std::string letters(std::string_view name) {
@@ -60,44 +46,28 @@ void findDuplicateNames(const NullPose& pose, Findings& findings) {
         const auto [entry, isNew] = first.try_emplace(std::string(name.exact()), place);
         if (!isNew && ++twice <= kMostNamed) {
             findings.push_back(
-                {NullPoseFault::NameTwice, Severity::Error, findBodySegment(entry->first).value_or(-1),
-                 "The name " + quoted(name.shown()) + " occurs twice: for segments " +
-                     std::to_string(entry->second + 1) + " and " + std::to_string(place + 1) + ".",
-                 "Receivers that go by names mix the two up; Posewire goes by the order."});
+                {{K::NameTwice, {{"name", name.shown()}, {"from", entry->second + 1}, {"to", place + 1}}},
+                 findBodySegment(entry->first).value_or(-1)});
         }
     }
     if (twice > kMostNamed) {
-        findings.push_back({NullPoseFault::NameTwice, Severity::Error, -1,
-                            counted(twice - kMostNamed, "more segment has", "more segments have") +
-                                " a name that occurred before.",
-                            "Receivers that go by names mix them up; Posewire goes by the order."});
+        findings.push_back({counted(K::MoreNamesTwice, twice - kMostNamed)});
     }
 }
 
 void findUnknownNames(const NullPose& pose, Findings& findings) {
-    std::vector<std::string> unknown;
-    std::vector<std::string> respelled;
+    std::vector<Fact> unknown;
+    std::vector<Fact> respelled;
     for (std::size_t place = 0; place < std::min<std::size_t>(pose.segments.size(), kBodySegmentCount);
          ++place) {
         const ForeignText& name = pose.segments[place].name;
         if (!findBodySegment(name.exact())) {
             (isKnownApartFromSpelling(name.exact()) ? respelled : unknown)
-                .push_back(std::to_string(place + 1) + " " + quoted(name.shown()));
+                .push_back({K::Numbered, {{"n", place + 1}, {"name", name.shown()}}});
         }
     }
-    if (!unknown.empty()) {
-        findings.push_back(
-            {NullPoseFault::UnknownName, Severity::Warning, -1,
-             counted(unknown.size(), "segment name") + (unknown.size() == 1 ? " is" : " are") +
-                 " not in the specification: " + listed(unknown) + ".",
-             "Posewire goes by the order of the segments; receivers that go by names lack these."});
-    }
-    if (!respelled.empty()) {
-        findings.push_back({NullPoseFault::UnknownName, Severity::Note, -1,
-                            counted(respelled.size(), "segment name") +
-                                " spelled otherwise than in the specification: " + listed(respelled) + ".",
-                            "Receivers that compare names letter by letter do not find these segments."});
-    }
+    addListed(K::NamesUnknown, std::move(unknown), -1, findings);
+    addListed(K::NamesRespelled, std::move(respelled), -1, findings);
 }
 
 /// How far the body that type 10 starts from may be from a human one.
@@ -117,11 +87,7 @@ void findMatrices(const wire::ScaleInformation& scale, Findings& findings) {
         }
     }
     if (!bad.empty()) {
-        findings.push_back({NullPoseFault::ScaleAgainstNullPose, Severity::Warning, -1,
-                            "Type 10 has no usable matrix or offset for " +
-                                std::string(bad.size() == 1 ? "segment " : "segments ") + listed(bad) +
-                                ": a scale must turn nothing inside out and leave some of it.",
-                            "An avatar made from it loses these parts."});
+        findings.push_back({{K::MatricesUnusable, {{"segments", std::move(bad)}}}});
     }
 }
 
@@ -153,14 +119,28 @@ void compareWithNullPose(const wire::ScaleInformation& scale, const NullPose& po
         }
     }
     if (!apart.empty()) {
-        findings.push_back(
-            {NullPoseFault::ScaleAgainstNullPose, Severity::Warning, first,
-             "Types 10 and 13 disagree: what is left of the null pose without the offsets of type 10 is "
-             "no human body at " +
-                 listed(apart) + ".",
-             "One of the two belongs to another performer. Type 13 is used; type 10 is deprecated "
-             "since revision J."});
+        findings.push_back({{K::ScalesDisagree, {{"segments", std::move(apart)}}}, first});
     }
+}
+
+/// "Parts 2 and 3 of 6" are missing, or "The last part".
+Fact missingParts(const NullPoseEvidence& evidence, const NullPoseMessage& newest, bool isWhole) {
+    const std::uint64_t received = newest.partsReceived;
+    Fact fact{isWhole ? K::PartsMissingNow : K::PartsMissing, {{"count", counted(K::Parts, received)}}};
+    std::vector<Fact> parts;
+    for (const unsigned part : newest.missingParts) {
+        parts.push_back({K::Text, {{"text", std::to_string(part + 1)}}});
+    }
+    if (newest.partsExpected != 0) {
+        words::set(fact, "all", std::uint64_t{newest.partsExpected});
+    } else if (!parts.empty()) {
+        parts.push_back(K::LastPart);
+    }
+    words::set(fact, "parts", std::move(parts));
+    if (evidence.record.repetition > log::Duration::zero()) {
+        words::set(fact, "seconds", words::Number{log::secondsOf(evidence.record.repetition), 1});
+    }
+    return fact;
 }
 
 void findAboutParts(const NullPoseEvidence& evidence, Findings& findings) {
@@ -169,34 +149,11 @@ void findAboutParts(const NullPoseEvidence& evidence, Findings& findings) {
     const bool isWhole = pose != nullptr && pose->isComplete();
     if (newest != nullptr && !newest->isComplete() &&
         log::secondsOf(evidence.now - newest->stamp) >= kPartOverdue) {
-        findings.push_back({NullPoseFault::MissingPart, isWhole ? Severity::Warning : Severity::Error, -1,
-                            partsText(*newest) + " of the newest scale message never came; " +
-                                counted(newest->partsReceived, "part") + " did.",
-                            std::string(isWhole ? "What an earlier message said is shown. "
-                                                : "Segments or points are missing below. ") +
-                                "Parts get lost on the way, mostly where the network drops datagrams" +
-                                (evidence.record.repetition > log::Duration::zero()
-                                     ? "; the next message is due every " +
-                                           fixedText(log::secondsOf(evidence.record.repetition), 1) + " s."
-                                     : ".")});
+        findings.push_back({missingParts(evidence, *newest, isWhole)});
     }
     if (evidence.record.incompleteMessages > 0) {
-        findings.push_back(
-            {NullPoseFault::EarlierPartMissing, isWhole ? Severity::Note : Severity::Warning, -1,
-             counted(evidence.record.incompleteMessages, "earlier scale message") + " arrived incomplete.",
-             isWhole ? "What is shown is complete."
-                     : "Segments or points are missing below. Something between here and the sender "
-                       "loses datagrams, or the sender leaves them out."});
-    }
-}
-
-void findLeftOut(const NullPose& pose, Findings& findings) {
-    if (pose.leftOut != 0) {
-        findings.push_back({NullPoseFault::TooLarge, Severity::Error, -1,
-                            counted(pose.leftOut, "segment or point was", "segments and points were") +
-                                " left out: the scale message takes more than " +
-                                std::to_string(NullPose::kMostBytes / 1024) + " KB.",
-                            "MVN's take a tenth of it. Whatever sends this is not MVN."});
+        findings.push_back({counted(isWhole ? K::EarlierPartsMissed : K::EarlierPartsMissing,
+                                    evidence.record.incompleteMessages)});
     }
 }
 
@@ -204,35 +161,30 @@ void findAboutNames(const NullPoseEvidence& evidence, Findings& findings) {
     const NullPose& pose = *evidence.record.pose;
     findDuplicateNames(pose, findings);
     findUnknownNames(pose, findings);
-    std::vector<std::string> moved;
+    std::vector<Fact> moved;
     int first = -1;
     for (std::size_t place = 0; place < pose.segments.size(); ++place) {
         const auto index = findBodySegment(pose.segments[place].name.exact());
         if (index && *index != static_cast<int>(place)) {
             first = moved.empty() ? *index : first;
-            moved.push_back(pose.segments[place].title() + " at " + std::to_string(place + 1) +
-                            " (should be " + std::to_string(*index + 1) + ")");
+            moved.push_back({K::MovedTo,
+                             {{"name", pose.segments[place].title()},
+                              {"n", place + 1},
+                              {"to", static_cast<std::uint64_t>(*index + 1)}}});
         }
     }
-    if (!moved.empty()) {
-        findings.push_back(
-            {NullPoseFault::NameOrder, Severity::Warning, first,
-             "The names come in another order than the specification's: " + listed(moved) + ".",
-             "Receivers that go by the order put these origins on the wrong segments. Posewire goes by "
-             "the names where all 23 are there once, else by the order."});
-    }
+    addListed(K::NamesMoved, std::move(moved), first, findings);
     const auto& layout = evidence.layout;
     const auto count = static_cast<int>(pose.segments.size());
     if (layout && count != layout->body && count != layout->body + layout->props &&
         count != layout->count()) {
-        findings.push_back(
-            {NullPoseFault::SegmentCount, count < layout->body ? Severity::Error : Severity::Warning, -1,
-             "The scale message has " + counted(static_cast<std::size_t>(count), "segment") +
-                 ", the poses have " + std::to_string(layout->count()) + " (" + std::to_string(layout->body) +
-                 " body, " + counted(static_cast<std::uint64_t>(layout->props), "prop") + ", " +
-                 std::to_string(layout->fingers) + " fingers).",
-             count < kBodySegmentCount ? "The figure is drawn with the reference body instead of this one."
-                                       : "The origins of some segments of the poses are not known."});
+        const auto number = [](int value) { return static_cast<std::uint64_t>(value); };
+        findings.push_back({{count < layout->body ? K::FewerSegments : K::MoreSegments,
+                             {{"count", counted(K::Segments, number(count))},
+                              {"all", number(layout->count())},
+                              {"body", number(layout->body)},
+                              {"props", counted(K::Props, number(layout->props))},
+                              {"fingers", number(layout->fingers)}}}});
     }
 }
 
@@ -243,25 +195,18 @@ void findAboutScale(const NullPoseEvidence& evidence, Findings& findings) {
         findMatrices(*evidence.scale, findings);
         const std::size_t count = evidence.scale->segments.size();
         if (pose != nullptr && count != pose->segments.size()) {
-            findings.push_back({NullPoseFault::ScaleAgainstNullPose, Severity::Note, -1,
-                                "Type 10 has " + counted(count, "segment") + ", type 13 " +
-                                    std::to_string(pose->segments.size()) + ".",
-                                "Type 13 is used; type 10 is deprecated since revision J."});
+            findings.push_back(
+                {{K::ScalesDiffer,
+                  {{"count", counted(K::Segments, count)}, {"all", std::uint64_t{pose->segments.size()}}}}});
         }
         if (pose != nullptr) {
             compareWithNullPose(*evidence.scale, *pose, findings);
         }
     }
     if (pose == nullptr && evidence.poseSeconds >= kScaleMessageDue) {
-        const bool hasScale = evidence.scale != nullptr;
-        findings.push_back({NullPoseFault::NeverSent, hasScale ? Severity::Note : Severity::Warning, -1,
-                            hasScale
-                                ? "Only type 10 was sent: it says how segments differ from a body that no "
-                                  "specification describes."
-                                : "Poses have come for " + fixedText(evidence.poseSeconds, 0) +
-                                      " s and no scale message (type 13).",
-                            "The figure has the size of the reference body, " +
-                                fixedText(kReferenceStature, 2) + " m: feet may float, sink or slide."});
+        findings.push_back({{evidence.scale != nullptr ? K::DeprecatedScaleAlone : K::NoScaleMessage,
+                             {{"lasted", words::Number{evidence.poseSeconds}},
+                              {"height", words::Number{kReferenceStature, 2}}}}});
     }
 }
 
@@ -271,7 +216,10 @@ std::vector<NullPoseFinding> findContradictions(const NullPoseEvidence& evidence
     Findings findings;
     findAboutParts(evidence, findings);
     if (evidence.record.pose != nullptr) {
-        findLeftOut(*evidence.record.pose, findings);
+        if (const std::uint64_t leftOut = evidence.record.pose->leftOut; leftOut != 0) {
+            findings.push_back(
+                {{K::TooLarge, {{"n", leftOut}, {"limit", std::uint64_t{NullPose::kMostBytes / 1024}}}}});
+        }
         findAboutNames(evidence, findings);
         findInShape(evidence.record, findings);
     }
@@ -280,23 +228,25 @@ std::vector<NullPoseFinding> findContradictions(const NullPoseEvidence& evidence
     return findings;
 }
 
-std::string gravestError(const NullPoseRecord& record) {
+std::optional<Fact> gravestError(const NullPoseRecord& record) {
     NullPoseEvidence alone; // of no time: no part is overdue
     alone.record = record;
-    const Findings findings = findContradictions(alone);
-    const bool isError = !findings.empty() && findings.front().severity == Severity::Error;
-    return isError ? findings.front().what : std::string();
+    Findings findings = findContradictions(alone);
+    const bool isError = !findings.empty() && findings.front().severity() == Severity::Error;
+    return isError ? std::optional(std::move(findings.front().fact)) : std::nullopt;
 }
 
-std::string findingsSummary(const std::vector<NullPoseFinding>& findings) {
-    std::string text;
-    for (const auto& [severity, noun] :
-         {std::pair{Severity::Error, "error"}, std::pair{Severity::Warning, "warning"}}) {
-        if (const auto found = std::ranges::count(findings, severity, &NullPoseFinding::severity)) {
-            text += (text.empty() ? "" : ", ") + counted(static_cast<std::uint64_t>(found), noun);
-        }
+Severity NullPoseFinding::severity() const {
+    return fact.kind <= K::NotNumbers       ? Severity::Error
+           : fact.kind <= K::LengthsChanged ? Severity::Warning
+                                            : Severity::Note;
+}
+
+void addListed(K kind, std::vector<Fact> names, int segment, Findings& findings) {
+    if (!names.empty()) {
+        const std::uint64_t count = names.size();
+        findings.push_back({{kind, {{"n", count}, {"names", std::move(names)}}}, segment});
     }
-    return text;
 }
 
 } // namespace posewire::model

@@ -23,14 +23,14 @@ inline constexpr double kAsymmetryThreshold = 0.005;
 using BodyPlaces = std::array<int, kBodySegmentCount>;
 [[nodiscard]] BodyPlaces bodyPlaces(const NullPose& pose);
 
-/// Body segment at a place of the message, −1 where it is none of the body.
+/// Body segment at a place of the message, −1 if it is none of the body.
 [[nodiscard]] int bodySegmentAt(const BodyPlaces& places, int place);
 
-/// Origin of a body segment; empty where it was not sent or is not finite.
+/// Origin of a body segment; empty if it was not sent or is not finite.
 [[nodiscard]] std::optional<Eigen::Vector3d> originOf(const NullPose& pose, const BodyPlaces& places,
                                                       int bodySegment);
 
-/// A point by its name, in the frame of the segments; empty where it was not sent.
+/// A point by its name, in the frame of the segments; empty if it was not sent.
 [[nodiscard]] std::optional<Eigen::Vector3d> pointOf(const NullPose& pose, const BodyPlaces& places,
                                                      std::string_view name);
 
@@ -51,7 +51,7 @@ struct SegmentLength {
     [[nodiscard]] bool isAsymmetric() const;
 };
 
-/// What can be measured on a null pose. Metres.
+/// Metres.
 struct NullPoseMeasures {
     std::optional<double> height{};  ///< sole to top of the head
     std::optional<double> armSpan{}; ///< fingertip to fingertip
@@ -61,7 +61,7 @@ struct NullPoseMeasures {
 };
 [[nodiscard]] NullPoseMeasures measure(const NullPose& pose);
 
-/// How far each entry of `pose` is from the same segment of another body, by place; empty where there is no
+/// How far each entry of `pose` is from the same segment of another body, by place; empty if there is no
 /// such segment. Metres.
 using Distances = std::vector<std::optional<Eigen::Vector3d>>;
 

@@ -19,9 +19,12 @@ namespace {
 using Eigen::Vector3d;
 using namespace segment;
 using Findings = std::vector<NullPoseFinding>;
+using words::Fact;
+using words::Number;
+using K = words::Kind;
 
 constexpr double kLeastStature = 0.4;    ///< an infant
-constexpr double kGreatestStature = 2.6; ///< nobody was taller than 2.72 m
+constexpr double kGreatestStature = 2.6; ///< the tallest person known had 2.72 m
 constexpr double kFloorTolerance = 0.03; ///< soles are 13 to 15 mm below the ball of the foot, which is at 0
 constexpr double kAboveFloor = 0.10;
 constexpr double kNoise = 0.001;
@@ -35,6 +38,11 @@ bool isStature(double metres) {
     return metres >= kLeastStature && metres <= kGreatestStature;
 }
 
+/// A name and what is said about it.
+Fact beside(std::string name, std::string value, K kind = K::Beside) {
+    return {kind, {{"name", std::move(name)}, {"value", std::move(value)}}};
+}
+
 /// The largest extent of the segments along each axis.
 Vector3d extentOf(const NullPose& pose) {
     Eigen::AlignedBox3d box;
@@ -46,32 +54,29 @@ Vector3d extentOf(const NullPose& pose) {
     return box.isEmpty() ? Vector3d(Vector3d::Zero()) : Vector3d(box.sizes());
 }
 
-/// True where the size is no person's: what else is found about places would only repeat it.
+/// True if the size is no person's: other findings about places would only repeat it.
 bool findSize(const NullPose& pose, const NullPoseMeasures& measures, Findings& findings) {
     const double size =
         measures.height && *measures.height > 0 ? *measures.height : extentOf(pose).maxCoeff();
     if (isStature(size) || size <= 0) {
         return false;
     }
-    const std::string found = "The body is " + fixedText(size, size < 10 ? 2 : 0) + " units tall";
     for (const auto& [unit, factor] :
-         {std::pair{"centimetres", 0.01}, std::pair{"millimetres", 0.001}, std::pair{"inches", 0.0254}}) {
+         {std::pair{K::Centimetres, 0.01}, std::pair{K::Millimetres, 0.001}, std::pair{K::Inches, 0.0254}}) {
         if (size > kGreatestStature && isStature(size * factor)) {
-            findings.push_back(
-                {NullPoseFault::Unit, Severity::Error, -1,
-                 found + ": that looks like " + unit + " (" + fixedText(size * factor, 2) +
-                     " m); the specification's unit is the metre.",
-                 "Receivers draw a giant. Set the sender's unit, or scale by " + fixedText(factor, 4) + "."});
+            findings.push_back({{K::OtherUnit,
+                                 {{"height", Number{size, size < 10 ? 2 : 0}},
+                                  {"looks", Fact{unit}},
+                                  {"metres", Number{size * factor, 2}},
+                                  {"factor", Number{factor, 4}}}}});
             return true;
         }
     }
-    findings.push_back({NullPoseFault::Stature, Severity::Warning, -1,
-                        "The body is " + fixedText(size, 2) + " m tall, which nobody is.",
-                        "Body dimensions were entered wrongly, or the sender is not MVN."});
+    findings.push_back({{K::Stature, {{"height", Number{size, 2}}}}});
     return size > kGreatestStature;
 }
 
-/// True where the body does not stand along z.
+/// True if the body does not stand along z.
 bool findUp(const NullPose& pose, const BodyPlaces& places, Findings& findings) {
     const auto pelvis = originOf(pose, places, kPelvis);
     const auto head = originOf(pose, places, kHead);
@@ -84,18 +89,17 @@ bool findUp(const NullPose& pose, const BodyPlaces& places, Findings& findings) 
     }
     Eigen::Index axis = 0;
     up.cwiseAbs().maxCoeff(&axis);
-    const std::string name = std::string(up[axis] < 0 ? "−" : "") + "xyz"[axis];
-    findings.push_back({NullPoseFault::AxisUp, Severity::Error, kHead,
-                        "The body stands along " + name + "; the specification's null pose stands along z.",
-                        axis == 1
-                            ? "The sender writes Y-up data. Figures made from this message lie on the floor."
-                            : "Figures made from this message lie on the floor or stand on their heads."});
+    Fact fact{K::StandsAskew, {{"axis", std::string(up[axis] < 0 ? "−" : "") + "xyz"[axis]}}};
+    if (axis == 1) {
+        words::set(fact, "written", std::string("Y-up"));
+    }
+    findings.push_back({std::move(fact), kHead});
     return true;
 }
 
 void findMirror(const NullPose& pose, const BodyPlaces& places, Findings& findings) {
-    int exchanged = 0;
-    int judged = 0;
+    std::uint64_t exchanged = 0;
+    std::uint64_t judged = 0;
     int first = -1;
     for (const Segment& segment : bodySegments()) {
         const auto origin = originOf(pose, places, segment.id - 1);
@@ -108,24 +112,17 @@ void findMirror(const NullPose& pose, const BodyPlaces& places, Findings& findin
             first = first < 0 ? segment.id - 1 : first;
         }
     }
-    if (exchanged == 0) {
-        return;
+    if (exchanged == judged && judged != 0) {
+        findings.push_back({K::Mirrored, first});
+    } else if (exchanged != 0) {
+        findings.push_back(
+            {{K::PartlyMirrored, {{"n", exchanged}, {"all", judged}, {"name", nameOf(first)}}}, first});
     }
-    const bool isWhole = exchanged == judged;
-    findings.push_back(
-        {NullPoseFault::Mirrored, Severity::Error, first,
-         isWhole
-             ? "Left and right are exchanged: the right arm and leg lie towards +y, where the left belongs."
-             : std::to_string(exchanged) + " of " + std::to_string(judged) +
-                   " segments lie on the wrong side, " + nameOf(first) + " first.",
-         isWhole ? "The body is mirrored, or looks towards −x. Figures are twisted where poses are not "
-                   "mirrored too."
-                 : "Figures are torn at these segments."});
 }
 
 void findFloor(const NullPose& pose, const BodyPlaces& places, Findings& findings) {
     const auto pelvis = originOf(pose, places, kPelvis);
-    std::vector<std::string> below;
+    std::vector<Fact> below;
     int lowest = -1;
     double depth = -kFloorTolerance;
     double stand = std::numeric_limits<double>::infinity();
@@ -136,7 +133,7 @@ void findFloor(const NullPose& pose, const BodyPlaces& places, Findings& finding
         }
         stand = std::min(stand, origin->z());
         if (origin->z() < -kFloorTolerance) {
-            below.push_back(nameOf(index) + " " + millimetresText(origin->z()));
+            below.push_back(beside(nameOf(index), millimetresText(origin->z())));
         }
         if (origin->z() < depth) {
             depth = origin->z();
@@ -144,91 +141,62 @@ void findFloor(const NullPose& pose, const BodyPlaces& places, Findings& finding
         }
     }
     if (!below.empty() && pelvis && pelvis->norm() < kFloorTolerance) {
-        findings.push_back(
-            {NullPoseFault::BelowFloor, Severity::Note, lowest,
-             "The pelvis is at the origin and the feet are " + metresText(-depth) + " below it.",
-             "So upper-body configurations send it. Ghost and figure are put on the floor with their "
-             "lowest point."});
+        findings.push_back({{K::PelvisAtOrigin, {{"height", Number{-depth, 3}}}}, lowest});
     } else if (!below.empty()) {
-        findings.push_back(
-            {NullPoseFault::BelowFloor, Severity::Warning, lowest,
-             counted(below.size(), "segment") + " below the floor: " + listed(below) + ".",
-             "In MVN's null pose the balls of the feet are at z = 0. Meshes fitted to it sink in."});
+        addListed(K::BelowFloor, std::move(below), lowest, findings);
     } else if (std::isfinite(stand) && stand > kAboveFloor) {
-        findings.push_back(
-            {NullPoseFault::AboveFloor, Severity::Note, -1,
-             "The body hangs " + metresText(stand) + " above the floor.",
-             "In MVN's null pose the balls of the feet are at z = 0. Meshes fitted to it float."});
+        findings.push_back({{K::AboveFloor, {{"height", Number{stand, 3}}}}});
     }
 }
 
 void findAsymmetry(const NullPoseMeasures& measures, Findings& findings) {
-    std::vector<std::string> uneven;
+    std::vector<Fact> uneven;
     int first = -1;
     for (const SegmentLength& length : measures.lengths) {
         if (length.isAsymmetric()) {
             first = first < 0 ? length.left : first;
-            uneven.push_back(std::string(length.name) + " (left " + millimetresText(*length.difference()) +
-                             ")");
+            uneven.push_back(
+                beside(std::string(length.name), millimetresText(*length.difference()), K::LeftBy));
         }
     }
-    if (!uneven.empty()) {
-        findings.push_back(
-            {NullPoseFault::Asymmetric, Severity::Note, first,
-             "Left and right differ by 5 mm or more: " + listed(uneven) + ".",
-             "MVN measures one side for both. Someone entered the other side by hand, or the body was "
-             "edited."});
-    }
+    addListed(K::Asymmetric, std::move(uneven), first, findings);
 }
 
-std::string idText(const NullPose::Point& point) {
-    return std::to_string(point.segment) + "." + std::to_string(point.id) + " " + point.name.shown();
+Fact pointFact(const NullPose::Point& point, K kind = K::Beside) {
+    return beside(std::to_string(point.segment) + "." + std::to_string(point.id), point.name.shown(), kind);
 }
 
 void findPointIds(const NullPose& pose, Findings& findings) {
     const auto count = static_cast<int>(pose.segments.size());
     std::set<std::pair<int, int>> ids;
-    std::vector<std::string> lost;
-    std::vector<std::string> twice;
+    std::vector<Fact> lost;
+    std::vector<Fact> twice;
     for (const NullPose::Point& point : pose.points) {
         if (point.segment < 1 || point.segment > count) {
-            lost.push_back(idText(point));
+            lost.push_back(pointFact(point));
         }
         if (!ids.insert({point.segment, point.id}).second) {
-            twice.push_back(idText(point));
+            twice.push_back(pointFact(point));
         }
     }
     // As long as segments are on their way, it is not known where points belong.
-    if (!lost.empty() && count > 0) {
-        findings.push_back({NullPoseFault::PointWithoutSegment, Severity::Error, -1,
-                            counted(lost.size(), "point") + " on segments that do not exist: " +
-                                listed(lost) + "; there are " + std::to_string(count) + ".",
-                            "Markers and meshes cannot use them; they are in no picture."});
+    if (count > 0 && !lost.empty()) {
+        addListed(K::PointsWithoutSegment, std::move(lost), -1, findings);
+        words::set(findings.back().fact, "all", static_cast<std::uint64_t>(count));
     }
-    if (!twice.empty()) {
-        findings.push_back(
-            {NullPoseFault::PointTwice, Severity::Warning, -1,
-             counted(twice.size(), "point ID") + " given twice: " + listed(twice) + ".",
-             "Joint angles and markers name points by these IDs: which one is meant is open."});
-    }
+    addListed(K::PointIdsTwice, std::move(twice), -1, findings);
 }
 
 void findPointNames(const NullPose& pose, Findings& findings) {
-    std::vector<std::string> other;
+    std::vector<Fact> other;
     for (const NullPose::Point& point : pose.points) {
         const AnatomicalPoint* known = findPoint(point.segment - 1, point.id);
         if (known != nullptr && !(point.name == known->name)) {
-            other.push_back(idText(point) + " (elsewhere " + std::string(known->name) + ")");
+            other.push_back(pointFact(point, K::KnownAs));
+            words::set(other.back(), "known", std::string(known->name));
         }
     }
-    if (!other.empty()) {
-        findings.push_back(
-            {NullPoseFault::PointName, Severity::Note, -1,
-             (other.size() == 1 ? "One point has an unfamiliar name: "
-                                : grouped(other.size()) + " points have unfamiliar names: ") +
-                 listed(other) + ".",
-             "The point list may be from another version. Check the IDs before using points by ID."});
-    }
+    addListed(K::PointNames, std::move(other), -1, findings);
 }
 
 /// A joint is a point of the parent and the first point of the child: both must be at the child's origin.
@@ -243,7 +211,7 @@ void findJoints(const NullPose& pose, Findings& findings) {
             joints.emplace(point.segment, point.name.exact());
         }
     }
-    std::vector<std::string> apart;
+    std::vector<Fact> apart;
     int first = -1;
     for (const auto& [id, joint] : joints) {
         const int parentIndex =
@@ -257,30 +225,21 @@ void findJoints(const NullPose& pose, Findings& findings) {
             child && parent && point != pose.points.end() ? (*parent + point->position - *child).norm() : 0.0;
         if (distance >= tolerance) {
             first = first < 0 ? id - 1 : first;
-            apart.push_back(shownText(joint) + " by " + fixedText(distance * 1000.0, 0) + " mm");
+            apart.push_back({K::ApartBy, {{"name", shownText(joint)}, {"value", Number{distance * 1000.0}}}});
         }
     }
-    if (!apart.empty()) {
-        findings.push_back({NullPoseFault::PointAgainstSegment, Severity::Warning, first,
-                            "Points and segments disagree about " + counted(apart.size(), "joint") + ": " +
-                                listed(apart) + ".",
-                            "Meshes scaled by points do not fit the segments they are moved by."});
-    }
+    addListed(K::JointsApart, std::move(apart), first, findings);
 }
 
 void findAboutShape(const NullPose& pose, Findings& findings) {
     const BodyPlaces places = bodyPlaces(pose);
-    std::vector<std::string> unusable;
+    std::vector<Fact> unusable;
     for (std::size_t place = 0; place < pose.segments.size(); ++place) {
         if (!pose.segments[place].position.allFinite()) {
-            unusable.push_back(std::to_string(place + 1) + " " + pose.segments[place].title());
+            unusable.push_back(beside(std::to_string(place + 1), pose.segments[place].title()));
         }
     }
-    if (!unusable.empty()) {
-        findings.push_back({NullPoseFault::NotFinite, Severity::Error, -1,
-                            "Positions that are no numbers: " + listed(unusable) + ".",
-                            "The reference body's origins are used for these segments."});
-    }
+    addListed(K::NotNumbers, std::move(unusable), -1, findings);
     const NullPoseMeasures measures = measure(pose);
     if (findUp(pose, places, findings) || findSize(pose, measures, findings)) {
         return;
@@ -296,29 +255,22 @@ void findAboutChange(const NullPoseRecord& record, Findings& findings) {
     }
     const NullPoseMeasures now = measure(*record.pose);
     const NullPoseMeasures then = measure(*record.before);
-    std::vector<std::string> changed;
+    std::vector<Fact> changed;
     int first = -1;
     const auto compare = [&](const SegmentLength& length, std::optional<double> a, std::optional<double> b,
-                             const char* side, int segment) {
+                             K side, int segment) {
         if (a && b && std::abs(*a - *b) >= kNoise) {
             first = first < 0 ? segment : first;
-            changed.push_back(side + std::string(length.name) + " " + millimetresText(*a - *b));
+            changed.push_back(beside(std::string(length.name), millimetresText(*a - *b), side));
         }
     };
     for (std::size_t i = 0; i < now.lengths.size(); ++i) {
         const SegmentLength& length = now.lengths[i];
-        const bool hasSides = length.left >= 0;
-        compare(length, length.rightMetres, then.lengths[i].rightMetres, hasSides ? "right " : "",
-                length.right);
-        compare(length, length.leftMetres, then.lengths[i].leftMetres, "left ", length.left);
+        compare(length, length.rightMetres, then.lengths[i].rightMetres,
+                length.left >= 0 ? K::RightSide : K::Beside, length.right);
+        compare(length, length.leftMetres, then.lengths[i].leftMetres, K::LeftSide, length.left);
     }
-    if (!changed.empty()) {
-        findings.push_back(
-            {NullPoseFault::LengthChanged, Severity::Warning, first,
-             counted(changed.size(), "length") + " changed in mid-stream: " + listed(changed) + ".",
-             "The sender was recalibrated or loaded another body. Poses before and after belong to "
-             "bodies of different size: do not compare or join them without rescaling."});
-    }
+    addListed(K::LengthsChanged, std::move(changed), first, findings);
 }
 
 } // namespace

@@ -25,7 +25,7 @@ SegmentPose sentPose(const CharacterPose& pose, int position) {
     return segment;
 }
 
-/// Where each segment of kAllSegments is in a pose; -1 for none.
+/// -1 for none.
 std::array<int, kMaxSegmentCount> positionsOf(const CharacterPose& pose) {
     std::array<int, kMaxSegmentCount> positions{};
     positions.fill(-1);
@@ -48,7 +48,7 @@ SegmentPose inverseOf(const SegmentPose& motion) {
     return {back * -motion.position, back};
 }
 
-/// From the second body to the first; nothing where a pelvis is missing.
+/// From the second body to the first; nothing if a pelvis is missing.
 std::optional<SegmentPose> overlayOf(const CharacterPose& first, const CharacterPose& second,
                                      DifferenceFrame frame) {
     if (frame == DifferenceFrame::World) {

@@ -8,7 +8,6 @@
 
 namespace posewire::model {
 
-/// What two bodies are laid over each other by, before they are compared.
 enum class DifferenceFrame : std::uint8_t {
     World,   ///< nothing: as they were sent
     Heading, ///< the pelvis' place on the floor and which way it faces; its height and tilt count
@@ -20,7 +19,6 @@ inline constexpr SegmentLayout kAllSegments{kBodySegmentCount, kMaxPropCount, kF
 /// Where a segment is in kAllSegments: the same for both bodies, whatever else was sent of them.
 [[nodiscard]] int slotOf(const SegmentPlace& place);
 
-/// How far a segment of one body is from the same one of another.
 struct SegmentDifference {
     int slot = 0;  ///< see kAllSegments
     int first = 0; ///< position in the pose of the one, and of the other
@@ -34,7 +32,7 @@ struct PoseDifference {
     /// Takes the second body to where it is compared with the first: a rigid motion of the world.
     SegmentPose overlay;
 
-    /// Null where not both have the segment.
+    /// Null if not both have the segment.
     [[nodiscard]] const SegmentDifference* find(int slot) const;
     /// Over all segments; 0 without any.
     [[nodiscard]] double meanMillimetres() const;

@@ -20,7 +20,7 @@ public:
     /// came before it, after kLongest, where another number of segments was sent, or where samples come as
     /// fast as this is asked. Valid until it is asked again.
     const CharacterPose& at(const CharacterPose& newest, log::Stamp now);
-    /// Whether it is on its way: the same newest pose will be shown elsewhere later.
+    /// True if the same newest pose will be shown elsewhere later.
     [[nodiscard]] bool isUnderWay() const { return m_isUnderWay; }
 
 private:

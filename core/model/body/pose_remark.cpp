@@ -31,7 +31,6 @@ std::vector<int> segmentsWhere(const CharacterPose& pose, const auto& isSo) {
     return segments;
 }
 
-/// What a message alone lacks.
 words::Kind partsKind(const CharacterPose& pose) {
     using enum words::Kind;
     const bool hasPositions = holds(pose, wire::LinearKinematics::kType);

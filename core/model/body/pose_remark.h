@@ -8,7 +8,6 @@
 
 namespace posewire::model {
 
-/// What is to be said of a pose that was not sent as it is shown.
 struct PoseRemark {
     /// Something of it rests on nothing that was sent, or on a scale message that contradicts it: it is not
     /// to be called good.
@@ -23,7 +22,7 @@ struct PoseRemark {
 /// Whether a body reaches below the floor, as recordings without one do: there the pelvis is at z = 0.
 [[nodiscard]] bool isBelowFloor(const CharacterPose& pose);
 
-/// How large a body is between its joints that were sent, against `body`, in steps of 2 %; 1 where the joints
+/// How large a body is between its joints that were sent, against `body`, in steps of 2 %; 1 if the joints
 /// are those of `body`, as they are unless the scale message is of somebody else.
 [[nodiscard]] double scaleInPose(const CharacterPose& pose, const BodyOrigins& body);
 

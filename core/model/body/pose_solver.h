@@ -14,7 +14,7 @@
 
 namespace posewire::model {
 
-/// What is known of the 23 segments of a body at one sample. World, metres.
+/// World, metres.
 struct PoseEvidence {
     std::array<std::optional<Eigen::Vector3d>, kBodySegmentCount> positions;
     std::array<std::optional<Eigen::Quaterniond>, kBodySegmentCount> orientations; ///< worldFromSegment

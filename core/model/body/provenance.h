@@ -6,7 +6,7 @@
 
 namespace posewire::model {
 
-/// Where a position or an orientation comes from, the weakest first.
+/// The weakest first.
 enum class Provenance : std::uint8_t {
     None,    ///< there is none
     Assumed, ///< nothing that was sent fixes it
@@ -14,14 +14,12 @@ enum class Provenance : std::uint8_t {
     Sent,
 };
 
-/// Where a segment's pose comes from.
 struct SegmentSource {
     Provenance position = Provenance::None;
     Provenance orientation = Provenance::None;
     /// The direction of the segment is known, how it is turned about itself is not.
     bool isTwistAssumed = false;
 
-    /// Of the two, the weaker.
     [[nodiscard]] constexpr Provenance weaker() const { return std::min(position, orientation); }
     friend constexpr bool operator==(const SegmentSource&, const SegmentSource&) = default;
 };

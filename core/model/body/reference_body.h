@@ -42,7 +42,7 @@ struct ReferenceBody {
     double legLength() const;
 };
 
-/// What is known of a performer's body, the least first.
+/// The least first.
 enum class BodySource : std::uint8_t {
     Reference, ///< nothing: the reference body
     Poses,     ///< lengths of bones, measured on poses
@@ -63,7 +63,7 @@ struct BodyOrigins {
 
     /// The pelvis above the soles, against the reference body.
     [[nodiscard]] double scale() const;
-    /// From the segment's origin: as sent, else that of the reference body, scaled; empty where there is no
+    /// From the segment's origin: as sent, else that of the reference body, scaled; empty if there is no
     /// such point.
     [[nodiscard]] std::optional<Eigen::Vector3d> pointOf(int segment, int localId) const;
 };

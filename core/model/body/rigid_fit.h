@@ -16,7 +16,6 @@ struct VectorPair {
     double weight = 1.0;
 };
 
-/// How much of an orientation is known.
 enum class RotationRank : std::uint8_t { Nothing, Direction, Whole };
 
 struct FittedRotation {
@@ -43,7 +42,7 @@ struct RigidFit {
 };
 
 /// Rigid fit of markers (Kabsch 1976). Two that changed places are changed back; one that lies farther off
-/// than `tolerance` is left out, as long as three are left. Nothing where there are fewer than three, where
+/// than `tolerance` is left out, as long as three are left. Nothing if there are fewer than three, where
 /// they lie within 8 mm of a line, or where they do not agree.
 [[nodiscard]] std::optional<RigidFit> fitMarkers(std::span<const MarkerPair> markers, double tolerance);
 

@@ -87,7 +87,6 @@ struct SegmentLayout {
 
 enum class SegmentKind : std::uint8_t { Body, Prop, LeftFinger, RightFinger };
 
-/// What the item at a place of a pose datagram is.
 struct SegmentPlace {
     SegmentKind kind = SegmentKind::Body;
     int index = 0; ///< within the kind: body segment, prop number, or place in the hand
@@ -103,7 +102,7 @@ std::string_view segmentName(const SegmentLayout& layout, int position);
 /// What people read: the specification's "Right Upper Arm", "Prop1", "Left First PP"; empty outside the
 /// layout.
 std::string_view segmentTitle(const SegmentLayout& layout, int position);
-/// The same by the name that was sent; empty where that is none of these.
+/// The same by the name that was sent; empty if that is none of these.
 std::string_view segmentTitle(std::string_view sentName);
 
 /// Position of the parent item; -1 for the pelvis, for props (they are free in space) and outside the layout.
@@ -112,7 +111,7 @@ int segmentParent(const SegmentLayout& layout, int position);
 /// Body segment index of a type 13 name; empty for fingers, props and unknown names.
 std::optional<int> findBodySegment(std::string_view name);
 
-/// The same segment on the other side; centre segments are their own mirror.
+/// Centre segments are their own mirror.
 int mirrored(int bodySegment);
 
 } // namespace posewire::model

@@ -10,7 +10,6 @@ inline constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
 inline constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 inline constexpr double kGravity = 9.81; ///< m/s²
 
-/// What a sender's positions are in.
 enum class LengthUnit : std::uint8_t { Metre, Centimetre };
 
 /// Metres per wire unit.

@@ -252,7 +252,6 @@ std::span<const Claims::Claim> Claims::turnOf(std::vector<Claim>& claims, const 
     return isSoon ? std::span<const Claim>(own, claims.end()) : std::span<const Claim>();
 }
 
-/// Of each of them, naming all others.
 void Claims::report(std::span<const Claim> claims, const log::Packet& packet, std::uint8_t character,
                     Incidents& incidents) const {
     for (auto own = claims.rbegin(); own != claims.rend(); ++own) {

@@ -56,7 +56,6 @@ private:
     bool noteChange(const Stream& stream, const Verdict& verdict, const Silence& silence,
                     Incidents& incidents);
 
-    /// Of the newest sample.
     std::uint32_t m_sample = 0;
     std::uint32_t m_code = 0;
     log::Stamp m_stamp{};
@@ -80,7 +79,6 @@ public:
     void retire(log::SenderId sender) { m_sources.erase(sender); }
 
 private:
-    /// Who sends a character, and when it last did.
     struct Claim {
         log::SenderId sender{};
         std::size_t host = 0;

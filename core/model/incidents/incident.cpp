@@ -13,7 +13,6 @@ bool losesSamples(IncidentKind kind) {
     return kind == IncidentKind::Loss || kind == IncidentKind::Local || kind == IncidentKind::Outage;
 }
 
-/// What is missing: of samples, or of messages.
 words::Fact missingOf(const Incident& incident) {
     const bool isOfMessages = incident.isOfMessages();
     return {isOfMessages ? words::Kind::Incomplete : words::Kind::Lost,

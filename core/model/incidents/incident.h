@@ -46,7 +46,6 @@ enum class IncidentKind : std::uint8_t {
 inline constexpr std::size_t kIncidentKinds = 24;
 
 enum class IncidentSeverity : std::uint8_t { Info, Warning, Error };
-/// What an operator filters by.
 enum class IncidentGroup : std::uint8_t { Sender, Loss, Content, Limit };
 
 /// "source up", "loss" and so on, as people read it.
@@ -121,7 +120,7 @@ struct Incident {
 
     [[nodiscard]] IncidentSeverity severity() const;
     [[nodiscard]] IncidentGroup group() const;
-    /// Where it is of one alone.
+    /// Nothing unless it is of one alone.
     [[nodiscard]] std::optional<std::uint8_t> character() const;
     [[nodiscard]] std::optional<std::uint8_t> type() const;
     /// Each once, in growing order.
@@ -135,9 +134,7 @@ struct Incident {
     /// Whether a character is touched, or all of its sender; of what lasts, whether it still is.
     [[nodiscard]] bool concerns(std::uint8_t character) const;
     [[nodiscard]] bool concerns(std::uint8_t character, std::uint8_t type) const;
-    /// What of it was to one stream.
     [[nodiscard]] Incident of(const Part& part) const;
-    /// What happened, without who and when.
     [[nodiscard]] words::Fact fact() const;
     /// What happened to one stream: a silence is what it lost.
     [[nodiscard]] words::Fact fact(const Part& part) const;

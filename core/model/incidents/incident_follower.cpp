@@ -9,7 +9,6 @@ namespace {
 
 constexpr log::Duration kCheck = std::chrono::milliseconds(20);
 constexpr log::Duration kWatch = std::chrono::milliseconds(500);
-/// Of silence.
 constexpr log::Duration kLong = std::chrono::seconds(1);
 /// Of a stream while others of its character go on: before it is too old.
 constexpr log::Duration kEnded = std::chrono::milliseconds(500);
@@ -336,8 +335,9 @@ void IncidentFollower::takeContradiction(log::SenderId sender, std::optional<std
     Occurrence one = Occurrence::at(IncidentKind::Scale, sender, stamp, m_lastPacket);
     one.character = character;
     one.detail = found;
+    words::clip(one.detail, Incidents::kMostDetailBytes);
     const Incident* known = m_incidents.currentLike(one);
-    if (!found.isNothing() && (known == nullptr || known->detail != found)) {
+    if (!found.isNothing() && (known == nullptr || known->detail != one.detail)) {
         m_incidents.report(one);
     } else if (found.isNothing() && known != nullptr) {
         m_incidents.end(known->number, stamp);

@@ -54,7 +54,6 @@ public:
     void takeVerdict(Stream& stream, const Verdict& verdict);
     void takeChange(IncidentKind kind, const CharacterKey& key, const log::Packet& packet,
                     words::Fact detail);
-    /// What contradicts itself about a sender, or one character of it.
     void takeContradiction(log::SenderId sender, std::optional<std::uint8_t> character, log::Stamp stamp,
                            const words::Fact& found);
 

@@ -36,9 +36,9 @@ public:
     /// Those that lasted at a time in the past, in the same order, with all that is known of them now.
     [[nodiscard]] std::vector<const Incident*> currentAt(log::Stamp stamp) const;
     [[nodiscard]] std::size_t memoryBytes() const;
-    /// Null where there is none of that number, or none any more.
+    /// Null if there is none of that number, or none any more.
     [[nodiscard]] const Incident* find(std::uint64_t number) const;
-    /// What an occurrence would be of, were it reported now; null where it would begin one.
+    /// What an occurrence would be of, were it reported now; null if it would begin one.
     [[nodiscard]] const Incident* currentLike(const Occurrence& like) const;
 
     /// Something happened: a new incident, or more of one that lasts. Returns its number.
@@ -73,7 +73,7 @@ public:
     void advance(log::Stamp stamp);
 
 private:
-    /// What belongs together; those of a sender are next to each other.
+    /// Those of a sender are next to each other.
     struct Episode {
         log::SenderId sender{};
         IncidentKind kind{};

@@ -40,7 +40,7 @@ constexpr std::array kRows{
                  "So that a figure that hovers about its limit alerts once", 1 / kPercent, 1, kPercent},
 };
 
-/// Seconds between samples as they usually come; 0 where that is not known.
+/// Seconds between samples as they usually come; 0 if that is not known.
 double usualIntervalS(const Stream& stream, const RangeFigures& read) {
     const double meanMs = std::fmax(0, rowOf(Figure::SpacingMean).read(read));
     return stream.usualHz > 0 ? 1 / stream.usualHz : meanMs / 1000;
@@ -99,7 +99,6 @@ void ThresholdWatch::takeLoss(const log::StreamKey& stream, LossCause cause, std
     m_losses.push_back({stream, cause, samples, to});
 }
 
-/// How bad losses are that last.
 void ThresholdWatch::noteLosses(log::Stamp stamp, Incidents& incidents) const {
     std::vector<const Incident*> losses = incidents.current();
     std::erase_if(losses, [](const Incident* one) { return one->kind != IncidentKind::Loss; });
@@ -168,7 +167,7 @@ void ThresholdWatch::check(Stream& stream, log::Stamp stamp, Incidents& incident
     }
     for (const ThresholdRow& row : kRows) {
         if (row.figure) {
-            const double value = std::fmax(0, rowOf(*row.figure).read(read)); // 0 where it is not known
+            const double value = std::fmax(0, rowOf(*row.figure).read(read)); // 0 if it is not known
             const double limit = m_thresholds.*row.limit;
             const bool isGap = row.alert == IncidentKind::GapLimit;
             hold(stream, {row.alert, value, isGap ? slackened(limit, 1000 * intervalS) : limit}, stamp,

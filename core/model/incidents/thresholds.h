@@ -19,7 +19,7 @@
 
 namespace posewire::model {
 
-/// What a stream must keep; a limit of 0 is none.
+/// A limit of 0 is none.
 struct Thresholds {
     double lossPercent = 1;  ///< of the samples expected in the window, incomplete ones included
     double jitterMs = 10;    ///< RFC 3550
@@ -99,13 +99,13 @@ struct LossShare {
     std::uint64_t expected = 0;
 
     LossShare& operator+=(const LossShare& other);
-    /// From 0 to 1; 0 where none were expected. By so many deviations more was lost, or less: that of what
+    /// From 0 to 1; 0 if none were expected. By so many deviations more was lost, or less: that of what
     /// comes at random is the root of its count.
     [[nodiscard]] double ratio(double deviations = 0) const;
 };
 
 /// The share, from 0 to 1, that each part of a loss is held to its limit by: what its character lost on all
-/// its streams there, 0 where that is a few samples; or what it alone lost by more than chance, where that is
+/// its streams there, 0 if that is a few samples; or what it alone lost by more than chance, where that is
 /// more: of many streams that lose at random one is always above what all lose together.
 [[nodiscard]] std::vector<double>
 judgedShares(const Incident& incident, const std::function<LossShare(const Incident::Part&)>& shareOf);

@@ -21,7 +21,6 @@ struct Unproven {
     std::uint64_t datagrams = 0;
 };
 
-/// What came and what did not, of all that was received.
 class Accounts {
 public:
     /// The roster is of the same moment, and outlives this.
@@ -56,7 +55,6 @@ public:
     /// Calls f(stream, when it was due, cause, first packet) for the newest samples that came in part.
     void forEachPartialLoss(
         const std::function<void(const log::StreamKey&, log::Stamp, LossCause, std::uint64_t)>& f) const;
-    /// What was lost before this is known.
     [[nodiscard]] log::Stamp judgedUntil() const;
 
     /// One for every packet from begin() to end() of the session.

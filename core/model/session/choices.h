@@ -24,7 +24,6 @@ struct RangeChoice {
     friend bool operator==(const RangeChoice&, const RangeChoice&) = default;
 };
 
-/// Where in time the operator looks.
 struct Cursor {
     enum class Mode : std::uint8_t { Following, Paused };
     Mode mode = Mode::Following;
@@ -41,7 +40,6 @@ struct FoundBytes {
     friend bool operator==(const FoundBytes&, const FoundBytes&) = default;
 };
 
-/// What is selected.
 struct Selection {
     std::optional<log::SenderId> sender{};
     std::optional<CharacterKey> character{};
@@ -51,14 +49,13 @@ struct Selection {
     friend bool operator==(const Selection&, const Selection&) = default;
 };
 
-/// Which incident is to be looked at in their list.
 struct IncidentRequest {
     std::optional<std::uint64_t> number{}; ///< of the incident; nothing: none of them
     std::optional<CharacterKey> of{};      ///< whose are listed; nothing: the list stays as it is
     std::uint64_t count = 0;               ///< of requests so far
 };
 
-/// What the operator wrote on packets; kept by packet number, also where the log has dropped the packet.
+/// Kept by packet number, also if the log has dropped the packet.
 struct Annotations {
     std::set<std::uint64_t> marks;
     std::map<std::uint64_t, std::string> comments; ///< UTF-8, never empty
@@ -66,7 +63,6 @@ struct Annotations {
     friend bool operator==(const Annotations&, const Annotations&) = default;
 };
 
-/// What the operator saw before packets were shown from elsewhere.
 struct Jump {
     std::string filterBefore;
     Selection selectionBefore;
@@ -74,7 +70,7 @@ struct Jump {
     std::string filter; ///< that it put instead; the same where it kept the one before
 };
 
-/// What the operator chose. Part of the session, so that all panels agree without knowing each other.
+/// Part of the session, so that all panels agree without knowing each other.
 struct Choices {
     Cursor cursor;
     Selection selection;
@@ -91,11 +87,10 @@ struct Choices {
     /// Jumps that can be undone; the oldest are forgotten.
     static constexpr std::size_t kMostJumps = 50;
 
-    /// The one that put the filter in force there; null where the operator chose it.
+    /// The one that put the filter in force there; null if the operator chose it.
     [[nodiscard]] const Jump* filterJump() const;
     /// What the operator filters by, also while a jump put another filter in its place.
     [[nodiscard]] const std::string& ownFilter() const;
-    /// Whether goBack() has somewhere to go.
     [[nodiscard]] bool canGoBack() const { return !jumps.empty(); }
     /// Shows packets from elsewhere, and stops at the one that is selected. From a filter that a jump put
     /// there one goes back to the operator's own.

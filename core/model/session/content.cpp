@@ -21,34 +21,24 @@ namespace {
 /// The usual time between two looks for contradictions.
 constexpr log::Duration kContradictions = std::chrono::milliseconds(500);
 
-/// A sentence as it is said after a colon.
-std::string clauseOf(std::string text) {
-    const bool isWord = text.size() > 1 && text[1] >= 'a' && text[1] <= 'z';
-    if (isWord && text[0] >= 'A' && text[0] <= 'Z') {
-        text[0] = static_cast<char>(text[0] - 'A' + 'a');
-    }
-    text.erase(text.find_last_not_of('.') + 1);
-    return text;
-}
-
 /// The changes that a packet made, tag by tag; empty if it brought nothing new.
-std::string changeBy(const Metadata& metadata, std::uint64_t packet) {
-    std::vector<std::string> changes;
+std::vector<words::Fact> changesBy(const Metadata& metadata, std::uint64_t packet) {
+    std::vector<words::Fact> changes;
     for (const MetadataTag& tag : metadata.tags()) {
         if (tag.values.size() > 1 && tag.values.back().packet == packet) {
-            changes.push_back(tag.name.shown() + ": " + tag.values[tag.values.size() - 2].text.shown() +
-                              " → " + tag.values.back().text.shown());
+            changes.push_back({words::Kind::TagChanged,
+                               {{"name", tag.name.shown()},
+                                {"from", tag.values[tag.values.size() - 2].text.shown()},
+                                {"to", tag.values.back().text.shown()}}});
         }
     }
-    return listed(changes);
+    return changes;
 }
 
 /// Nothing if the null pose has no error.
 words::Fact contradictionOf(const NullPoseRecord& record) {
-    const std::string error = gravestError(record);
-    return error.empty()
-               ? words::Fact()
-               : words::Fact{words::Kind::Contradiction, {{"text", error}, {"clause", clauseOf(error)}}};
+    auto error = gravestError(record);
+    return error ? words::Fact{words::Kind::Contradiction, {{"what", *std::move(error)}}} : words::Fact();
 }
 
 } // namespace
@@ -72,9 +62,9 @@ void Content::takeMetadata(const wire::MetaData& message, const Observed& seen) 
     Metadata& metadata = seen.character->metadata;
     const std::size_t before = metadata.memoryBytes();
     metadata.add(message, packet.number, packet.stamp);
-    if (std::string change = changeBy(metadata, packet.number); !change.empty()) {
+    if (auto changes = changesBy(metadata, packet.number); !changes.empty()) {
         m_incidents.takeChange(IncidentKind::MetadataChange, seen.character->key, packet,
-                               {words::Kind::MetadataChanged, {{"changes", std::move(change)}}});
+                               {words::Kind::MetadataChanged, {{"changes", std::move(changes)}}});
     }
     if (m_metadataKeeping.grew(before, metadata.memoryBytes())) {
         std::vector<Metadata*> all;

@@ -19,7 +19,6 @@ struct Messages::Decoded {
         bool isValid = false;
         Message message;
     };
-    /// What a pose was made of.
     struct PoseOrigin {
         std::array<std::uint64_t, kPoseTypes.size()> packets{}; ///< one past each; 0 for none
         std::array<LengthUnit, kPoseTypes.size()> units{};

@@ -2,7 +2,6 @@
 #include "core/model/session/detection.h"
 
 #include "core/model/body/segments.h"
-#include "core/model/text.h"
 #include "core/wire/messages.h"
 #include "core/wire/type_table.h"
 
@@ -18,7 +17,7 @@ double distance(const Position& a, const Position& b) {
     return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }
 
-/// How far the body segments reach from the pelvis; those without finite positions apart.
+/// Segments without finite positions are left out.
 template <class Item>
 double reachOf(const std::vector<Item>& segments) {
     double reach = 0;
@@ -37,19 +36,16 @@ bool isOfEAlone(const wire::TypeInfo* info) {
     return info != nullptr && info->firstRevision() == 'E' && info->isInOneRevision();
 }
 
-std::string typeText(std::uint8_t type) {
-    return "type " + wire::typeDigits(type);
-}
-
 } // namespace
 
-std::string_view revisionName(Revision revision) {
-    constexpr std::array<std::string_view, 4> names{"not known yet", "E", "J or K", "L to N"};
-    return names[static_cast<std::size_t>(revision)];
+words::Kind revisionName(Revision revision) {
+    using enum words::Kind;
+    constexpr std::array kNames{RevisionUnknown, RevisionE, RevisionJOrK, RevisionN};
+    return kNames[static_cast<std::size_t>(revision)];
 }
 
-std::string_view unitName(LengthUnit unit) {
-    return unit == LengthUnit::Metre ? "metres" : "centimetres";
+words::Kind unitName(LengthUnit unit) {
+    return unit == LengthUnit::Metre ? words::Kind::Metres : words::Kind::Centimetres;
 }
 
 /// Evidence only ever grows: header counts outweigh message types, and those that only E has outweigh common
@@ -63,15 +59,15 @@ void Detector::addHeader(const wire::Header& header) {
         m_typeSinceJ = type;
     }
     if (isCounted && m_revision < Revision::N) {
-        conclude(Revision::N, "counts in its header");
+        conclude(Revision::N, words::Kind::CountsInHeader);
     } else if (!isCounted && isSinceJ(info) && m_revision < Revision::JOrK) {
-        conclude(Revision::JOrK, typeText(type) + " with a reserved header");
+        conclude(Revision::JOrK, {words::Kind::ReservedHeader, {{"type", wire::typeDigits(type)}}});
     } else if (!isCounted && isOfEAlone(info) && m_revision < Revision::E) {
-        conclude(Revision::E, "deprecated " + typeText(type) + " on the air");
+        conclude(Revision::E, {words::Kind::DeprecatedType, {{"type", wire::typeDigits(type)}}});
     }
 }
 
-void Detector::conclude(Revision revision, std::string evidence) {
+void Detector::conclude(Revision revision, words::Fact evidence) {
     m_revision = revision;
     m_revisionEvidence = std::move(evidence);
 }
@@ -94,13 +90,15 @@ void UnitFinder::add(double height, double reach) {
     }
     m_otherRun = unit == m_unit ? 0 : m_otherRun + 1;
     const bool isChange = m_otherRun == kPatience;
-    if (!m_evidence.empty() && !isChange) {
+    if (!m_evidence.isNothing() && !isChange) {
         return;
     }
     if (isChange) {
-        m_before = std::string(unitName(m_unit)) + " (" + m_evidence + ')';
+        m_before = {words::Kind::UnitBy,
+                    {{"looks", words::Fact(unitName(m_unit))}, {"evidence", m_evidence}}};
     }
-    m_evidence = hasHeight ? "pelvis at " + fixedText(height, 2) : "reach of " + fixedText(reach, 2);
+    m_evidence = {hasHeight ? words::Kind::PelvisAt : words::Kind::ReachOf,
+                  {{"value", words::Number{hasHeight ? height : reach, 2}}}};
     m_unit = unit;
     m_otherRun = 0;
 }
@@ -122,7 +120,7 @@ void Detector::addBody(const wire::Body& body) {
 
 std::optional<words::Fact> Detector::againstRevision(Revision declared) const {
     using K = words::Kind;
-    const words::NamedValue said{"declared", std::string(revisionName(declared))};
+    const words::NamedValue said{"declared", words::Fact(revisionName(declared))};
     const bool hasCounts = (m_allForms & kCounted) != 0;
     if (declared != Revision::N && hasCounts) {
         return words::Fact{K::SendsCounts, {said}};
@@ -147,13 +145,13 @@ std::vector<words::Fact> Detector::contradictions(const SenderOverride& declared
     if (m_typeOfBothForms) {
         found.push_back({K::CountsComeAndGo, {{"type", wire::typeDigits(*m_typeOfBothForms)}}});
     }
-    const words::NamedValue looks{"looks", std::string(unitName(m_zUp.unit()))};
+    const words::NamedValue looks{"looks", words::Fact(unitName(m_zUp.unit()))};
     const words::NamedValue evidence{"evidence", m_zUp.evidence()};
-    if (declared.positionUnit && !m_zUp.evidence().empty() && *declared.positionUnit != m_zUp.unit()) {
+    if (declared.positionUnit && !m_zUp.evidence().isNothing() && *declared.positionUnit != m_zUp.unit()) {
         found.push_back(
-            {K::ReadInOtherUnit, {looks, evidence, {"read", std::string(unitName(*declared.positionUnit))}}});
+            {K::ReadInOtherUnit, {looks, evidence, {"read", words::Fact(unitName(*declared.positionUnit))}}});
     }
-    if (!m_zUp.before().empty()) {
+    if (!m_zUp.before().isNothing()) {
         found.push_back({K::UnitChanged, {looks, evidence, {"before", m_zUp.before()}}});
     }
     return found;

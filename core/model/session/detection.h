@@ -8,29 +8,25 @@
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <string>
-#include <string_view>
 #include <vector>
 
 namespace posewire::model {
 
-/// Which revision of the specification a sender follows, as far as its datagrams show.
 enum class Revision : std::uint8_t { Unknown, E, JOrK, N };
-[[nodiscard]] std::string_view revisionName(Revision revision);
+[[nodiscard]] words::Kind revisionName(Revision revision);
 
 /// "metres", "centimetres".
-[[nodiscard]] std::string_view unitName(LengthUnit unit);
+[[nodiscard]] words::Kind unitName(LengthUnit unit);
 
-/// What was concluded about a sender, and from what.
 struct Detection {
     Revision revision = Revision::Unknown;
-    std::string revisionEvidence;                ///< "header counts and payload size"
+    words::Fact revisionEvidence;                ///< "counts in its header"
     LengthUnit positionUnit = LengthUnit::Metre; ///< of types 02, 05, 21 and 24
     LengthUnit yUpUnit = LengthUnit::Centimetre; ///< of types 01, 03 and 04
-    std::string unitEvidence; ///< of positionUnit: "pelvis at 1.05", empty before a pose came
+    words::Fact unitEvidence; ///< of positionUnit: "pelvis at 1.05", nothing before a pose came
 };
 
-/// What the operator declares about a sender; what is empty is left to detection.
+/// What is empty is left to detection.
 struct SenderOverride {
     std::optional<Revision> revision{}; ///< never Unknown
     std::optional<LengthUnit> positionUnit{};
@@ -51,15 +47,15 @@ public:
     void add(double height, double reach);
 
     [[nodiscard]] LengthUnit unit() const { return m_unit; }
-    /// "pelvis at 1.05", empty before there was any.
-    [[nodiscard]] const std::string& evidence() const { return m_evidence; }
-    /// For the unit that the sender has given up; empty for none.
-    [[nodiscard]] const std::string& before() const { return m_before; }
+    /// "pelvis at 1.05", nothing before there was any.
+    [[nodiscard]] const words::Fact& evidence() const { return m_evidence; }
+    /// The unit that the sender has given up, and its evidence; nothing if there was none.
+    [[nodiscard]] const words::Fact& before() const { return m_before; }
 
 private:
     LengthUnit m_unit;
-    std::string m_evidence;
-    std::string m_before;
+    words::Fact m_evidence;
+    words::Fact m_before;
     unsigned m_otherRun = 0; ///< poses in a row that look like the other unit
 };
 
@@ -74,19 +70,19 @@ public:
         return {m_revision, m_revisionEvidence, m_zUp.unit(), m_yUp.unit(), m_zUp.evidence()};
     }
 
-    /// What arrives against what is declared, and against what arrived before; empty where all agrees.
+    /// Contradictions between headers, poses and what is declared; empty if all agrees.
     [[nodiscard]] std::vector<words::Fact> contradictions(const SenderOverride& declared) const;
 
 private:
     /// In what headers a type has come.
     enum HeaderForm : std::uint8_t { kReserved = 1, kCounted = 2, kBoth = 3 };
 
-    void conclude(Revision revision, std::string evidence);
+    void conclude(Revision revision, words::Fact evidence);
     void noteHeaderForm(std::uint8_t type, HeaderForm form);
     [[nodiscard]] std::optional<words::Fact> againstRevision(Revision declared) const;
 
     Revision m_revision = Revision::Unknown;
-    std::string m_revisionEvidence;
+    words::Fact m_revisionEvidence;
     UnitFinder m_zUp{LengthUnit::Metre};
     UnitFinder m_yUp{LengthUnit::Centimetre};
     std::array<std::uint8_t, 100> m_headerForms{}; ///< by type, of HeaderForm

@@ -7,7 +7,6 @@
 #include <optional>
 #include <vector>
 
-/// Who lost how much, and whose fault it was.
 namespace posewire::model {
 
 /// Samples that did not come whole, by whose loss it was, among those that should have come.
@@ -17,19 +16,19 @@ struct FaultCounts {
     std::uint64_t expected = 0; ///< 0 also where that is not known: of messages sent again and again
 
     [[nodiscard]] std::uint64_t total() const;
-    /// Of the samples expected; 0 where none were.
+    /// 0 if no samples were expected.
     [[nodiscard]] double shareOf(std::uint64_t samples) const;
     FaultCounts& operator+=(const FaultCounts& other);
 };
 
-/// What one stream lost, under all ports that its sender had.
+/// Under all ports that its sender had.
 struct StreamFaults {
     std::uint8_t type = 0;
     FaultCounts counts{};
     std::vector<log::StreamKey> streams{};
 };
 
-/// What one character lost, through the restarts of its sender.
+/// Through the restarts of its sender.
 struct CharacterFaults {
     CharacterKey first{};   ///< of the oldest sender that is remembered: stays through restarts
     CharacterKey current{}; ///< what it is called by
@@ -40,7 +39,7 @@ struct CharacterFaults {
 /// Sums of what the streams of a session lost in one range of time.
 struct FaultMatrix {
     std::vector<CharacterFaults> characters; ///< in order of first appearance
-    /// Of all characters that may be no more than corrupt headers; nothing where nothing came of them.
+    /// Of all characters that may be no more than corrupt headers; nothing if nothing came of them.
     std::optional<CharacterFaults> unconfirmed;
     FaultCounts sum;
 };

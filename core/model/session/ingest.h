@@ -53,7 +53,6 @@ public:
     /// Packets as of the last follow().
     [[nodiscard]] log::LogReader& reader() { return m_follower.reader(); }
 
-    /// Whether what was followed last is a file.
     [[nodiscard]] bool isFile() const { return m_isFile; }
     [[nodiscard]] log::Stamp now() const { return m_now; }
     /// Of a file its end, however long ago that was.

@@ -38,7 +38,6 @@ std::string clockText(log::WallTime time) {
     return text.data();
 }
 
-/// What no incident of the list tells of a sender.
 struct Untold {
     LossesByCause lost{};
     std::vector<Incident::Part> stalled; ///< streams that are missing while others of their character go on
@@ -172,7 +171,6 @@ words::Value whom(const SessionView& session, const Incident& incident) {
                        : who;
 }
 
-/// Of all of it.
 words::Fact amountOf(const SessionView& session, const Incident& incident) {
     StreamCounts sum;
     for (const Incident::Part& part : incident.parts) {
@@ -223,7 +221,6 @@ words::Value namesOrCount(std::vector<std::string> names) {
                                      : words::Value(std::move(names));
 }
 
-/// What no incident of the list tells.
 std::vector<ListedIncident> unlistedOf(const SessionView& session) {
     std::vector<ListedIncident> all;
     for (const auto& [sender, untold] : untoldOf(session)) {

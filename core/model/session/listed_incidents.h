@@ -7,7 +7,6 @@
 #include <string_view>
 #include <vector>
 
-/// What happened, with what is not settled yet.
 namespace posewire::model {
 
 /// An incident as it is listed: with what is not settled yet.
@@ -31,13 +30,11 @@ struct ListedIncident {
 [[nodiscard]] std::vector<ListedIncident> unsettledIncidents(const SessionView& session);
 /// Of an incident of the session's list; a note is over unless it lasts.
 [[nodiscard]] ListedIncident::State stateOf(const SessionView& session, const Incident& incident);
-/// Of a part of an incident; null where it is of no stream, or that is there no more.
+/// Of a part of an incident; null if it is of no stream, or that is there no more.
 [[nodiscard]] const Stream* streamOf(const SessionView& session, log::SenderId sender,
                                      const Incident::Part& part);
-/// Whether it is a note: something to know, and no fault.
 [[nodiscard]] bool isNote(const Incident& incident);
 
-/// Whether it is of a sample of which the rest is just coming.
 [[nodiscard]] bool isOnlyComing(const ListedIncident& one);
 
 /// "Jonas", "Jonas and Mira", "4 characters".
@@ -46,7 +43,6 @@ struct ListedIncident {
 /// "37 samples lost", or "2.3 % lost" of the samples expected if that says more; 0 expected: not known.
 [[nodiscard]] words::Fact lostFact(const Incident& incident, std::uint64_t samples, std::uint64_t expected);
 
-/// What happened, to whom and why.
 [[nodiscard]] words::Fact factOf(const SessionView& session, const ListedIncident& listed);
 /// Of several outages that last at once, or several characters that are sent twice: all of them, with the
 /// cause if it is one.

@@ -83,7 +83,6 @@ StreamLosses Losses::of(const Stream& stream) const {
     return losses;
 }
 
-/// What is pending is Unknown.
 LossesByCause Losses::causesOf(const Stream& stream) const {
     if (!m_range) {
         return stream.lostByCause();

@@ -9,13 +9,13 @@ namespace posewire::model {
 
 class Ingest;
 
-/// What is kept of what came, about, and what it can become at most whatever comes.
+/// About, and at most whatever comes.
 struct MemoryFigures {
     struct Part {
         std::string_view key; ///< in JSON
         const char* name;     ///< as people read it
         std::size_t bytes = 0;
-        std::size_t most = 0; ///< 0 where that is within the limit of the part before
+        std::size_t most = 0; ///< 0 if that is within the limit of the part before
     };
     std::vector<Part> parts;
 

@@ -53,7 +53,7 @@ public:
     /// be looked at. The moment plays no part.
     void addArrivals(const log::StreamKey& key, const RangeParts& parts, std::size_t most,
                      std::span<RangePart> into) const;
-    /// Of the newest datagram of a stream; 0 if there is none.
+    /// 0 if there is none.
     [[nodiscard]] log::Stamp newestStamp(const log::StreamKey& key) const;
     /// The newest datagram of the sample that is `steps` samples after the one at the moment, or before it;
     /// of the last or the first sample if there are not as many. Nothing if the stream has none.
@@ -66,7 +66,6 @@ public:
 
     /// The newest pose (choosePose, assemble); null without one.
     [[nodiscard]] const CharacterPose* pose(const CharacterKey& key) const;
-    /// What is to be said of that pose; nothing without one.
     [[nodiscard]] PoseRemark poseRemark(const CharacterKey& key) const;
     /// From the scale message; null if none was received.
     [[nodiscard]] const NullPose* nullPose(const CharacterKey& key) const;
@@ -81,7 +80,6 @@ public:
 
 private:
     struct Decoded;
-    /// What is still good of it.
     [[nodiscard]] Decoded& decoded() const;
     bool readMessage(const log::StreamEntries& entries, std::size_t count, Message& message) const;
     bool readWhole(const log::StreamEntry& entry, Message& message) const;

@@ -29,7 +29,6 @@ public:
     [[nodiscard]] const Choices& choices() const { return *m_choices; }
     [[nodiscard]] Moment now() const { return {*m_ingest, *m_choices, true}; }
 
-    /// Whether it is one of the past.
     [[nodiscard]] bool isPaused() const;
     /// One past the newest packet that had been received.
     [[nodiscard]] std::uint64_t end() const;
@@ -37,7 +36,6 @@ public:
     [[nodiscard]] std::optional<log::Packet> packet(std::uint64_t number) const;
     /// All that were received of a stream, whatever the moment; null if none were.
     [[nodiscard]] const log::StreamEntries* entriesOf(const log::StreamKey& key) const;
-    /// How many entries of a stream are of such packets.
     [[nodiscard]] std::size_t countOf(const log::StreamEntries& entries) const;
     /// Ages are measured against it: the stamp of the newest packet if it is in the past.
     [[nodiscard]] log::Stamp stamp() const;

@@ -24,7 +24,6 @@ public:
     /// Whether a part of it is above its limit: now, with the hysteresis of limits; of all there is, or just
     /// after a reset, in that time.
     [[nodiscard]] bool isAboveLimit(const Incident& incident);
-    /// What the streams of an incident lost.
     [[nodiscard]] LossShare shareOf(const Incident& incident);
 
 private:

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <unordered_set>
 
-/// How a roll makes room for new senders.
 namespace posewire::model {
 namespace {
 

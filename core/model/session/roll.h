@@ -91,7 +91,6 @@ public:
     static constexpr std::size_t kMostStreams = log::StreamIndex::kStreamLimit;
     /// A sender with more streams than these is no performance.
     static constexpr std::size_t kMostStreamsOfSender = 1024;
-    /// Of the history of a sender's malformed datagrams.
     static constexpr std::size_t kBucketsOfSender = 256;
     /// Retired senders that incidents can still name, the newest, and characters of each.
     static constexpr std::size_t kMostFormer = 256;
@@ -123,7 +122,6 @@ public:
     [[nodiscard]] bool isForgettable(log::SenderId sender, log::Stamp now) const;
     /// Retires such a sender. False, and nothing happens, for others.
     bool forget(log::SenderId sender, log::Stamp now);
-    /// Whether others have taken over all characters of a sender.
     [[nodiscard]] bool hasEnded(const Sender& sender) const;
 
 private:

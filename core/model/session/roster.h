@@ -50,7 +50,6 @@ public:
 
     // Choices of the operator, which hold through restarts of the sender.
     [[nodiscard]] bool isHidden(const CharacterKey& key) const;
-    /// Whether it was put on the floor.
     [[nodiscard]] bool isLifted(const CharacterKey& key) const;
     [[nodiscard]] bool isSelected(const CharacterKey& key) const;
 

@@ -46,7 +46,6 @@ struct Sender {
 
     void takeMalformed(log::Stamp stamp);
     void takeForeign(wire::Bytes datagram);
-    /// Of a file: its name.
     [[nodiscard]] ForeignText address() const { return info.address; }
     /// The host with the transport; nothing for a file.
     [[nodiscard]] std::optional<std::string> host() const;
@@ -67,7 +66,6 @@ struct Sender {
     [[nodiscard]] std::vector<words::Fact> contradictions() const {
         return detector.contradictions(overrides);
     }
-    /// Whether it has sent a datagram that could be decoded.
     [[nodiscard]] bool isPerforming() const { return !characters.empty(); }
 };
 
@@ -92,7 +90,6 @@ struct Character {
     std::uint64_t formerRestarts = 0;
     std::optional<std::uint64_t> formerFirstPacket;
 
-    /// How often its counters were set back.
     [[nodiscard]] std::uint64_t counterRestarts() const;
 };
 

@@ -54,7 +54,6 @@ public:
     [[nodiscard]] log::Stamp firstStamp() const;
     /// What the receiving computer's clock showed: for times of day. All else is by stamps.
     [[nodiscard]] log::WallTime wallOf(log::Stamp stamp) const { return log().timeline().wallOf(stamp); }
-    /// What is followed is a file.
     [[nodiscard]] bool isRecording() const;
     /// For readers on other threads.
     [[nodiscard]] const log::PacketLog& log() const;

@@ -79,7 +79,6 @@ TakeVerdict fromIncidents(const SessionView& session, const std::vector<ListedIn
     return verdict;
 }
 
-/// What needs not say that it lasts.
 TakeVerdict lasting(TakeVerdict::State state, words::Fact said, log::Stamp since) {
     return {.state = state, .said = std::move(said), .since = since};
 }
@@ -130,7 +129,6 @@ bool isNew(const SessionView& session, const Character& character) {
     });
 }
 
-/// Of all characters with the same doubt.
 TakeVerdict onPoses(const SessionView& session, words::Fact doubt,
                     const std::vector<CharacterKey>& characters, log::Stamp since) {
     set(doubt, "who", whoOf(session, characters));
@@ -230,7 +228,7 @@ ListedIncident ofLasting(const SessionView& session, const ListedIncident& one) 
     return lasting.empty() ? one : ListedIncident{one.incident.of(lasting), one.state};
 }
 
-/// With what comes right now; nothing where it is of all there is.
+/// With what comes right now; nothing if it is of all there is.
 std::optional<TimeRange> rangeOf(const SessionView& session, const VerdictSpan& span) {
     return span.from == log::Stamp::min()
                ? std::nullopt
@@ -384,7 +382,6 @@ TakeVerdicts verdictsOf(const SessionView& session, const VerdictSpan& span,
 
 /// One for the verdicts of a session at all moments.
 struct Verdicts::Judged {
-    /// What verdicts rest on.
     struct Basis {
         std::uint64_t end = 0;
         log::Stamp now{};

@@ -41,7 +41,6 @@ struct VerdictSpan {
 /// The last moments of what is on the wire, but nothing before the reset.
 [[nodiscard]] VerdictSpan recentSpan(const SessionView& session);
 
-/// Of all together, and of each character that was asked for.
 struct TakeVerdicts {
     TakeVerdict all;
     std::map<CharacterKey, TakeVerdict> characters;
@@ -53,7 +52,6 @@ struct TakeVerdicts {
 [[nodiscard]] TakeVerdict verdictOf(const SessionView& session, const VerdictSpan& span,
                                     std::optional<CharacterKey> character = {});
 
-/// What happened, and how good all that is.
 class Verdicts {
 public:
     /// Of the first moment of a session. The view outlives this.
@@ -61,7 +59,7 @@ public:
     /// Of another moment of the same session, with the same verdicts.
     Verdicts(const SessionView& session, const Moment& moment, const Verdicts& same);
 
-    /// What happened, in the time of the log; with conditions that last.
+    /// In the time of the log; with conditions that last.
     [[nodiscard]] const Incidents& incidents() const;
     [[nodiscard]] const Thresholds& thresholds() const;
     /// What is wrong with a character or its sender at the moment, worst first.

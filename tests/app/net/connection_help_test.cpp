@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/net/connection_help.h"
+#include "tests/support/facts.h"
 #include "tests/support/temporary_folder.h"
 
 #include <gmock/gmock.h>
@@ -12,9 +13,14 @@ namespace posewire::net {
 namespace {
 
 using namespace std::chrono_literals;
+using ::testing::Each;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-using Kind = Finding::Kind;
+using words::Fact;
+using words::Form;
+using words::numberIn;
+using words::partOf;
+using Kind = words::Kind;
 
 std::vector<std::byte> bytesOf(std::string_view text) {
     const auto bytes = std::as_bytes(std::span(text));
@@ -30,9 +36,8 @@ InputStatus input(InputKind kind, std::uint16_t port = 9763) {
 
 std::vector<Kind> kindsOf(const ConnectionFacts& facts) {
     std::vector<Kind> kinds;
-    for (const Finding& finding : connectionHelp(facts)) {
-        EXPECT_FALSE(finding.text.empty());
-        EXPECT_FALSE(finding.remedy.empty()) << finding.text;
+    for (const Fact& finding : connectionHelp(facts)) {
+        EXPECT_NE(say(finding, Form::Sentence), "");
         kinds.push_back(finding.kind);
     }
     return kinds;
@@ -59,8 +64,7 @@ TEST_F(ConnectionHelpTest, SaysNothingWhereAllIsWell) {
 TEST_F(ConnectionHelpTest, TellsThatOnlyOthersThanThoseListenedToSend) {
     facts.inputs[0].refusedDatagrams = 34;
     ASSERT_THAT(kindsOf(facts), ElementsAre(Kind::NotListenedTo));
-    EXPECT_THAT(connectionHelp(facts)[0].text,
-                HasSubstr("34 datagrams have arrived from hosts that are not"));
+    EXPECT_EQ(numberIn(connectionHelp(facts)[0], "n"), 34);
     facts.silence = 100ms;
     facts.mxtpDatagrams = 100;
     EXPECT_TRUE(connectionHelp(facts).empty()) << "that is what the list is for";
@@ -70,7 +74,7 @@ TEST_F(ConnectionHelpTest, TellsWhereAGroupCouldNotBeJoined) {
     facts.silence = 100ms;
     facts.inputs[0].problem = "239.1.1.1 could not be joined on eth1: No buffer space available";
     ASSERT_THAT(kindsOf(facts), ElementsAre(Kind::NotJoined));
-    EXPECT_EQ(connectionHelp(facts)[0].text, facts.inputs[0].problem);
+    EXPECT_EQ(namesIn(connectionHelp(facts)[0], "problem"), std::vector{facts.inputs[0].problem});
 }
 
 TEST_F(ConnectionHelpTest, TellsThatTheAddressThatIsListenedOnHasGone) {
@@ -79,18 +83,20 @@ TEST_F(ConnectionHelpTest, TellsThatTheAddressThatIsListenedOnHasGone) {
     facts.inputs[0].problem =
         "no interface that is up has the address 10.9.0.1 any more; connect its network";
     ASSERT_THAT(kindsOf(facts), ElementsAre(Kind::AddressGone));
-    EXPECT_EQ(connectionHelp(facts)[0].text, "no interface that is up has the address 10.9.0.1 any more");
-    EXPECT_EQ(connectionHelp(facts)[0].remedy, "connect its network");
+    EXPECT_EQ(namesIn(connectionHelp(facts)[0], "problem"), std::vector{facts.inputs[0].problem});
     facts.inputs[0].endpoint.host = "239.1.1.1";
     EXPECT_THAT(kindsOf(facts), ElementsAre(Kind::NotJoined));
 }
 
 TEST_F(ConnectionHelpTest, NothingArrivesTellsWhatToTypeIntoMvn) {
     ASSERT_THAT(kindsOf(facts), ElementsAre(Kind::NothingArrives));
-    const Finding finding = connectionHelp(facts)[0];
-    EXPECT_THAT(finding.text, HasSubstr("UDP port 9763"));
-    EXPECT_THAT(finding.remedy, HasSubstr("Network Streamer"));
-    EXPECT_THAT(finding.remedy, HasSubstr("host 192.168.1.20 (eth0), port 9763, protocol UDP"));
+    const Fact finding = connectionHelp(facts)[0];
+    EXPECT_THAT(say(finding, Form::Sentence), HasSubstr("UDP port 9763"));
+    EXPECT_THAT(say(finding, Form::Advice), HasSubstr("Network Streamer"));
+    EXPECT_EQ(say(partOf(finding, "host"), Form::Headline), "192.168.1.20 (eth0)");
+    facts.addresses.push_back({"10.0.0.4", "wlan0", true, false, false});
+    EXPECT_THAT(say(connectionHelp(facts)[0], Form::Advice),
+                HasSubstr("host 192.168.1.20 (eth0) or 10.0.0.4 (wlan0), port 9763, protocol UDP"));
 }
 
 TEST_F(ConnectionHelpTest, WaitsBeforeItComplains) {
@@ -101,18 +107,22 @@ TEST_F(ConnectionHelpTest, WaitsBeforeItComplains) {
 TEST_F(ConnectionHelpTest, OneTransportAloneMayBeTheWrongOne) {
     facts.inputs = {input(InputKind::Udp)};
     ASSERT_THAT(kindsOf(facts), ElementsAre(Kind::NothingArrives, Kind::OtherTransport));
-    EXPECT_THAT(connectionHelp(facts)[1].text, HasSubstr("uses TCP would go unnoticed"));
+    EXPECT_EQ(namesIn(connectionHelp(facts)[1], "other"), std::vector<std::string>{"TCP"});
     facts.inputs = {input(InputKind::TcpListener)};
     ASSERT_THAT(kindsOf(facts), ElementsAre(Kind::NothingArrives, Kind::OtherTransport));
-    EXPECT_THAT(connectionHelp(facts)[0].remedy, HasSubstr("protocol TCP"));
+    EXPECT_EQ(namesIn(connectionHelp(facts)[0], "protocol"), std::vector<std::string>{"TCP"});
 }
 
 TEST_F(ConnectionHelpTest, AFirewallIsNamedOnlyWhileNothingHasCome) {
     facts.firewall = Firewall{"ufw", "sudo ufw allow PORT/udp"};
     ASSERT_THAT(kindsOf(facts), ElementsAre(Kind::NothingArrives, Kind::FirewallOn));
-    EXPECT_EQ(connectionHelp(facts)[1].remedy, "sudo ufw allow 9763/udp");
+    EXPECT_EQ(say(connectionHelp(facts)[1], Form::Advice), "To let them in: sudo ufw allow 9763/udp");
     facts.inputs = {input(InputKind::TcpListener, 9764)};
-    EXPECT_EQ(connectionHelp(facts).back().remedy, "sudo ufw allow 9764/tcp");
+    EXPECT_EQ(namesIn(connectionHelp(facts).back(), "command"),
+              std::vector<std::string>{"sudo ufw allow 9764/tcp"});
+    facts.firewall = Firewall{"nftables", ""};
+    EXPECT_EQ(say(connectionHelp(facts).back(), Form::Advice),
+              "Ask the administrator to accept TCP port 9764.");
     facts.mxtpDatagrams = 1;
     EXPECT_THAT(kindsOf(facts), ElementsAre(Kind::WentSilent));
 }
@@ -120,17 +130,17 @@ TEST_F(ConnectionHelpTest, AFirewallIsNamedOnlyWhileNothingHasCome) {
 TEST_F(ConnectionHelpTest, ForeignDatagramsAreShownAndGuessedAt) {
     facts.silence = 0s;
     facts.foreign = {{"10.0.0.9:4000", 17, bytesOf(std::string_view("/body/hip\0\0\0,fff", 16))}};
-    ASSERT_THAT(kindsOf(facts), ElementsAre(Kind::NotMxtp));
-    const Finding finding = connectionHelp(facts)[0];
-    EXPECT_THAT(finding.text, HasSubstr("17 datagrams from 10.0.0.9:4000"));
-    EXPECT_THAT(finding.text, HasSubstr("2f 62 6f 64"));
-    EXPECT_THAT(finding.text, HasSubstr("looks like OSC"));
-    facts.foreign[0].count = 1'234'567;
-    EXPECT_THAT(connectionHelp(facts)[0].text, HasSubstr("1\u202f234\u202f567 datagrams from"));
+    ASSERT_THAT(kindsOf(facts), ElementsAre(Kind::ForeignDatagrams));
+    const Fact finding = connectionHelp(facts)[0];
+    EXPECT_EQ(numberIn(finding, "n"), 17);
+    EXPECT_EQ(namesIn(finding, "address"), std::vector<std::string>{"10.0.0.9:4000"});
+    EXPECT_THAT(namesIn(finding, "value")[0], HasSubstr("2f 62 6f 64"));
+    EXPECT_EQ(partOf(finding, "looks").kind, Kind::LooksLikeOsc);
     facts.foreign[0].count = 1;
-    EXPECT_THAT(connectionHelp(facts)[0].text, HasSubstr("1 datagram from 10.0.0.9:4000 is not MXTP; it"));
+    EXPECT_THAT(say(connectionHelp(facts)[0], Form::Sentence),
+                HasSubstr("1 datagram from 10.0.0.9:4000 is not MXTP; it"));
     facts.foreign[0].firstBytes = bytesOf("\x91\x92\x93\x94");
-    EXPECT_EQ(connectionHelp(facts)[0].text.find("looks like"), std::string::npos);
+    EXPECT_TRUE(partOf(connectionHelp(facts)[0], "looks").isNothing());
 }
 
 TEST_F(ConnectionHelpTest, ForeignSendersOfOneHostAreOneFinding) {
@@ -141,11 +151,14 @@ TEST_F(ConnectionHelpTest, ForeignSendersOfOneHostAreOneFinding) {
                      {"10.0.0.9:4002", 1, osc},
                      {"10.0.0.10:4000", 2, osc},
                      {"10.0.0.9:5000", 4, bytesOf("\x91\x92\x93\x94")}};
-    ASSERT_THAT(kindsOf(facts), ElementsAre(Kind::NotMxtp, Kind::NotMxtp, Kind::NotMxtp));
+    ASSERT_THAT(kindsOf(facts), Each(Kind::ForeignDatagrams));
     const auto findings = connectionHelp(facts);
-    EXPECT_THAT(findings[0].text, HasSubstr("21 datagrams from 10.0.0.9 (3 ports) are not MXTP"));
-    EXPECT_THAT(findings[1].text, HasSubstr("2 datagrams from 10.0.0.10:4000"));
-    EXPECT_THAT(findings[2].text, HasSubstr("4 datagrams from 10.0.0.9:5000"));
+    ASSERT_EQ(findings.size(), 3U);
+    EXPECT_THAT(say(findings[0], Form::Sentence),
+                HasSubstr("21 datagrams from 10.0.0.9 (3 ports) are not MXTP"));
+    EXPECT_EQ(numberIn(findings[1], "n"), 2);
+    EXPECT_EQ(numberIn(findings[1], "ports"), std::nullopt);
+    EXPECT_EQ(numberIn(findings[2], "n"), 4);
 }
 
 TEST_F(ConnectionHelpTest, APortInUseKeepsItsWordsAndItsAdvice) {
@@ -154,8 +167,7 @@ TEST_F(ConnectionHelpTest, APortInUseKeepsItsWordsAndItsAdvice) {
                      {"", 9763},
                      {NetError::Kind::PortInUse, "UDP port 9763 is in use by mvn (process 42); close that "
                                                  "program or choose another port"}}};
-    const Finding expected{Kind::CannotOpen, "UDP port 9763 is in use by mvn (process 42)",
-                           "close that program or choose another port"};
+    const Fact expected{Kind::CannotOpen, {{"problem", facts.failed[0].error.text}}};
     EXPECT_THAT(connectionHelp(facts), ElementsAre(expected));
     facts.failed.clear();
     EXPECT_THAT(kindsOf(facts), ElementsAre(Kind::NoInput));
@@ -169,9 +181,8 @@ TEST_F(ConnectionHelpTest, TcpPeersThatSayNothingOrNonsenseAreTold) {
                              {"10.0.0.9:50000", log::Stamp(90s), 5, 500, 0},
                              {"10.0.0.10:50000", log::Stamp(99s), 0, 0, 0}};
     ASSERT_THAT(kindsOf(facts), ElementsAre(Kind::SilentPeer, Kind::GarbledPeer));
-    EXPECT_THAT(connectionHelp(facts)[0].text, HasSubstr("10.0.0.7:50000 is connected by TCP and has sent "
-                                                         "nothing for 10 s"));
-    EXPECT_THAT(connectionHelp(facts)[1].text, HasSubstr("none of its 500 bytes"));
+    EXPECT_EQ(numberIn(connectionHelp(facts)[0], "lasted"), 10);
+    EXPECT_EQ(numberIn(connectionHelp(facts)[1], "n"), 500);
 }
 
 TEST_F(ConnectionHelpTest, ASenderThatCannotBeReachedIsTold) {
@@ -179,21 +190,21 @@ TEST_F(ConnectionHelpTest, ASenderThatCannotBeReachedIsTold) {
     facts.inputs[0].state = InputState::Retrying;
     facts.inputs[0].text = "studio:9763 cannot be reached: Connection refused; trying again in 1 s";
     ASSERT_THAT(kindsOf(facts), ElementsAre(Kind::NotReachable));
-    EXPECT_THAT(connectionHelp(facts)[0].remedy, HasSubstr("MVN itself does not listen"));
+    EXPECT_THAT(say(connectionHelp(facts)[0], Form::Advice), HasSubstr("MVN itself does not listen"));
 }
 
 TEST(ForeignProtocol, KnowsWhatUsuallyComesToThesePorts) {
-    const auto guess = [](std::string_view text) { return protocolThatBegins(bytesOf(text)); };
+    const auto guess = [](std::string_view text) { return protocolThatBegins(bytesOf(text)).kind; };
     using namespace std::string_view_literals;
-    EXPECT_EQ(guess("#bundle\0"sv), "OSC");
-    EXPECT_THAT(guess("\x07\x00\x40\x02\x01\x00\x00\x00"sv), HasSubstr("NatNet"));
-    EXPECT_THAT(guess("\x10\x00\x00\x00\x02\x00\x48\x00Subject"sv), HasSubstr("Vicon"));
-    EXPECT_THAT(guess("\x00\x00\x00\x40\x00\x00\x00\x03"sv), HasSubstr("Qualisys"));
-    EXPECT_THAT(guess("{\"type\":1}"), HasSubstr("JSON"));
-    EXPECT_THAT(guess("GET / HTTP/1.1"), HasSubstr("HTTP"));
-    EXPECT_THAT(guess("\x00\x00\x02\xf8MXTP02"sv), HasSubstr("MXTP behind 4 other bytes"));
-    EXPECT_EQ(guess("\xff\xfe\xfd"), "");
-    EXPECT_EQ(guess(""), "");
+    EXPECT_EQ(guess("#bundle\0"sv), Kind::LooksLikeOsc);
+    EXPECT_EQ(guess("\x07\x00\x40\x02\x01\x00\x00\x00"sv), Kind::LooksLikeNatNet);
+    EXPECT_EQ(guess("\x10\x00\x00\x00\x02\x00\x48\x00Subject"sv), Kind::LooksLikeVicon);
+    EXPECT_EQ(guess("\x00\x00\x00\x40\x00\x00\x00\x03"sv), Kind::LooksLikeQualisys);
+    EXPECT_EQ(guess("{\"type\":1}"), Kind::LooksLikeJson);
+    EXPECT_EQ(guess("GET / HTTP/1.1"), Kind::LooksLikeHttp);
+    EXPECT_EQ(protocolThatBegins(bytesOf("\x00\x00\x02\xf8MXTP02"sv)), counted(Kind::MxtpBehind, 4));
+    EXPECT_EQ(guess("\xff\xfe\xfd"), Kind::Nothing);
+    EXPECT_EQ(guess(""), Kind::Nothing);
 }
 
 TEST(Reachable, PutsTheBestFirstAndLeavesLoopbackOutUnlessAlone) {

@@ -17,7 +17,6 @@ TEST(Text, HasFixedDecimals) {
     EXPECT_EQ(fixedText(-0.25, 2), "−0.25");
     EXPECT_EQ(fixedText(-0.004, 2), "0.00") << "nothing has no sign";
     EXPECT_EQ(fixedText(-1'684.5, 0), "−1684");
-    EXPECT_EQ(metresText(1.684), "1.684 m");
     EXPECT_EQ(millimetresText(0.012), "+12.0 mm");
 }
 

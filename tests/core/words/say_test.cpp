@@ -68,17 +68,37 @@ std::vector<NamedValue> valuesOf(std::uint64_t number) {
         {"other", Fact{Kind::Port, {{"port", std::string("4001")}}}},
         {"changes", std::string("name: Ana → Mira")},
         {"problem", std::string("the disk is full")},
-        {"declared", std::string("E")},
-        {"looks", std::string("metres")},
-        {"read", std::string("centimetres")},
-        {"clause", std::string("a clause")},
+        {"declared", Fact{Kind::RevisionE}},
+        {"looks", Fact{Kind::Metres}},
+        {"read", Fact{Kind::Centimetres}},
+        {"name", std::string("Pelvis")},
+        {"known", std::string("jL5S1")},
+        {"parts", types},
+        {"all", std::uint64_t{23}},
+        {"body", std::uint64_t{23}},
+        {"props", counted(Kind::Props, number)},
+        {"fingers", std::uint64_t{40}},
+        {"height", Number{1.75, 2}},
+        {"metres", Number{1.75, 2}},
+        {"factor", Number{0.01, 4}},
+        {"axis", std::string("−y")},
+        {"ports", std::uint64_t{3}},
+        {"protocol", std::string("UDP")},
+        {"host", std::string("192.0.2.1")},
+        {isOne ? "command" : "no command", std::string("sudo ufw allow 9763/udp")},
+        {"first", std::string("Ana")},
+        {"second", std::string("Jonas")},
+        {"path", std::string("take.csv")},
+        {"restarts", Fact{Kind::RestartedTimes, {{"n", number}}}},
+        {isOne ? "pause" : "no pause", Fact{Kind::PauseLeftOut}},
+        {isOne ? "written" : "unwritten", std::string("Y-up")},
         {"doubt", Fact{Kind::ReferenceBody}},
         {"brief", Fact{Kind::AssumedBody}},
     };
 }
 
-constexpr std::array<std::string_view, kForms> kFormNames{"headline", "sentence", "narrow",
-                                                          "line",     "brief",    "cell"};
+constexpr std::array<std::string_view, kForms> kFormNames{"headline", "sentence", "narrow", "line",
+                                                          "brief",    "cell",     "advice"};
 
 /// Whether a text has parts that are left out if a value is missing.
 bool hasOptional(const Wording& row) {
@@ -123,6 +143,13 @@ TEST(Words, AreTheGoldenOnes) {
     EXPECT_EQ(wholeTable(), golden.str());
 }
 
+TEST(Words, HaveARowForEachKindInItsOrder) {
+    EXPECT_EQ(wordings().size(), kKinds);
+    for (std::size_t row = 0; row < wordings().size(); ++row) {
+        EXPECT_EQ(static_cast<std::size_t>(wordings()[row].kind), row);
+    }
+}
+
 TEST(Words, HaveAValueForEveryPlaceholder) {
     const auto names = [] {
         std::set<std::string_view> known;
@@ -134,7 +161,8 @@ TEST(Words, HaveAValueForEveryPlaceholder) {
         return known;
     }();
     for (const Wording& row : wordings()) {
-        for (const Text& text : {row.headline, row.sentence, row.line, row.brief, row.cell, row.narrow}) {
+        for (const Text& text :
+             {row.headline, row.sentence, row.line, row.brief, row.cell, row.narrow, row.advice}) {
             for (const char* each : {text.text, text.one}) {
                 const std::string_view whole = each == nullptr ? "" : each;
                 EXPECT_EQ(std::ranges::count(whole, '{'), std::ranges::count(whole, '}')) << whole;

@@ -21,7 +21,7 @@ TEST(Catalogue, HasTheSingularsOfTheWords) {
     ASSERT_TRUE(languages().contains("en"));
     for (const words::Wording& row : words::wordings()) {
         for (const words::Text& text :
-             {row.headline, row.sentence, row.line, row.brief, row.cell, row.narrow}) {
+             {row.headline, row.sentence, row.line, row.brief, row.cell, row.narrow, row.advice}) {
             if (text.one != nullptr) {
                 EXPECT_EQ(inEnglishCatalogue(text.text, 1), text.one);
                 EXPECT_EQ(inEnglishCatalogue(text.text, 2), text.text);

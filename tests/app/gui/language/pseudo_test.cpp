@@ -28,6 +28,8 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QMenu>
+#include <QPaintDevice>
+#include <QPaintEngine>
 #include <QRegularExpression>
 #include <QSpinBox>
 #include <QTabBar>
@@ -128,6 +130,55 @@ QStringList untranslated(QString text, bool isOfInspector) {
     }
     return found;
 }
+
+/// Keeps each text that is painted, and nothing else.
+class PaintedTexts final : public QPaintDevice {
+public:
+    explicit PaintedTexts(const QSize& size) : m_size(size) {}
+
+    [[nodiscard]] QPaintEngine* paintEngine() const override { return &m_engine; }
+    [[nodiscard]] const QStringList& texts() const { return m_engine.texts; }
+
+protected:
+    [[nodiscard]] int metric(PaintDeviceMetric metric) const override {
+        switch (metric) {
+        case PdmWidth:
+        case PdmWidthMM:
+            return m_size.width();
+        case PdmHeight:
+        case PdmHeightMM:
+            return m_size.height();
+        case PdmDpiX:
+        case PdmDpiY:
+        case PdmPhysicalDpiX:
+        case PdmPhysicalDpiY:
+            return 96;
+        case PdmDevicePixelRatioScaled:
+            return static_cast<int>(devicePixelRatioFScale());
+        default:
+            return 1;
+        }
+    }
+
+private:
+    struct Engine final : QPaintEngine {
+        Engine() : QPaintEngine(AllFeatures) {}
+        bool begin(QPaintDevice* /*device*/) override { return true; }
+        bool end() override { return true; }
+        void updateState(const QPaintEngineState& /*state*/) override {}
+        void drawPath(const QPainterPath& /*path*/) override {}
+        void drawPolygon(const QPointF* /*points*/, int /*count*/, PolygonDrawMode /*mode*/) override {}
+        void drawPolygon(const QPoint* /*points*/, int /*count*/, PolygonDrawMode /*mode*/) override {}
+        void drawPixmap(const QRectF& /*to*/, const QPixmap& /*pixmap*/, const QRectF& /*from*/) override {}
+        void drawImage(const QRectF& /*to*/, const QImage& /*image*/, const QRectF& /*from*/,
+                       Qt::ImageConversionFlags /*flags*/) override {}
+        void drawTextItem(const QPointF& /*place*/, const QTextItem& item) override { texts += item.text(); }
+        [[nodiscard]] Type type() const override { return User; }
+        QStringList texts;
+    };
+    QSize m_size;
+    mutable Engine m_engine;
+};
 
 class PseudoTest : public testing::Test {
 protected:
@@ -235,6 +286,18 @@ protected:
         }
     }
 
+    /// Plots, lists and others that paint their texts themselves.
+    void checkPainted(QWidget& widget, const QString& where) {
+        static const QRegularExpression elided("\\p{L}+…"); // a name may be: the translator leaves no vowel
+        if (widget.isVisible() && !widget.inherits("QOpenGLWidget") && !widget.inherits("QLineEdit")) {
+            PaintedTexts painted(widget.size());
+            widget.render(&painted, {}, {}, {});
+            for (QString text : painted.texts()) {
+                check(text.remove(elided), where + " painted");
+            }
+        }
+    }
+
     /// Labels and buttons that do not elide.
     void checkRoom(const QWidget& widget, const QString& where) {
         const auto* label = qobject_cast<const QLabel*>(&widget);
@@ -271,6 +334,7 @@ protected:
             const QString where = path.join('>') + ' ' + widget->metaObject()->className();
             checkTexts(*widget, where);
             checkRoom(*widget, where);
+            checkPainted(*widget, where);
             for (const QAction* action : widget->actions()) {
                 check(action->text(), where + " action");
                 check(action->toolTip(), where + " action");

@@ -184,9 +184,9 @@ TEST(ComparisonTextTest, SaysWithWhatAndHow) {
     state.name = "b.pcapng";
     EXPECT_EQ(comparisonText(state), "compared with b.pcapng");
     state.alignment = exporting::Alignment{AlignBy::TimeCode, 12.5};
-    EXPECT_EQ(comparisonText(state), "compared with b.pcapng by time code, +12.5 ms");
+    EXPECT_EQ(comparisonText(state), "compared with b.pcapng · Time code, +12.5 ms");
     state.alignment = exporting::Alignment{AlignBy::Sample, -1};
-    EXPECT_EQ(comparisonText(state), "compared with b.pcapng by sample counter, −1 sample");
+    EXPECT_EQ(comparisonText(state), "compared with b.pcapng · Sample counter, −1 sample");
 }
 
 TEST(ComparisonTextTest, SaysWhatWasNotCompared) {

@@ -138,7 +138,7 @@ TEST_F(NullPosePanelTest, ContradictionsStandAtTheTopAndAreCounted) {
     auto* notices = m_panel->findChild<NullPoseNotices*>();
     EXPECT_TRUE(notices->isVisible());
     EXPECT_TRUE(notices->toPlainText().contains("\"Pelvis\" occurs twice"));
-    EXPECT_TRUE(m_panel->summary().contains("1 error, 2 warnings")) << m_panel->summary().toStdString();
+    EXPECT_TRUE(m_panel->summary().contains("1 error · 2 warnings")) << m_panel->summary().toStdString();
     send(Stage::kStart + 1s);
     refresh();
     EXPECT_FALSE(notices->toPlainText().contains("occurs twice"));

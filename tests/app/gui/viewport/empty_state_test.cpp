@@ -60,10 +60,12 @@ TEST(EmptyState, NamesTheProtocolThatIsListenedTo) {
 TEST(EmptyState, SaysWhatIsWrongWithAPeerAndWhereThereIsMore) {
     Stage stage;
     ReceivingState receiving = listening();
-    receiving.findings = {{net::Finding::Kind::SilentPeer, "10.0.0.5:1 has sent nothing", "press play"}};
+    receiving.findings = {
+        {words::Kind::SilentPeer, {{"address", std::string("10.0.0.5:1")}, {"lasted", std::uint64_t{7}}}}};
     const EmptyState state = emptyState(stage.session, receiving);
     EXPECT_EQ(state.level, Health::Warning);
-    EXPECT_THAT(textOf(state), testing::HasSubstr("10.0.0.5:1 has sent nothing. Press play."));
+    EXPECT_THAT(textOf(state),
+                testing::HasSubstr("10.0.0.5:1 is connected by TCP and has sent nothing for 7 s. In MVN:"));
     EXPECT_THAT(textOf(state), testing::HasSubstr("Help > Connection help"));
 }
 
@@ -71,10 +73,11 @@ TEST(EmptyState, SaysThatTheAddressThatIsListenedOnHasGone) {
     Stage stage;
     ReceivingState receiving = listening();
     receiving.findings = {
-        {net::Finding::Kind::AddressGone, "no interface has 10.9.0.1 any more", "connect it"}};
+        {words::Kind::AddressGone, {{"problem", std::string("no interface has 10.9.0.1; connect it")}}}};
     const EmptyState state = emptyState(stage.session, receiving);
     EXPECT_EQ(state.level, Health::Warning);
-    EXPECT_THAT(textOf(state), testing::HasSubstr("No interface has 10.9.0.1 any more. Connect it."));
+    EXPECT_THAT(textOf(state),
+                testing::HasSubstr("receives nothing: no interface has 10.9.0.1; connect it."));
 }
 
 TEST(EmptyState, ShowsTheFirstBytesOfForeignDatagrams) {

@@ -154,12 +154,12 @@ TEST_F(VerdictBarTest, NamesWhatIsComparedAndOffersToEndIt) {
     send(0, 60);
     refresh();
     EXPECT_TRUE(button("endComparisonButton")->isHidden());
-    refresh({.comparison = "compared with b.pcapng by time code"});
-    EXPECT_EQ(stripText(), "What is received, compared with b.pcapng by time code");
+    refresh({.comparison = "compared with b.pcapng · Time code"});
+    EXPECT_EQ(stripText(), "What is received, compared with b.pcapng · Time code");
     EXPECT_FALSE(strip()->isHidden());
     EXPECT_FALSE(button("endComparisonButton")->isHidden());
-    refresh({.name = "a.pcapng", .isShown = true, .comparison = "compared with b.pcapng by time code"});
-    EXPECT_THAT(stripText(), StartsWith("Recording a.pcapng compared with b.pcapng by time code"));
+    refresh({.name = "a.pcapng", .isShown = true, .comparison = "compared with b.pcapng · Time code"});
+    EXPECT_THAT(stripText(), StartsWith("Recording a.pcapng compared with b.pcapng · Time code"));
 }
 
 } // namespace

@@ -32,7 +32,7 @@ constexpr MotionFormat kAlone{.title = "Names",
                               .kind = "Names",
                               .suffix = "txt",
                               .holds = "names",
-                              .gaps = "nothing",
+                              .gaps = words::Kind::Nothing,
                               .make = makeNames};
 
 TEST_F(MotionExportTest, FindsFormatsByTheirSuffix) {

@@ -50,16 +50,18 @@ TEST(Detector, LetsHeaderCountsOutweighTheTypes) {
     detector.addHeader(header);
     detector.addHeader(headerOf(10));
     EXPECT_EQ(detector.result().revision, Revision::N);
-    EXPECT_FALSE(detector.result().revisionEvidence.empty());
+    EXPECT_FALSE(detector.result().revisionEvidence.isNothing());
 }
 
 TEST(Detector, TellsMetresFromCentimetresByThePelvis) {
     Detector metres;
     metres.addBody(pelvisAt(0.0F));
-    EXPECT_TRUE(metres.result().unitEvidence.empty());
+    EXPECT_TRUE(metres.result().unitEvidence.isNothing());
     metres.addBody(pelvisAt(1.05F));
     EXPECT_EQ(metres.result().positionUnit, LengthUnit::Metre);
-    EXPECT_EQ(metres.result().unitEvidence, "pelvis at 1.05");
+    EXPECT_EQ(
+        metres.result().unitEvidence,
+        (words::Fact{words::Kind::PelvisAt, {{"value", words::Number{static_cast<double>(1.05F), 2}}}}));
 
     Detector centimetres;
     centimetres.addBody(pelvisAt(104.8F));
@@ -89,6 +91,14 @@ words::NamedValue text(std::string_view name, std::string value) {
     return {name, std::move(value)};
 }
 
+words::NamedValue part(std::string_view name, Kind kind) {
+    return {name, words::Fact(kind)};
+}
+
+words::Fact measured(Kind kind, double value) {
+    return {kind, {{"value", words::Number{value, 2}}}};
+}
+
 TEST(Contradictions, AreNoneWhereDeclarationAndDatagramsAgree) {
     Detector detector;
     detector.addHeader(countedHeader(2));
@@ -102,14 +112,14 @@ TEST(Contradictions, TellHeaderCountsThatTheDeclaredRevisionDoesNotHave) {
     Detector detector;
     detector.addHeader(countedHeader(2));
     EXPECT_EQ(only(detector, {.revision = Revision::JOrK}),
-              (words::Fact{Kind::SendsCounts, {text("declared", "J or K")}}));
+              (words::Fact{Kind::SendsCounts, {part("declared", Kind::RevisionJOrK)}}));
 }
 
 TEST(Contradictions, TellCountsThatAreMissing) {
     Detector detector;
     detector.addHeader(headerOf(2));
     EXPECT_EQ(only(detector, {.revision = Revision::N}),
-              (words::Fact{Kind::SendsNoCounts, {text("declared", "L to N")}}));
+              (words::Fact{Kind::SendsNoCounts, {part("declared", Kind::RevisionN)}}));
 }
 
 TEST(Contradictions, TellTypesThatCameAfterRevisionE) {
@@ -117,7 +127,7 @@ TEST(Contradictions, TellTypesThatCameAfterRevisionE) {
     detector.addHeader(headerOf(2));
     detector.addHeader(headerOf(20));
     EXPECT_EQ(only(detector, {.revision = Revision::E}),
-              (words::Fact{Kind::SendsTypeSinceJ, {text("declared", "E"), text("type", "20")}}));
+              (words::Fact{Kind::SendsTypeSinceJ, {part("declared", Kind::RevisionE), text("type", "20")}}));
 }
 
 TEST(Contradictions, TellASenderThatChangesItsHeaders) {
@@ -132,10 +142,12 @@ TEST(Contradictions, TellASenderThatChangesItsHeaders) {
 TEST(Contradictions, TellAUnitThatIsNotTheDeclaredOne) {
     Detector detector;
     detector.addBody(pelvisAt(105.2F));
-    EXPECT_EQ(only(detector, {.positionUnit = LengthUnit::Metre}),
-              (words::Fact{Kind::ReadInOtherUnit,
-                           {text("looks", "centimetres"), text("evidence", "pelvis at 105.20"),
-                            text("read", "metres")}}));
+    const words::Fact contradiction = only(detector, {.positionUnit = LengthUnit::Metre});
+    EXPECT_EQ(contradiction.kind, Kind::ReadInOtherUnit);
+    EXPECT_EQ(partOf(contradiction, "looks").kind, Kind::Centimetres);
+    EXPECT_EQ(partOf(contradiction, "read").kind, Kind::Metres);
+    EXPECT_EQ(partOf(contradiction, "evidence").kind, Kind::PelvisAt);
+    EXPECT_NEAR(*numberIn(partOf(contradiction, "evidence"), "value"), 105.2, 1e-4);
 }
 
 TEST(Contradictions, BelieveAnotherUnitOnlyAfterManyPoses) {
@@ -148,19 +160,24 @@ TEST(Contradictions, BelieveAnotherUnitOnlyAfterManyPoses) {
     EXPECT_TRUE(found(detector).empty());
     detector.addBody(pelvisAt(105.0F));
     EXPECT_EQ(detector.result().positionUnit, LengthUnit::Centimetre);
-    EXPECT_EQ(only(detector),
-              (words::Fact{Kind::UnitChanged,
-                           {text("looks", "centimetres"), text("evidence", "pelvis at 105.00"),
-                            text("before", "metres (pelvis at 1.05)")}}));
+    EXPECT_EQ(
+        only(detector),
+        (words::Fact{Kind::UnitChanged,
+                     {part("looks", Kind::Centimetres),
+                      {"evidence", measured(Kind::PelvisAt, 105)},
+                      {"before",
+                       words::Fact{Kind::UnitBy,
+                                   {part("looks", Kind::Metres),
+                                    {"evidence", measured(Kind::PelvisAt, static_cast<double>(1.05F))}}}}}}));
 }
 
 TEST(UnitFinder, IsNotMisledBySomebodyWhoSendsCentimetresAndLiesDown) {
     UnitFinder finder(LengthUnit::Metre);
     finder.add(4, 170);
-    EXPECT_TRUE(finder.evidence().empty()) << "height and reach contradict each other";
+    EXPECT_TRUE(finder.evidence().isNothing()) << "height and reach contradict each other";
     finder.add(0, 170);
     EXPECT_EQ(finder.unit(), LengthUnit::Centimetre);
-    EXPECT_EQ(finder.evidence(), "reach of 170.00");
+    EXPECT_EQ(finder.evidence(), measured(Kind::ReachOf, 170));
     for (unsigned i = 0; i < 2 * UnitFinder::kPatience; ++i) {
         finder.add(4, 170);
     }

@@ -91,9 +91,8 @@ TEST_F(MemoryTest, OfMetadataThatAlwaysChangesIsBounded) {
     follow();
     EXPECT_GT(bytesOf("metadata"), 0U);
     for (const Incident& event : m_session.verdicts().incidents().all()) {
-        for (const std::string& change : namesIn(event.detail, "changes")) {
-            EXPECT_LE(change.size(), Incidents::kMostDetailBytes);
-        }
+        EXPECT_LE(say(event.detail, words::Form::Headline).size(), Incidents::kMostDetailBytes);
+        EXPECT_LE(memoryBytes(event.detail), 2 * Incidents::kMostDetailBytes);
     }
 }
 

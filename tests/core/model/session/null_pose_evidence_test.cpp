@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "tests/core/model/session/session_fixture.h"
+#include "tests/support/facts.h"
 
 #include "core/model/body/null_pose_findings.h"
 #include "core/model/body/points.h"
@@ -77,7 +78,7 @@ TEST_F(EvidenceTest, CountsForHowLongPosesHaveCome) {
     EXPECT_EQ(*evidence().layout, SegmentLayout{});
     const auto findings = findContradictions(evidence());
     ASSERT_EQ(findings.size(), 1U);
-    EXPECT_EQ(findings[0].fault, NullPoseFault::NeverSent);
+    EXPECT_EQ(findings[0].fact.kind, words::Kind::NoScaleMessage);
     EXPECT_DOUBLE_EQ(evidenceAt(500).poseSeconds, 5);
     EXPECT_TRUE(findContradictions(evidenceAt(500)).empty()) << "not overdue yet";
 }
@@ -121,7 +122,7 @@ TEST_F(EvidenceTest, KnowsThePartsThatAreMissing) {
     m_session.follow(at(3s));
     const auto findings = findContradictions(m_session.messages().nullPoseEvidence(key()));
     ASSERT_EQ(findings.size(), 1U);
-    EXPECT_EQ(findings[0].fault, NullPoseFault::MissingPart);
+    EXPECT_EQ(findings[0].fact.kind, words::Kind::PartsMissing);
     send(pointsOf(1), 0, at(4s), 0x01);
     EXPECT_TRUE(evidence().record.newest->isComplete());
     EXPECT_TRUE(findContradictions(evidence()).empty());
@@ -158,7 +159,7 @@ TEST_F(ScaleFindings, AreNoneWhereBothTypesAgree) {
     }
     send(body, 0, at(1s));
     send(scale, 0, at(2s));
-    EXPECT_TRUE(findings().empty()) << findings()[0].what;
+    EXPECT_TRUE(findings().empty()) << findings()[0].fact;
 }
 
 TEST_F(ScaleFindings, NameSegmentsWhoseMatrixCannotBeUsed) {
@@ -170,9 +171,9 @@ TEST_F(ScaleFindings, NameSegmentsWhoseMatrixCannotBeUsed) {
         send(scale, 0, m_now + 1s);
         const auto found = findings();
         ASSERT_EQ(found.size(), 1U);
-        EXPECT_EQ(found[0].fault, NullPoseFault::ScaleAgainstNullPose);
-        EXPECT_EQ(found[0].severity, Severity::Warning);
-        EXPECT_NE(found[0].what.find("for segment 5:"), std::string::npos) << found[0].what;
+        EXPECT_EQ(found[0].fact.kind, words::Kind::MatricesUnusable);
+        EXPECT_EQ(found[0].severity(), Severity::Warning);
+        EXPECT_EQ(namesIn(found[0].fact, "segments"), std::vector<std::string>{"5"});
     }
 }
 
@@ -184,7 +185,9 @@ TEST_F(ScaleFindings, ListNoMoreThanAFewOfManyBadMatrices) {
     send(scale, 0, at(1s));
     const auto found = findings();
     ASSERT_EQ(found.size(), 1U);
-    EXPECT_NE(found[0].what.find("segments 1, 2, 3 and 20 more:"), std::string::npos) << found[0].what;
+    EXPECT_EQ(namesIn(found[0].fact, "segments").size(), 23U);
+    EXPECT_NE(say(found[0].fact, words::Form::Sentence).find("segments 1, 2, 3 and 20 more:"),
+              std::string::npos);
 }
 
 TEST_F(ScaleFindings, NoteThatTheTypesHaveDifferentNumbersOfSegments) {
@@ -192,8 +195,9 @@ TEST_F(ScaleFindings, NoteThatTheTypesHaveDifferentNumbersOfSegments) {
     send(scaleOf(22), 0, at(2s));
     const auto found = findings();
     ASSERT_EQ(found.size(), 1U);
-    EXPECT_EQ(found[0].severity, Severity::Note);
-    EXPECT_EQ(found[0].what, "Type 10 has 22 segments, type 13 23.");
+    EXPECT_EQ(found[0].severity(), Severity::Note);
+    EXPECT_EQ(partOf(found[0].fact, "count"), counted(words::Kind::Segments, 22));
+    EXPECT_EQ(numberIn(found[0].fact, "all"), 23);
 }
 
 TEST_F(ScaleFindings, SayThatOnlyTheDeprecatedTypeWasSent) {
@@ -203,9 +207,8 @@ TEST_F(ScaleFindings, SayThatOnlyTheDeprecatedTypeWasSent) {
     }
     const auto found = findings();
     ASSERT_EQ(found.size(), 1U);
-    EXPECT_EQ(found[0].fault, NullPoseFault::NeverSent);
-    EXPECT_EQ(found[0].severity, Severity::Note) << "a warning where nothing was sent at all";
-    EXPECT_TRUE(found[0].what.starts_with("Only type 10 was sent")) << found[0].what;
+    EXPECT_EQ(found[0].fact.kind, words::Kind::DeprecatedScaleAlone);
+    EXPECT_EQ(found[0].severity(), Severity::Note) << "a warning where nothing was sent at all";
 }
 
 TEST_F(EvidenceTest, IsAnIncidentOfItsCharacterWhereItContradictsItself) {
@@ -222,7 +225,8 @@ TEST_F(EvidenceTest, IsAnIncidentOfItsCharacterWhereItContradictsItself) {
     const Incident& incident = m_session.verdicts().incidents().all().back();
     EXPECT_EQ(incident.kind, IncidentKind::Scale);
     EXPECT_EQ(incident.character(), 0);
-    EXPECT_EQ(say(incident.fact(), words::Form::Sentence), findContradictions(evidence()).front().what)
+    EXPECT_EQ(say(incident.fact(), words::Form::Sentence),
+              say(findContradictions(evidence()).front().fact, words::Form::Sentence))
         << "as the dock has it";
     EXPECT_EQ(m_session.verdicts().of(key()).state, TakeVerdict::State::Warning);
     sendFrom("127.0.0.1:40001", bodyOf(1), 0, at(4s + 5ms));
