@@ -40,18 +40,15 @@ Signal fieldSignal(const field::FieldMatch& match, std::optional<ItemNumber> ite
             });
         };
         const auto sent = [&](const field::FieldInfo& info, const field::Place& place, std::size_t at) {
-            if (match.hasComponent || info.components == 1) {
-                return place.read(*datagram, at, match.component).number;
+            const bool isNorm = !match.hasComponent && info.components > 1;
+            double squares = 0;
+            for (std::size_t i = 0; isNorm && i < info.components; ++i) {
+                squares += std::pow(place.read(*datagram, at, i).number, 2);
             }
-            double norm = 0;
-            for (std::size_t i = 0; i < info.components; ++i) {
-                norm = std::hypot(norm, place.read(*datagram, at, i).number);
-            }
-            return norm;
+            return isNorm ? std::sqrt(squares) : place.read(*datagram, at, match.component).number;
         };
         for (const field::FieldInfo* info : match.fields) {
-            const auto value = info->isOfItems() ? std::nullopt : info->readPacket(packet, 0);
-            if (value) {
+            if (const auto value = info->isOfItems() ? std::nullopt : info->readPacket(packet, 0)) {
                 return match.isAsSent ? value->number : compared(value->number, *info, {}, packet.candidate);
             }
             for (std::size_t list = 0; list < field::kLists; ++list) {
@@ -97,12 +94,22 @@ void Series::append(SeriesRow row, std::span<const double> values) {
     (*block.rows)[m_end % kBlock] = row;
     for (std::size_t i = 0; i < m_curves; ++i) {
         block.curves[i]->values[m_end % kBlock] = values[i];
-        const SeriesColumn own = columnOf(values[i], row.followsGap);
-        for (std::size_t step = kFan; step <= kBlock; step *= kFan) {
-            block.curves[i]->sums[placeOf(m_end, step)].add(own);
-        }
     }
     ++m_end;
+    for (std::size_t step = kFan; step <= kBlock && m_end % step == 0; step *= kFan) {
+        for (std::size_t i = 0; i < m_curves; ++i) {
+            SeriesColumn& whole = block.curves[i]->sums[placeOf(m_end - step, step)];
+            for (std::uint64_t from = m_end - step; from != m_end; from += step / kFan) {
+                whole.add(part(i, from, step / kFan));
+            }
+        }
+    }
+}
+
+/// Of `step` rows, which are all there.
+SeriesColumn Series::part(std::size_t curve, std::uint64_t from, std::size_t step) const {
+    return step == 1 ? columnOf(value(curve, from), row(from).followsGap)
+                     : blockOf(from).curves[curve]->sums[placeOf(from, step)];
 }
 
 std::uint64_t Series::rowFrom(log::Stamp stamp) const {
@@ -117,8 +124,7 @@ SeriesColumn Series::sum(std::size_t signal, std::uint64_t from, std::uint64_t t
         while (step < kBlock && from % (step * kFan) == 0 && from + step * kFan <= to) {
             step *= kFan;
         }
-        sum.add(step == 1 ? columnOf(value(signal, from), row(from).followsGap)
-                          : blockOf(from).curves[signal]->sums[placeOf(from, step)]);
+        sum.add(part(signal, from, step));
         from += step;
     }
     return sum;
@@ -145,18 +151,15 @@ SeriesFeed::SeriesFeed(const log::PacketLog& log, std::uint64_t from, std::vecto
     }
 }
 
-bool SeriesFeed::advance(std::uint64_t end, const NextPacket& next) {
+bool SeriesFeed::advance(std::uint64_t end) {
     m_follower.refresh();
     if (const auto oldest = m_firstStamp ? std::nullopt : m_follower.reader().packetFrom(0)) {
         m_firstStamp = oldest->stamp;
     }
     std::uint64_t count = 0;
     for (; count < kReadAtOnce; ++count) {
-        const std::uint64_t from = position();
-        m_follower.skipTo(next ? std::min(next(from), end) : from);
-        m_skipped += position() - from;
         const auto packet = m_follower.next(end);
-        if (std::exchange(m_missedBefore, missed()) != missed()) {
+        if (m_follower.takeOvertaken() != 0) {
             std::ranges::for_each(m_parts, [](Part& part) { part.followsGap = true; });
         }
         if (!packet) {
@@ -185,7 +188,7 @@ void SeriesFeed::read(const log::Packet& packet) {
     for (Part& part : m_parts) {
         candidate.positionUnit = part.source.positionUnit;
         const auto* filter = std::get_if<filter::Filter>(&part.source.packets);
-        if (filter != nullptr ? filter->matches(candidate) : mayBelong(part)) {
+        if (filter != nullptr ? filter->matches(candidate) : isRead && mayBelong(part)) {
             take(candidate, part);
         }
     }

@@ -17,8 +17,8 @@
 
 namespace posewire::feed {
 
-/// Reads a number from a packet; empty if the packet does not have it. It may remember what it read before:
-/// packets come in the order of the log.
+/// Reads a number from a packet; empty if the packet does not have it. Packets of a stream are decoded, those
+/// that a filter matches may have no datagram. It may remember what it read: packets come in order.
 using Signal = std::function<std::optional<double>(field::Subject& packet)>;
 
 /// An item of a message by the number in one of its fields: {"id", 11}, {"segment", 15}.
@@ -94,6 +94,7 @@ private:
     [[nodiscard]] static std::size_t placeOf(std::uint64_t row, std::size_t step) {
         return (kBlock / step - 1) / (kFan - 1) + row % kBlock / step;
     }
+    [[nodiscard]] SeriesColumn part(std::size_t curve, std::uint64_t from, std::size_t step) const;
     [[nodiscard]] const Block& blockOf(std::uint64_t row) const { return m_blocks[(row - m_begin) / kBlock]; }
 
     std::size_t m_curves;
@@ -115,21 +116,17 @@ struct SeriesSource {
 /// Follows a log and reads a series from each source; each packet is decoded once at most. One thread, any.
 class SeriesFeed {
 public:
-    /// Finds the next packet from a number on that is worth reading.
-    using NextPacket = std::function<std::uint64_t(std::uint64_t from)>;
-
     /// Begins with packet `from`.
     SeriesFeed(const log::PacketLog& log, std::uint64_t from, std::vector<SeriesSource> sources);
 
-    /// Reads some packets below `end`, all of them unless `next` names those to read; false if there were
-    /// none left for now.
-    bool advance(std::uint64_t end = UINT64_MAX, const NextPacket& next = {});
+    /// Reads some packets below `end`; false if there were none left for now.
+    bool advance(std::uint64_t end = UINT64_MAX);
 
     [[nodiscard]] const Series& series(std::size_t source = 0) const { return m_parts[source].series; }
     /// Number of the next packet.
     [[nodiscard]] std::uint64_t position() const { return m_follower.position(); }
     /// Packets that the log had dropped before they were read.
-    [[nodiscard]] std::uint64_t missed() const { return m_follower.overtaken() - m_skipped; }
+    [[nodiscard]] std::uint64_t missed() const { return m_follower.overtaken(); }
 
 private:
     struct Part {
@@ -148,8 +145,6 @@ private:
     std::vector<double> m_values;
     std::vector<Part> m_parts;
     std::optional<log::Stamp> m_firstStamp; ///< of the oldest packet when it began to read
-    std::uint64_t m_skipped = 0;
-    std::uint64_t m_missedBefore = 0;
 };
 
 } // namespace posewire::feed

@@ -168,6 +168,25 @@ TEST_F(SeriesFeedTest, ReadsPacketsThatAFilterMatches) {
     EXPECT_EQ(valuesOf({filter::Filter(), {signal("orientation.w")}}).size(), 50U);
 }
 
+TEST_F(SeriesFeedTest, LeavesOutWhatCannotBeDecoded) {
+    send(pose(0), 0);
+    const std::vector<std::byte> whole = [this] {
+        const auto packet = log::LogReader(m_log).packet(0);
+        return std::vector(packet->bytes.begin(), packet->bytes.end());
+    }();
+    log::Arrival arrival;
+    arrival.stamp = kStart;
+    arrival.sender = m_sender;
+    m_log.writer().append(std::span(whole).first(60), arrival);
+    m_log.writer().publish();
+    const Signal size = [](field::Subject& packet) {
+        EXPECT_NE(packet.candidate.datagram, nullptr);
+        return static_cast<double>(packet.candidate.packet.bytes.size());
+    };
+    EXPECT_EQ(valuesOf({stream(), {size}}).size(), 1U);
+    EXPECT_EQ(valuesOf({filter::Filter::compile("malformed").value(), {signal("size")}}), std::vector{60.0});
+}
+
 TEST_F(SeriesFeedTest, DecodesAPacketOnceForAllItsSignals) {
     send(pose(0), 7);
     const Signal change = [](field::Subject& packet) {
@@ -193,24 +212,6 @@ TEST_F(SeriesFeedTest, BeginsInTheMiddleAndStopsWhereItIsTold) {
     readAll(feed);
     EXPECT_EQ(feed.series().end(), 30U);
     EXPECT_EQ(feed.missed(), 0U);
-}
-
-TEST_F(SeriesFeedTest, PassesOverWhatIsNotWorthReadingWithoutMissingIt) {
-    for (std::uint32_t sample = 0; sample < 40; ++sample) {
-        send(pose(sample), sample);
-        send(wire::CentreOfMass{}, sample);
-    }
-    int asked = 0;
-    SeriesFeed feed(m_log, 0, {{stream(), {signal("position.z")}}});
-    while (feed.advance(UINT64_MAX, [&](std::uint64_t from) {
-        ++asked;
-        return from + from % 2;
-    })) {
-    }
-    EXPECT_LE(asked, 42);
-    EXPECT_EQ(feed.series().end(), 40U);
-    EXPECT_EQ(feed.missed(), 0U);
-    EXPECT_FALSE(feed.series().sum(0, 0, 40).hasGap);
 }
 
 class SmallLogTest : public SeriesFeedTest {
