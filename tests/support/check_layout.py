@@ -20,7 +20,7 @@ MAY_INCLUDE = [
     ("core/model/session", ["core/wire", "core/log", "core/words", "core/model"]),
     ("core/model", ["core/wire", "core/log", "core/words"]),
     ("core/performer", ["core/wire", "core/log", "core/model/body"]),
-    ("core/feed", ["core/wire", "core/log", "core/model"]),
+    ("core/feed", ["core/wire", "core/log", "core/model", "core/field", "core/filter"]),
     ("core/export", ["core/wire", "core/log", "core/words", "core/model", "core/feed"]),
     ("core/field", ["core/wire", "core/log", "core/model"]),
     ("core/filter", ["core/wire", "core/field", "core/model/body"]),

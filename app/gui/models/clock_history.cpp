@@ -123,8 +123,8 @@ void ClockHistory::follow(model::SessionView& view, const std::optional<model::C
 }
 
 void ClockHistory::add(const Reading& reading) {
-    if (!m_readings.empty()) {
-        const auto ahead = static_cast<std::int32_t>(reading.sample - m_readings.back().sample);
+    if (m_newest) {
+        const auto ahead = static_cast<std::int32_t>(reading.sample - m_newest->sample);
         if (ahead <= 0 && ahead >= -model::Probation::kMostBack) {
             return; // out of order, or again: no evidence of the clock
         }
@@ -138,10 +138,7 @@ void ClockHistory::add(const Reading& reading) {
         }
     }
     m_rate.add(reading.sample, reading.timeCode);
-    m_readings.push_back(reading);
-    while (reading.stamp - m_readings.front().stamp > kWindow || m_readings.size() > kMostReadings) {
-        m_readings.pop_front();
-    }
+    m_newest = reading;
 }
 
 /// One from far away is, until so many in a row agree that the counter restarted there.
@@ -174,7 +171,7 @@ std::optional<double> ClockHistory::jumpBetween(const Reading& before, const Rea
 /// One time code that is off is, until the next agrees with it; or where none in a row agrees with any.
 bool ClockHistory::isCorrupt(const Reading& reading) {
     constexpr std::size_t kMostCorrupt = 8;
-    if (!jumpBetween(m_readings.back(), reading)) {
+    if (!jumpBetween(*m_newest, reading)) {
         m_jumped.clear();
         return false;
     }
@@ -184,13 +181,13 @@ bool ClockHistory::isCorrupt(const Reading& reading) {
         return true;
     }
     const Reading first = agrees ? m_jumped.back() : reading;
-    m_jump = {jumpBetween(m_readings.back(), first).value_or(0), first.stamp};
-    m_readings.clear();
+    m_jump = {jumpBetween(*m_newest, first).value_or(0), first.stamp};
+    m_newest.reset();
     m_jumped.clear();
     m_rate = {};
     if (agrees) {
         m_rate.add(first.sample, first.timeCode);
-        m_readings.push_back(first);
+        m_newest = first;
     }
     return false;
 }
@@ -207,7 +204,7 @@ void ClockHistory::readType25(const model::Message* message) {
 }
 
 std::optional<std::uint32_t> ClockHistory::headerMs() const {
-    return m_readings.empty() ? std::nullopt : std::optional(m_readings.back().timeCode);
+    return m_newest ? std::optional(m_newest->timeCode) : std::nullopt;
 }
 
 namespace {

@@ -6,7 +6,6 @@
 #include "core/model/session/session_view.h"
 
 #include <cstdint>
-#include <deque>
 #include <optional>
 #include <string>
 
@@ -84,7 +83,7 @@ private:
 
     std::optional<log::StreamKey> m_stream;
     log::Stamp m_lastStamp{};
-    std::deque<Reading> m_readings;
+    std::optional<Reading> m_newest; ///< that is no straggler and not corrupt
     std::vector<Reading> m_doubtful; ///< from far away, in a row: late or corrupt, or the counter restarted
     std::vector<Reading> m_jumped;   ///< in a row: corrupt, or the time code has jumped
     NominalRate m_rate;
