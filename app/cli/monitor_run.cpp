@@ -237,8 +237,8 @@ void MonitorRun::tellRecorded(const log::RecordingFigures& recorded, bool hasFai
     const std::string packets = packetsText(recorded.packets);
     const std::string file = m_options.record == "-" ? "standard output" : m_options.record;
     if (hasFailed) {
-        m_console.complain("at most " + packets + " of " + std::to_string(log::LogReader(m_origin.log()).end()) +
-                           " are in " + file);
+        m_console.complain("at most " + packets + " of " +
+                           std::to_string(log::LogReader(m_origin.log()).end()) + " are in " + file);
         return;
     }
     m_console.complain("recorded " + packets + ", " + std::to_string(recorded.bytes) + " bytes to " + file);
@@ -295,8 +295,8 @@ ExitStatus MonitorRun::writeReport(const exporting::MonitorFacts& facts) {
     options.settings.emplace_back(m_options.file.empty() ? "Source" : "File",
                                   m_options.file.empty() ? "network" : m_options.file);
     if (m_isInterrupted) {
-        options.settings.emplace_back("Not read to its end",
-                                      "interrupted after " + packetsText(log::LogReader(m_origin.log()).end()));
+        options.settings.emplace_back(
+            "Not read to its end", "interrupted after " + packetsText(log::LogReader(m_origin.log()).end()));
     }
     log::OutputRules rules = rulesOf(m_options);
     if (!m_options.record.empty() && m_options.record != "-") {

@@ -43,7 +43,8 @@ QString gapText(const model::Gap* gap, std::uint64_t samples) {
     }
     const bool isKnown = gap->mainCause() != model::LossCause::Unknown;
     return tr("%1: %2 lost")
-        .arg(isKnown ? translatedText(model::nameOf(gap->mainCause())) : tr("cause unknown"), grouped(samples));
+        .arg(isKnown ? translatedText(model::nameOf(gap->mainCause())) : tr("cause unknown"),
+             grouped(samples));
 }
 
 QString findingsOf(model::SessionView& view, const log::Packet& packet, const model::PacketDigest& digest) {

@@ -47,21 +47,22 @@ Placement SampleLedger::placeAlone(const Datagram& datagram, CountHistory* histo
                : Placement{};
 }
 
-void SampleLedger::restart(log::Stamp stamp, CountHistory* history) {
+void SampleLedger::begin(log::Stamp stamp, CountHistory* history, bool isRestart) {
     if (!m_before.empty()) {
         // A straggler may have been the first sample of all.
-        m_firstSample = m_settled.restarts == 1 ? m_before.first() : m_firstSample;
+        m_firstSample = m_begins == 1 ? m_before.first() : m_firstSample;
         m_before.addTo(m_settled);
         m_longestGap = std::max(m_longestGap, m_before.longestGap());
         m_before.clear(history);
     }
-    if (m_settled.restarts == 0) {
+    if (m_begins == 0) {
         m_firstSample = m_present.first();
     }
     std::swap(m_present, m_before);
-    m_restart = stamp;
-    ++m_settled.restarts;
-    if (history != nullptr) {
+    m_begin = stamp;
+    ++m_begins;
+    m_settled.restarts += isRestart ? 1 : 0;
+    if (history != nullptr && isRestart) {
         history->add(stamp, {.restarts = 1});
     }
 }
@@ -77,8 +78,8 @@ StreamCounts SampleLedger::counts() const {
     }
     if (!m_present.empty()) {
         counts.step = m_present.step();
-        counts.firstSample = counts.restarts == 0 ? m_present.first() : m_firstSample;
-        if (counts.restarts == 1 && !m_before.empty()) {
+        counts.firstSample = m_begins == 0 ? m_present.first() : m_firstSample;
+        if (m_begins == 1 && !m_before.empty()) {
             counts.firstSample = m_before.first();
         }
         counts.lastSample = m_present.highest();

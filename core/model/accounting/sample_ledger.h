@@ -12,7 +12,7 @@ namespace posewire::model {
 /// the newest restart, and stragglers of the one before it.
 class SampleLedger {
 public:
-    /// For this long after a restart, a straggler of the sequence before it still counts there.
+    /// For this long after a beginning, a straggler of the sequence before it still counts there.
     static constexpr log::Duration kStraggling = std::chrono::seconds(10);
     /// Reordered by more than this is late.
     static constexpr log::Duration kLateAfter = std::chrono::milliseconds(50);
@@ -25,14 +25,14 @@ public:
     Placement placeBefore(const Datagram& datagram, CountHistory* history);
     /// One that came alone from far away: near a sequence it counts there, else nowhere.
     Placement placeAlone(const Datagram& datagram, CountHistory* history);
-    /// The counter restarted: the next datagram placed is the first of a sequence.
-    void restart(log::Stamp stamp, CountHistory* history);
+    /// The next datagram placed is the first of a sequence. `isRestart`: because the counter restarted.
+    void begin(log::Stamp stamp, CountHistory* history, bool isRestart);
 
     [[nodiscard]] const SampleSequence& present() const { return m_present; }
     [[nodiscard]] const SampleSequence& before() const { return m_before; }
     /// True if something of the sequence before may still come.
     [[nodiscard]] bool hasBefore(log::Stamp stamp) const {
-        return !m_before.empty() && stamp - m_restart < kStraggling;
+        return !m_before.empty() && stamp - m_begin < kStraggling;
     }
 
     /// See SampleSequence.
@@ -55,7 +55,8 @@ public:
 private:
     Placement count(const Placement& placement, log::Stamp stamp, CountHistory* history);
 
-    log::Stamp m_restart{};
+    log::Stamp m_begin{};
+    std::uint64_t m_begins = 0; ///< after the first
     SampleSequence m_present;
     SampleSequence m_before;
     StreamCounts m_settled; ///< of the sequences before those, and what belongs to none

@@ -9,8 +9,6 @@
 namespace posewire::model {
 namespace {
 
-/// A stream has its step by then.
-constexpr std::uint64_t kUncertain = 128;
 constexpr TimeRange kEver{log::Stamp::min(), log::Stamp::max()};
 
 /// True if a counter is ahead by what was passed over at most.
@@ -27,7 +25,7 @@ Placement carryOut(const Probation::Waiting& datagram, Probation::Outcome outcom
                    SampleLedger& ledger, CountHistory* history) {
     switch (outcome) {
     case Probation::Outcome::Restarted:
-        ledger.restart(datagram.datagram.stamp, history);
+        ledger.begin(datagram.datagram.stamp, history, true);
         return ledger.place(datagram.datagram, history);
     case Probation::Outcome::Begun:
         return ledger.place(datagram.datagram, history);
@@ -117,6 +115,14 @@ std::span<const Verdict> StreamAccounting::add(const log::Packet& packet, const 
     return m_verdicts;
 }
 
+void StreamAccounting::beginRun(log::Stamp stamp) {
+    if (m_countsSamples && m_probation.empty() && !m_ledger.present().empty()) {
+        m_ledger.begin(stamp, &m_history, false);
+        m_lastSample.reset();
+        m_certainFrom = m_datagrams + kUncertain;
+    }
+}
+
 void StreamAccounting::setDepth(const AccountingDepth& depth) {
     m_depth = depth;
     m_ledger.setMost(depth.samples, &m_history);
@@ -168,7 +174,7 @@ void StreamAccounting::settle(const Probation::Waiting& datagram, Probation::Out
     verdict.timeCode = datagram.timeCode;
     // Before the step is certain, whether samples are missing is known later.
     verdict.mayBeGap = placement.kind == Placement::Kind::Advance && placement.gap == 0 &&
-                       m_datagrams < kUncertain && outcome != Probation::Outcome::Restarted &&
+                       m_datagrams < m_certainFrom && outcome != Probation::Outcome::Restarted &&
                        m_lastSample.has_value() && distance(verdict.sample, placement.sampleBefore) > 1;
     if (placement.gap != 0 || verdict.mayBeGap) {
         verdict.sampleBefore = placement.sampleBefore;
@@ -189,6 +195,7 @@ void StreamAccounting::settle(const Probation::Waiting& datagram, Probation::Out
     }
     if (verdict.isRestart) {
         m_clock.restart();
+        m_certainFrom = m_datagrams + kUncertain;
     }
     if (placement.kind == Placement::Kind::Advance) {
         m_highest = datagram;

@@ -111,6 +111,8 @@ public:
                Probation::kMost * (sizeof(Probation::Waiting) + sizeof(Verdict)) + MessageRounds::kMostBytes;
     }
 
+    /// The sender had stopped to send the stream, and sends it again: what it did not send is not missing.
+    void beginRun(log::Stamp stamp);
     /// A datagram of the stream that could not be decoded.
     void addMalformed(log::Stamp stamp);
 
@@ -167,6 +169,8 @@ public:
     [[nodiscard]] log::Stamp lastStamp() const { return m_lastStamp; }
 
 private:
+    static constexpr std::uint64_t kUncertain = 128; ///< datagrams of a run
+
     void takeSample(const Probation::Waiting& datagram);
     void endDoubt(bool isEnd);
     void settle(const Probation::Waiting& datagram, Probation::Outcome outcome, bool isMoved);
@@ -176,7 +180,8 @@ private:
     std::uint64_t m_datagrams = 0;
     std::uint64_t m_bytes = 0;
     std::uint64_t m_malformed = 0;
-    std::uint64_t m_passedOver = 0; ///< packets since the newest datagram
+    std::uint64_t m_passedOver = 0;           ///< packets since the newest datagram
+    std::uint64_t m_certainFrom = kUncertain; ///< datagrams, by which its run has its step
     log::Stamp m_firstStamp{};
     log::Stamp m_lastStamp{};
     std::optional<log::Stamp> m_lastSample{}; ///< stamp of the newest first arrival of a sample

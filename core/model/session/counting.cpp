@@ -6,6 +6,9 @@
 namespace posewire::model {
 namespace {
 
+/// A stream that ended and comes back later than this begins again; sooner, what is missing between is lost.
+constexpr log::Duration kUnsent = std::chrono::seconds(1);
+
 /// A sample that others have overtaken is no sign that its sender goes on.
 bool isLate(std::span<const Verdict> verdicts) {
     return !verdicts.empty() && verdicts.back().isReordered && verdicts.back().isFirstOfSample;
@@ -70,6 +73,9 @@ void Counting::takeDatagram(Observed& seen) {
     Stream& stream = *seen.stream;
     m_index.add(packet, *seen.header);
     stream.statistics.add(packet.stamp);
+    if (stream.hasEnded && packet.stamp - stream.accounting.lastStamp() >= kUnsent) {
+        stream.accounting.beginRun(packet.stamp);
+    }
     const auto verdicts = addToStream(packet, *seen.header, stream.accounting, seen.digest);
     const bool isSampled = countsSamples(seen.digest.type);
     const bool isConfirmed = seen.character->isConfirmed;

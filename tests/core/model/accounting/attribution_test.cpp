@@ -134,6 +134,40 @@ TEST_F(AttributionTest, TakesAStreamThatEndsForNoLoss) {
     }
 }
 
+TEST_F(AttributionTest, LosesNothingOfAStreamThatWasNotSentForASecond) {
+    for (const auto& [until, lost] : {std::pair{350U, 0U}, {300U, 199U}}) {
+        const auto address = "127.0.0.1:" + std::to_string(40'000 + until);
+        for (std::uint32_t sample = 1; sample <= 800; ++sample, m_at += 4ms) {
+            put(sample, {.address = address.c_str()});
+            if (sample <= 100 || sample >= until) {
+                put(sample, {.type = 24, .address = address.c_str()});
+            }
+        }
+        follow();
+        const StreamCounts counts = m_session.roster().streams().back().accounting.counts();
+        EXPECT_EQ(counts.lost, lost);
+        EXPECT_EQ(counts.samples, 100 + 801 - until);
+        EXPECT_EQ(counts.restarts, 0U);
+        EXPECT_EQ(counts.firstSample, 1U);
+        EXPECT_EQ(counts.step, 1U);
+    }
+}
+
+TEST_F(AttributionTest, JudgesTheSecondSampleAfterARestart) {
+    for (std::uint32_t sample = 1; sample <= 800; ++sample, m_at += 4ms) {
+        const std::uint32_t counter = sample <= 400 ? 50'000 + sample : sample - 400;
+        put(counter, {.type = 24});
+        if (counter != 2) {
+            put(counter, {});
+        }
+    }
+    follow();
+    const Stream& stream = m_session.roster().streams().back();
+    EXPECT_EQ(stream.accounting.counts().restarts, 1U);
+    EXPECT_EQ(stream.accounting.counts().lost, 1U);
+    EXPECT_EQ(stream.lostByCause()[static_cast<std::size_t>(LossCause::Network)], 1U);
+}
+
 TEST_F(AttributionTest, BlamesTheSenderOnTcp) {
     frames(1, 50, {.transport = log::Transport::Tcp});
     frames(52, 120, {.transport = log::Transport::Tcp});
