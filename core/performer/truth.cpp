@@ -49,22 +49,33 @@ StreamTruth::Parts& StreamTruth::Run::at(std::int64_t position) {
 void StreamTruth::add(const wire::Header& header, const Sending& sending) {
     ++m_figures.datagrams;
     if (!wire::isSampled(header.type())) {
-        addMessage(header, sending.due);
+        addMessage(header, sending);
     } else if (Run* run = runOf(header, sending.origin)) {
         addTo(*run, header, sending.due);
     }
 }
 
-/// What a receiver takes for one message: indices that do not repeat, close together.
-void StreamTruth::addMessage(const wire::Header& header, log::Duration time) {
-    const bool isOpen = m_message.isTouched();
-    if (isOpen && time - m_messageAt <= kTogether && m_message.add(header)) {
+/// What a receiver takes for one message: indices that do not repeat, close together. The same bytes again
+/// are a duplicate, unless they are a whole message.
+void StreamTruth::addMessage(const wire::Header& header, const Sending& sending) {
+    const log::Duration time = sending.due;
+    const bool isWhole = header.datagramIndex() == 0 && header.isLast();
+    const bool isRepeat = !isWhole && std::ranges::any_of(m_messageParts, [&](const auto& part) {
+        return time - part.first <= kTogether && part.second == sending.bytes;
+    });
+    if (isRepeat) {
+        ++m_figures.duplicates;
         return;
     }
-    m_figures.incomplete += isOpen && !m_message.isComplete() ? 1 : 0;
-    m_message = {};
-    m_messageAt = time;
-    m_message.add(header);
+    const bool isOpen = m_message.isTouched();
+    if (!isOpen || time - m_messageAt > kTogether || !m_message.add(header)) {
+        m_figures.incomplete += isOpen && !m_message.isComplete() ? 1 : 0;
+        m_message = {};
+        m_messageParts.clear();
+        m_messageAt = time;
+        m_message.add(header);
+    }
+    m_messageParts.emplace_back(time, sending.bytes);
 }
 
 StreamTruth::Run* StreamTruth::runOf(const wire::Header& header, const Origin& origin) {

@@ -17,7 +17,7 @@
 namespace posewire::performer {
 
 /// What a receiver that misses nothing has to count about one stream: one type of one character of one
-/// sender. Types 10 to 13 have datagrams and incomplete alone.
+/// sender. Types 10 to 13 have datagrams, duplicates and incomplete alone.
 struct SentFigures {
     std::uint64_t datagrams = 0;
     std::uint64_t samples = 0;
@@ -74,7 +74,7 @@ private:
         Parts& at(std::int64_t position);
     };
 
-    void addMessage(const wire::Header& header, log::Duration time);
+    void addMessage(const wire::Header& header, const Sending& sending);
     /// Null where the counter is damaged so that it can belong to nothing.
     Run* runOf(const wire::Header& header, const Origin& origin);
     Run& beginRun(const wire::Header& header, const Origin& origin);
@@ -84,6 +84,7 @@ private:
     std::vector<Run> m_runs;
     Parts m_message;             ///< the newest one of types 10 to 13
     log::Duration m_messageAt{}; ///< when it began
+    std::vector<std::pair<log::Duration, std::vector<std::byte>>> m_messageParts; ///< time, bytes
 };
 
 /// What a receiver that misses nothing has to count about one sender.

@@ -25,6 +25,7 @@ std::vector<NamedValue> valuesOf(std::uint64_t number) {
     const Fact reason{Kind::Loss, {{"amount", missing}, {"who", names}, {"cause", Fact{Kind::CauseNetwork}}}};
     return {
         {"n", number},
+        {"hosts", number},
         {"text", std::string("A text")},
         {"types", types},
         {"type", std::string("21")},
