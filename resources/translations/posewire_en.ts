@@ -280,13 +280,6 @@
         </translation>
     </message>
     <message numerus="yes">
-        <source>All {streams} of the sender paused together for {lasted} ms, and the time code moved by {moved} ms.</source>
-        <translation>
-            <numerusform>The only stream of the sender paused for {lasted} ms, and the time code moved by {moved} ms.</numerusform>
-            <numerusform>All {streams} of the sender paused together for {lasted} ms, and the time code moved by {moved} ms.</numerusform>
-        </translation>
-    </message>
-    <message numerus="yes">
         <source>{who} send no pose[, only {types}]</source>
         <translation>
             <numerusform>{who} sends no pose[, only {types}]</numerusform>
@@ -473,6 +466,13 @@
         <translation>
             <numerusform>its sender was restarted {n} time[: {pause}]</numerusform>
             <numerusform>its sender was restarted {n} times[: {pause}]</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>All {streams} of the sender&apos;s computer were silent for {lasted} ms.</source>
+        <translation>
+            <numerusform>The only stream of the sender&apos;s computer was silent for {lasted} ms.</numerusform>
+            <numerusform>All {streams} of the sender&apos;s computer were silent for {lasted} ms.</numerusform>
         </translation>
     </message>
 </context>

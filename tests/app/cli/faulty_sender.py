@@ -309,16 +309,20 @@ def stream_truth(kind, datagrams, runs):
     figures = {"type": kind, "datagrams": len(datagrams)}
     good = [datagram for datagram in datagrams if datagram.state == "good"]
     if kind not in SAMPLED:
-        # A message is what comes within a quarter of a second without an index that repeats.
-        messages, began = [], 0.0
+        # A message is what comes within a quarter of a second without an index that repeats; the same part again is a
+        # duplicate in that time.
+        messages, began, duplicates, came = [], 0.0, 0, {}
         for datagram in good:
+            if kind != "12" and datagram.time - came.get(datagram.raw, -1.0) <= TOGETHER:
+                duplicates += 1
+                continue
+            came[datagram.raw] = datagram.time
             if not messages or datagram.part in messages[-1] or datagram.time - began > TOGETHER:
                 messages.append(set())
                 began = datagram.time
             messages[-1].add(datagram.part)
         whole = 1 if kind == "12" else 4
-        figures["incomplete"] = sum(len(parts) != whole for parts in messages)
-        return figures
+        return figures | {"incomplete": sum(len(parts) != whole for parts in messages), "duplicates": duplicates}
     arrivals, ends = defaultdict(set), {}
     duplicates, newest = 0, 0
     sequences = sequence_of(runs)
