@@ -453,7 +453,9 @@ void IncidentFollower::checkEnded(log::Stamp stamp) {
             continue;
         }
         for (Stream* stream : character.streams) {
-            const log::Duration silent = character.lastSampled - stream->accounting.lastStamp();
+            // A silence of all of them is no end of one.
+            const log::Duration silent =
+                character.lastSampled - std::max(stream->accounting.lastStamp(), character.lastSilence.to);
             const bool isOver = stream->isEstablished() && stamp - character.lastSampled < kSilent &&
                                 silent > patienceWith(std::span(&stream, 1), kEnded, 3);
             if (isOver && !std::exchange(stream->hasEnded, true)) {

@@ -153,6 +153,22 @@ TEST_F(AttributionTest, LosesNothingOfAStreamThatWasNotSentForASecond) {
     }
 }
 
+TEST_F(AttributionTest, LosesWhatIsMissingOfAPauseHoweverLong) {
+    for (std::uint32_t sample = 1; sample <= 1'000; ++sample, m_at += 4ms) {
+        for (const std::uint8_t type : std::initializer_list<std::uint8_t>{2, 24, 25}) {
+            if (sample <= 200 || sample > 700) {
+                put(sample, {.type = type});
+            }
+        }
+        follow();
+    }
+    for (const Stream& stream : m_session.roster().streams()) {
+        EXPECT_EQ(stream.lostByCause()[static_cast<std::size_t>(LossCause::Sender)], 500U);
+    }
+    EXPECT_EQ(std::ranges::count(m_session.verdicts().incidents().all(), IncidentKind::Step, &Incident::kind),
+              0);
+}
+
 TEST_F(AttributionTest, JudgesTheSecondSampleAfterARestart) {
     for (std::uint32_t sample = 1; sample <= 800; ++sample, m_at += 4ms) {
         const std::uint32_t counter = sample <= 400 ? 50'000 + sample : sample - 400;
