@@ -61,6 +61,38 @@ std::uint64_t attribute(LossSink& sink, Stream& stream, Loss loss) {
     return sink.takeLoss(std::move(loss));
 }
 
+/// Reports what was lost of a gap by each cause.
+void report(LossSink& sink, Gap& gap, Stream& stream, std::span<const LossEvidence::Run> runs) {
+    // The most first: a silence has the cause of what was lost in it, not of what was beside it.
+    const LossCause main = gap.mainCause();
+    for (const bool isMain : {true, false}) {
+        for (const LossEvidence::Run& run : runs) {
+            if ((run.cause == main) == isMain) {
+                Gap::Share& share = gap.of(run.cause);
+                share.incident = attribute(sink, stream,
+                                           {.stream = gap.stream,
+                                            .cause = run.cause,
+                                            .samples = run.lost,
+                                            .from = run.from,
+                                            .to = run.to,
+                                            .fromPacket = gap.fromPacket,
+                                            .toPacket = gap.toPacket,
+                                            .incident = share.incident,
+                                            .evidence = gap.evidenceFact(run.cause)});
+            }
+        }
+    }
+}
+
+void takeBack(LossSink& sink, Gap& gap, Stream& stream, LossCause cause, std::uint32_t samples) {
+    Gap::Share& share = gap.of(cause);
+    share.lost -= std::min(share.lost, samples);
+    std::uint64_t& sum = stream.attributed[static_cast<std::size_t>(cause)];
+    const std::uint64_t less = std::min<std::uint64_t>(sum, samples);
+    sum -= less;
+    sink.takeBack(share.incident, gap.stream, less, share.lost == 0);
+}
+
 } // namespace
 
 void Attribution::retire(log::SenderId sender) {
@@ -113,13 +145,13 @@ void Attribution::recount(Gap& gap, Stream& stream, std::optional<std::uint32_t>
         const LossCause cause = before != 0 ? gap.mainCause() : LossCause::Unknown;
         gap.of(cause).lost += lost - before;
         const LossEvidence::Run run{cause, lost - before, gap.fromStamp, gap.toStamp};
-        report(gap, stream, std::span(&run, 1));
+        report(*m_sink, gap, stream, std::span(&run, 1));
         return;
     }
     std::uint32_t less = before - lost;
     if (late && less == 1) {
         const LossCause cause = m_evidence.causeOf(gap, stream, *late);
-        takeBack(gap, stream, gap.of(cause).lost != 0 ? cause : gap.mainCause(), 1);
+        takeBack(*m_sink, gap, stream, gap.of(cause).lost != 0 ? cause : gap.mainCause(), 1);
         return;
     }
     while (less != 0) {
@@ -128,18 +160,9 @@ void Attribution::recount(Gap& gap, Stream& stream, std::optional<std::uint32_t>
         if (some == 0) {
             break;
         }
-        takeBack(gap, stream, cause, some);
+        takeBack(*m_sink, gap, stream, cause, some);
         less -= some;
     }
-}
-
-void Attribution::takeBack(Gap& gap, Stream& stream, LossCause cause, std::uint32_t samples) {
-    Gap::Share& share = gap.of(cause);
-    share.lost -= std::min(share.lost, samples);
-    std::uint64_t& sum = stream.attributed[static_cast<std::size_t>(cause)];
-    const std::uint64_t less = std::min<std::uint64_t>(sum, samples);
-    sum -= less;
-    m_sink->takeBack(share.incident, gap.stream, less, share.lost == 0);
 }
 
 /// Counts again the newest gaps of a stream, or only the one around a sample, which it returns.
@@ -400,29 +423,7 @@ void Attribution::judge(Gap& gap) {
     recount(gap, *stream, {});
     gap.isJudged = true;
     if (gap.lost != 0) {
-        report(gap, *stream, m_evidence.findCauses(gap, *stream));
-    }
-}
-
-void Attribution::report(Gap& gap, Stream& stream, std::span<const LossEvidence::Run> runs) {
-    // The most first: a silence has the cause of what was lost in it, not of what was beside it.
-    const LossCause main = gap.mainCause();
-    for (const bool isMain : {true, false}) {
-        for (const LossEvidence::Run& run : runs) {
-            if ((run.cause == main) == isMain) {
-                Gap::Share& share = gap.of(run.cause);
-                share.incident = attribute(*m_sink, stream,
-                                           {.stream = gap.stream,
-                                            .cause = run.cause,
-                                            .samples = run.lost,
-                                            .from = run.from,
-                                            .to = run.to,
-                                            .fromPacket = gap.fromPacket,
-                                            .toPacket = gap.toPacket,
-                                            .incident = share.incident,
-                                            .evidence = gap.evidenceFact(run.cause)});
-            }
-        }
+        report(*m_sink, gap, *stream, m_evidence.findCauses(gap, *stream));
     }
 }
 

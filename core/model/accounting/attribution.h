@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
-#include <span>
 #include <vector>
 
 namespace posewire::model {
@@ -169,15 +168,12 @@ private:
     void judgeEarly(Stream& stream, std::uint64_t packet);
     void judgeDue(log::Stamp stamp, std::uint64_t packet, bool isAll = false);
     void judge(Gap& gap);
-    /// Reports what was lost of it by each cause.
-    void report(Gap& gap, Stream& stream, std::span<const LossEvidence::Run> runs);
     void judge(Partial& partial, std::uint64_t packet);
     /// The rest of a sample or message is lost, by the packets up to `lastPacket`.
     void lose(const Partial& partial, std::uint64_t lastPacket, std::uint64_t toPacket, words::Fact evidence);
     void attributeRest(Stream& stream);
     void takePartial(Stream& stream, const Verdict& verdict);
     void recount(Gap& gap, Stream& stream, std::optional<std::uint32_t> late);
-    void takeBack(Gap& gap, Stream& stream, LossCause cause, std::uint32_t samples);
     const Gap* recount(Stream& stream, std::optional<std::uint32_t> around);
 
     LossSink* m_sink;

@@ -128,7 +128,7 @@ LossCause LossEvidence::causeOfPartial(const log::StreamKey& stream, std::uint64
 }
 
 std::span<const LossEvidence::Run> LossEvidence::findCauses(Gap& gap, const Stream& stream) {
-    judgeSamples(gap, stream);
+    judgeSamples(gap, stream, {});
     gap.shares = {};
     m_runs.clear();
     std::uint32_t left = gap.lost; // what came of them is known only while it is remembered
@@ -160,13 +160,13 @@ std::span<const LossEvidence::Run> LossEvidence::findCauses(Gap& gap, const Stre
 }
 
 LossCause LossEvidence::causeOf(const Gap& gap, const Stream& stream, std::uint32_t sample) {
-    judgeSamples(gap, stream);
+    judgeSamples(gap, stream, sample);
     const auto place = placeOf(sample, gap);
     return place && *place < m_missing.size() ? m_missing[*place].cause.value_or(LossCause::Unknown)
                                               : LossCause::Unknown;
 }
 
-void LossEvidence::judgeSamples(const Gap& gap, const Stream& stream) {
+void LossEvidence::judgeSamples(const Gap& gap, const Stream& stream, std::optional<std::uint32_t> late) {
     m_step = std::max(stream.accounting.step(), 1U);
     const std::size_t samples = (gap.toSample - gap.fromSample - 1) / m_step;
     m_missing.assign(std::min(samples, kMostSamples), {});
@@ -176,7 +176,7 @@ void LossEvidence::judgeSamples(const Gap& gap, const Stream& stream) {
     }
     const Sender& sender = found->second;
     stream.accounting.forEachBetween(gap.fromSample, gap.toSample, [&](std::uint32_t sample, log::Stamp) {
-        if (const auto place = placeOf(sample, gap)) {
+        if (const auto place = placeOf(sample, gap); place && sample != late) {
             m_missing[*place].isMissing = false;
         }
     });

@@ -86,7 +86,7 @@ public:
     /// Judges each sample of a gap by all that is known of that sample. Sets its shares; valid until the next
     /// call. Of very many runs the last ones are one.
     std::span<const Run> findCauses(Gap& gap, const Stream& stream);
-    /// Whose loss a sample of a judged gap was.
+    /// Whose loss a sample of a judged gap was that came late.
     [[nodiscard]] LossCause causeOf(const Gap& gap, const Stream& stream, std::uint32_t sample);
     /// Whose loss the rest of a sample or message is, of which some came from a packet on.
     [[nodiscard]] LossCause causeOfPartial(const log::StreamKey& stream, std::uint64_t fromPacket,
@@ -142,7 +142,8 @@ private:
         std::uint8_t otherType = 0;
         std::uint64_t figure = 0;
     };
-    void judgeSamples(const Gap& gap, const Stream& stream);
+    /// `late`: one that has come since, to be judged as if it had not.
+    void judgeSamples(const Gap& gap, const Stream& stream, std::optional<std::uint32_t> late);
     void judgeLostHere(const Gap& gap, std::uint16_t localPort);
     void judgeDrop(const Gap& gap, const Drop& drop, const Missing& as);
     void judgeBrought(const Gap& gap, const Sender& sender);

@@ -331,6 +331,25 @@ TEST_F(AttributionTest, TakesBackWhatCameLate) {
     EXPECT_EQ(m_session.roster().streams().front().lostByCause()[3], 0U);
 }
 
+TEST_F(AttributionTest, TakesALateSampleBackFromItsOwnCause) {
+    for (std::uint32_t sample = 1; sample <= 600; ++sample, m_at += 4ms) {
+        const bool isSent = sample <= 100 || sample > 200;
+        if (isSent && sample != 100) {
+            put(sample, {});
+        }
+        if (isSent) {
+            put(sample, {.type = 24});
+        }
+        if (sample == 400) { // judged long ago
+            put(100, {});
+        }
+    }
+    follow();
+    const LossesByCause lost = m_session.roster().streams().front().lostByCause();
+    EXPECT_EQ(lost[static_cast<std::size_t>(LossCause::Sender)], 100U);
+    EXPECT_EQ(lost[static_cast<std::size_t>(LossCause::Network)], 0U);
+}
+
 TEST_F(AttributionTest, TakesBackWhatAChangeOfStepExplains) {
     frames(1, 100);
     for (std::uint32_t sample = 102; sample <= 400; sample += 2, m_at += 8ms) {
