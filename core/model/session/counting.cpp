@@ -80,10 +80,11 @@ void Counting::takeDatagram(Observed& seen) {
     const bool isSampled = countsSamples(seen.digest.type);
     const bool isConfirmed = seen.character->isConfirmed;
     if (isConfirmed) {
-        m_incidents.takeDatagram(
-            packet, *seen.header, stream,
-            {seen.sender->info.address, seen.character->metadata.value("name", packet.number).exact()},
-            isLate(verdicts));
+        const bool isAlone = m_roll.senders().size() == 1; // nobody else can claim the character
+        const std::string_view name =
+            isAlone ? "" : seen.character->metadata.value("name", packet.number).exact();
+        m_incidents.takeDatagram(packet, *seen.header, stream, {seen.sender->info.address, name},
+                                 isLate(verdicts));
     }
     if (isSampled && !isLate(verdicts)) {
         m_attribution.takeSampled(packet.sender, packet.stamp);
