@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 
 namespace posewire::feed {
 namespace {
@@ -83,7 +82,7 @@ void Series::append(SeriesRow row, std::span<const double> values) {
             m_blocks.pop_front();
             m_begin += kBlock;
         }
-        Block& block = m_blocks.emplace_back(m_scratch->make<std::array<SeriesRow, kBlock>>());
+        Block& block = m_blocks.emplace_back(Block{m_scratch->make<std::array<SeriesRow, kBlock>>(), {}});
         std::generate_n(std::back_inserter(block.curves), m_curves,
                         [this] { return m_scratch->make<Values>(); });
     }
@@ -113,8 +112,14 @@ SeriesColumn Series::part(std::size_t curve, std::uint64_t from, std::size_t ste
 }
 
 std::uint64_t Series::rowFrom(log::Stamp stamp) const {
-    return *std::ranges::partition_point(std::views::iota(m_begin, m_end),
-                                         [&](std::uint64_t one) { return row(one).stamp < stamp; });
+    std::uint64_t from = m_begin;
+    for (std::uint64_t to = m_end; from < to;) {
+        const std::uint64_t middle = from + (to - from) / 2;
+        const bool isBefore = row(middle).stamp < stamp;
+        from = isBefore ? middle + 1 : from;
+        to = isBefore ? to : middle;
+    }
+    return from;
 }
 
 SeriesColumn Series::sum(std::size_t signal, std::uint64_t from, std::uint64_t to) const {

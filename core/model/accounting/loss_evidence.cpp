@@ -132,7 +132,7 @@ std::span<const LossEvidence::Run> LossEvidence::findCauses(Gap& gap, const Stre
     gap.shares = {};
     m_runs.clear();
     std::uint32_t left = gap.lost; // what came of them is known only while it is remembered
-    for (std::size_t place = 0; place < m_missing.size() && left != 0; ++place) {
+    for (std::size_t place = 0; m_isAnyJudged && place < m_missing.size() && left != 0; ++place) {
         const Missing& missing = m_missing[place];
         if (!missing.isMissing) {
             continue;
@@ -143,10 +143,13 @@ std::span<const LossEvidence::Run> LossEvidence::findCauses(Gap& gap, const Stre
             share = {0, missing.otherType, missing.evidence, missing.figure, 0};
         }
         if (m_runs.empty() || (m_runs.back().cause != cause && m_runs.size() < kMostRuns)) {
-            m_runs.push_back({cause, 0, dueAt(place, gap) - (dueAt(1, gap) - dueAt(0, gap)), {}});
+            const log::Stamp from = m_runs.empty() ? gap.fromStamp : dueAt(place - 1, gap);
+            if (!m_runs.empty()) {
+                m_runs.back().to = dueAt(place, gap);
+            }
+            m_runs.push_back({cause, 0, from, gap.toStamp});
         }
         Run& run = m_runs.back();
-        run.to = dueAt(place + 1, gap);
         ++run.lost;
         ++gap.of(run.cause).lost;
         --left;
@@ -170,6 +173,7 @@ void LossEvidence::judgeSamples(const Gap& gap, const Stream& stream, std::optio
     m_step = std::max(stream.accounting.step(), 1U);
     const std::size_t samples = (gap.toSample - gap.fromSample - 1) / m_step;
     m_missing.assign(std::min(samples, kMostSamples), {});
+    m_isAnyJudged = false;
     const auto found = m_senders.find(gap.stream.sender);
     if (found == m_senders.end()) {
         return;
@@ -205,6 +209,7 @@ void LossEvidence::judgeSamples(const Gap& gap, const Stream& stream, std::optio
 void LossEvidence::judge(std::size_t place, const Missing& as) {
     if (Missing& missing = m_missing[place]; missing.isMissing && !missing.cause) {
         missing = as;
+        m_isAnyJudged = true;
     }
 }
 

@@ -161,6 +161,7 @@ private:
     std::deque<Damage> m_damages;
     std::uint32_t m_step = 1;         ///< of the gap that is judged
     std::vector<Missing> m_missing{}; ///< of it: its samples in order
+    bool m_isAnyJudged = false;       ///< of them
     std::vector<Run> m_runs{};        ///< of it
 };
 

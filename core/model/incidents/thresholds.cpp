@@ -91,9 +91,9 @@ void ThresholdWatch::retire(log::SenderId sender) {
 
 void ThresholdWatch::takeLoss(const log::StreamKey& stream, LossCause cause, std::uint64_t samples,
                               log::Stamp to) {
-    constexpr std::size_t kMost = 16'384;
+    constexpr std::size_t kMostKept = 16'384;
     const log::Stamp oldest = to - std::max(log::durationOf(m_thresholds.windowS), kRecentTime);
-    while (!m_losses.empty() && (m_losses.front().to < oldest || m_losses.size() >= kMost)) {
+    while (!m_losses.empty() && (m_losses.front().to < oldest || m_losses.size() >= kMostKept)) {
         m_losses.pop_front();
     }
     m_losses.push_back({stream, cause, samples, to});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/model/incidents/incident.h"
 #include "core/model/session/session_view.h"
 
 #include <span>
@@ -8,6 +9,8 @@
 #include <vector>
 
 namespace posewire::model {
+
+struct Stream;
 
 /// An incident as it is listed: with what is not settled yet.
 struct ListedIncident {
