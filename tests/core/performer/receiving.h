@@ -64,10 +64,10 @@ inline SentFigures figuresOf(const model::StreamCounts& counts, std::uint8_t typ
     SentFigures figures;
     figures.datagrams = counts.datagrams;
     figures.incomplete = counts.incomplete;
+    figures.duplicates = counts.duplicates;
     if (wire::isSampled(type)) {
         figures.samples = counts.samples;
         figures.lost = counts.lost;
-        figures.duplicates = counts.duplicates;
         figures.reordered = counts.reordered;
         figures.late = counts.late;
         figures.restarts = counts.restarts;
