@@ -28,7 +28,7 @@ class LiveDisplay {
 public:
     explicit LiveDisplay(bool isTerminal) : m_isTerminal(isTerminal) {}
 
-    /// The output that shows these lines on a terminal of so many `rows` and `columns`.
+    /// Text and escape sequences that show these lines on a terminal of that size.
     [[nodiscard]] std::string show(const std::vector<std::string>& lines, std::size_t rows,
                                    std::size_t columns);
 

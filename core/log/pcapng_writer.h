@@ -94,7 +94,7 @@ struct RecordedMark {
 /// The inverse; empty if the note says something else.
 [[nodiscard]] std::optional<RecordedMark> parseMark(std::string_view note);
 
-/// What is empty is left out.
+/// Empty fields are left out.
 struct RecordingInfo {
     std::string hardware;
     std::string system;

@@ -57,7 +57,7 @@ QString anySource(const model::SessionView& view, const std::set<log::SenderId>&
     return sources.size() < 2 ? any : QLatin1Char('(') + any + QLatin1Char(')');
 }
 
-/// What packets have at which such a thing happened; null if no packet shows it.
+/// The filter that finds the packets of such an incident; null if no packet shows it.
 const char* conditionOf(model::IncidentKind kind) {
     using enum model::IncidentKind;
     constexpr std::pair<model::IncidentKind, const char*> kConditions[] = {

@@ -72,8 +72,7 @@ struct FieldDocument {
         return model::knownPoint(m_coding, id);
     }
 
-    /// Where an item stands in its message, from 0: a sample may come in several datagrams. -1 if that is
-    /// not known.
+    /// Index of an item in its message, from 0; a sample may come in several datagrams. -1 if not known.
     [[nodiscard]] int placeOf(std::int32_t item) const;
     /// What a node is called in every datagram that has it, whatever part of the sample that is.
     [[nodiscard]] std::string lastingPath(std::int32_t node) const;

@@ -35,7 +35,7 @@ public:
     /// The columns that the operator chose, by their titles as they were at first; none for the usual ones.
     /// Titles of no column are left out.
     void setChosen(const QStringList& columns);
-    /// The same as a panel keeps it: "columns", or nothing if the operator chose none.
+    /// The chosen columns as a panel saves them, under "columns"; empty if the operator chose none.
     [[nodiscard]] QJsonObject state() const;
     void restore(const QJsonObject& state);
     /// One entry for each column that can be chosen.

@@ -16,11 +16,11 @@ constexpr log::Duration kMeanwhile = std::chrono::milliseconds(150);
 // A shorter silence of a host is no pause; nor is one of fewer periods of its fastest stream: three samples.
 constexpr log::Duration kPause = std::chrono::milliseconds(50);
 constexpr double kPeriodsOfPause = 3.5;
-// The same of a host whose rate is not known yet.
+// The shortest pause of a host whose rate is not known yet.
 constexpr log::Duration kPauseAtFirst = std::chrono::milliseconds(250);
 // Hosts fall silent together if they do within this time, and a period of the slower one.
 constexpr log::Duration kTogether = std::chrono::milliseconds(50);
-// A sample every so many periods was not due in a silence: the counter did not go on in it.
+// Samples further apart than so many periods: the counter stopped during the silence, and none was due in it.
 constexpr double kMostPeriodsApart = 3;
 constexpr std::size_t kMostDrops = 4'096;
 constexpr std::size_t kMostDamages = 1'024;
@@ -254,7 +254,7 @@ void LossEvidence::judgeLostHere(const Gap& gap, std::uint16_t localPort) {
     }
 }
 
-/// What was dropped is what was due just before the packet that tells of it, and no more than was dropped.
+/// Blames a drop for the samples due just before the packet that reports it, at most as many as it counted.
 void LossEvidence::judgeDrop(const Gap& gap, const Drop& drop, const Missing& as) {
     if (drop.isClosed) {
         judgeRest(as);

@@ -38,7 +38,7 @@ struct Gap {
         std::uint8_t otherType = 0; ///< of the evidence OtherStream
         Evidence evidence = Evidence::None;
         std::uint64_t figure = 0;   ///< of the evidence: datagrams, a sample, streams, hosts
-        std::uint64_t incident = 0; ///< that its loss is told in; 0 for none
+        std::uint64_t incident = 0; ///< the one that reports the loss; 0 for none
     };
 
     log::StreamKey stream;

@@ -47,7 +47,7 @@ struct Verdict {
 class MessageRounds {
 public:
     static constexpr log::Duration kTogether = std::chrono::milliseconds(250);
-    /// What memoryBytes() can become: as many parts as there are indices.
+    /// Upper bound of memoryBytes(): one part for each index.
     static constexpr std::size_t kMostBytes = 128 * 3 * sizeof(std::size_t);
 
     enum class Place : std::uint8_t { Begins, GoesOn, Repeats };

@@ -197,7 +197,7 @@ bool holdsAnything(const PoseEvidence& evidence) {
            std::ranges::any_of(evidence.markers, [](const auto& list) { return !list.empty(); });
 }
 
-/// Where something is missing of the body; false if all is.
+/// Solves the segments that were not sent from those that were; false if none was.
 bool complete(const BodyOrigins& body, CharacterPose& pose) {
     const auto isWhole = [](const SegmentSource& source) { return source.weaker() != Provenance::None; };
     if (pose.isObjects || pose.sources.size() < kBodySegments ||
