@@ -8,6 +8,7 @@
 #include "core/model/session/accounts.h"
 #include "core/model/session/losses.h"
 #include "core/model/session/messages.h"
+#include "core/model/session/listed_incidents.h"
 #include "core/model/session/roster.h"
 #include "core/model/session/verdict.h"
 #include "core/wire/text.h"
@@ -153,9 +154,12 @@ std::string listed(const std::string& which, std::size_t count, std::size_t all,
 
 /// Sender, character and type, as far as the event is about them.
 std::string whose(const model::SessionView& session, const model::Incident& event) {
-    std::string text = session.roster().addressOf(event.sender).shown();
-    for (const std::uint8_t character : event.characters()) {
-        text += ", " + session.roster().displayName({event.sender, character}).shown();
+    std::string text;
+    for (const model::ForeignText& address : addressesOf(session, event)) {
+        text += (text.empty() ? "" : ", ") + address.shown();
+    }
+    for (const model::CharacterKey& character : event.characters()) {
+        text += ", " + session.roster().displayName(character).shown();
     }
     const auto types = event.types();
     if (types.size() == 1) {

@@ -168,22 +168,30 @@ JsonValue incidentJson(const model::SessionView& session, const model::ListedInc
     const model::Incident& incident = listed.incident;
     const bool isOver = listed.state == model::ListedIncident::State::Over;
     const words::Fact fact = factOf(session, listed);
-    return {{"id", incident.number},
-            {"kind", model::wordOf(incident.kind)},
-            {"cause", causeJson(incident.cause)},
-            {"state", model::nameOf(listed.state)},
-            {"beginNs", timeJson(session, incident.firstStamp)},
-            {"endNs", isOver ? timeJson(session, incident.lastStamp) : JsonValue()},
-            {"source", incident.sender == log::kNoSender
-                           ? JsonValue()
-                           : JsonValue(std::string(session.roster().addressOf(incident.sender).exact()))},
-            {"characters", listOf(incident.characters(), [](std::uint8_t id) { return JsonValue(id); })},
-            {"types",
-             listOf(incident.types(), [](std::uint8_t type) { return JsonValue(wire::typeDigits(type)); })},
-            {"samples", incident.samples},
-            {"count", incident.count},
-            {"text", say(fact, words::Form::Headline)},
-            {"evidence", say(fact, words::Form::Sentence)}};
+    JsonValue object{
+        {"id", incident.number},
+        {"kind", model::wordOf(incident.kind)},
+        {"cause", causeJson(incident.cause)},
+        {"state", model::nameOf(listed.state)},
+        {"beginNs", timeJson(session, incident.firstStamp)},
+        {"endNs", isOver ? timeJson(session, incident.lastStamp) : JsonValue()},
+        {"source", incident.sender == log::kNoSender
+                       ? JsonValue()
+                       : JsonValue(std::string(session.roster().addressOf(incident.sender).exact()))},
+        {"characters", listOf(incident.characters(),
+                              [](const model::CharacterKey& one) { return JsonValue(one.character); })},
+        {"types",
+         listOf(incident.types(), [](std::uint8_t type) { return JsonValue(wire::typeDigits(type)); })},
+        {"samples", incident.samples},
+        {"count", incident.count},
+        {"text", say(fact, words::Form::Headline)},
+        {"evidence", say(fact, words::Form::Sentence)}};
+    if (const auto addresses = addressesOf(session, incident); addresses.size() > 1) {
+        object["sources"] = listOf(addresses, [](const model::ForeignText& address) {
+            return JsonValue(std::string(address.exact()));
+        });
+    }
+    return object;
 }
 
 JsonValue incidentsJson(const model::SessionView& session) {

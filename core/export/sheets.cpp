@@ -4,6 +4,7 @@
 #include "core/export/json_value.h"
 #include "core/model/body/null_pose.h"
 #include "core/model/body/spaces.h"
+#include "core/model/session/listed_incidents.h"
 #include "core/model/session/roster.h"
 #include "core/wire/byte_order.h"
 #include "core/wire/text.h"
@@ -58,13 +59,19 @@ std::string secondsText(log::WallTime wall) {
 }
 
 /// "1 2 4".
-template <class ToText>
-std::string joined(const std::vector<std::uint8_t>& values, ToText&& toText) {
+template <class Value, class ToText>
+std::string joined(const std::vector<Value>& values, ToText&& toText) {
     std::string text;
-    for (const std::uint8_t value : values) {
+    for (const Value& value : values) {
         text += (text.empty() ? "" : " ") + toText(value);
     }
     return text;
+}
+
+/// "10.0.0.2:50001 10.0.0.3:50002".
+std::string sourceOf(const model::SessionView& session, const Incident& event) {
+    return joined(addressesOf(session, event),
+                  [](const model::ForeignText& address) { return std::string(address.exact()); });
 }
 
 JsonValue objectOf(const model::SessionView& session, const Incident& event) {
@@ -72,8 +79,9 @@ JsonValue objectOf(const model::SessionView& session, const Incident& event) {
                      {"severity", nameOf(event.severity())},
                      {"group", nameOf(event.group())},
                      {"event", model::nameOf(event.kind)},
-                     {"source", std::string(session.roster().addressOf(event.sender).exact())}};
-    object["characters"] = listOf(event.characters(), [](std::uint8_t id) { return JsonValue(id); });
+                     {"source", sourceOf(session, event)}};
+    object["characters"] =
+        listOf(event.characters(), [](const model::CharacterKey& one) { return JsonValue(one.character); });
     object["types"] =
         listOf(event.types(), [](std::uint8_t type) { return JsonValue(wire::typeDigits(type)); });
     object["fromNs"] = log::nanosecondsOf(session.wallOf(event.firstStamp));
@@ -184,8 +192,9 @@ std::string eventsCsv(const EventSheet& sheet) {
             std::string(nameOf(event->severity())),
             std::string(nameOf(event->group())),
             std::string(model::nameOf(event->kind)),
-            sheet.session.roster().addressOf(event->sender).csv(),
-            joined(event->characters(), [](std::uint8_t id) { return std::to_string(id); }),
+            model::csvText(sourceOf(sheet.session, *event)),
+            joined(event->characters(),
+                   [](const model::CharacterKey& one) { return std::to_string(one.character); }),
             joined(event->types(), wire::typeDigits),
             secondsText(sheet.session.wallOf(event->firstStamp)),
             secondsText(sheet.session.wallOf(event->lastStamp)),

@@ -53,6 +53,7 @@ enum class Kind : std::uint8_t {
     NotMxtp,
     Restarted,
     OtherPort,
+    OtherId,
     StepChanged,
     StepIrregular,
     RateChanged,

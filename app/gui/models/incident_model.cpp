@@ -106,8 +106,7 @@ IncidentColumn severityColumn() {
 
 std::vector<IncidentColumn> textColumns(model::SessionView& view) {
     const auto whose = [&view](const IncidentLine& line) {
-        return line.isPart ? whoseWords(view, line.incident(), *line.part())
-                           : whoseWords(view, line.incident());
+        return line.isPart ? whoseWords(view, *line.part()) : whoseWords(view, line.incident());
     };
     const auto words = [&view](const IncidentLine& line) {
         return wordsOf(view, line, words::Form::Sentence);
@@ -222,9 +221,8 @@ bool IncidentModel::matches(const IncidentLine& line) const {
     const bool isInCells = std::ranges::any_of(std::array{kText, kWho, kKind}, [&](int column) {
         return cell(line, column, Qt::DisplayRole).toString().contains(m_filter.text, Qt::CaseInsensitive);
     });
-    return isInCells || std::ranges::any_of(incident.characters(), [&](std::uint8_t character) {
-               return characterName(m_view, {incident.sender, character})
-                   .contains(m_filter.text, Qt::CaseInsensitive);
+    return isInCells || std::ranges::any_of(incident.characters(), [&](const model::CharacterKey& character) {
+               return characterName(m_view, character).contains(m_filter.text, Qt::CaseInsensitive);
            });
 }
 
@@ -318,7 +316,7 @@ std::vector<IncidentModel::Stream> IncidentModel::streamsOf(Key key) const {
     std::vector<Stream> streams;
     for (const model::Incident* one : {line ? line->settled : nullptr, line ? line->pending : nullptr}) {
         for (const auto& part : one != nullptr ? one->parts : std::vector<model::Incident::Part>()) {
-            streams.emplace_back(part.character, part.type);
+            streams.emplace_back(part.whose(), part.type);
         }
     }
     std::ranges::sort(streams);
@@ -389,7 +387,7 @@ std::optional<IncidentLine> IncidentModel::line(const QModelIndex& index) const 
     }
     const auto partIn = [&](const model::Incident* of) -> const model::Incident::Part* {
         const auto isIt = [&](const model::Incident::Part& part) {
-            return Stream(part.character, part.type) == streams->second[place];
+            return Stream(part.whose(), part.type) == streams->second[place];
         };
         const auto found = of == nullptr ? std::vector<model::Incident::Part>::const_iterator()
                                          : std::ranges::find_if(of->parts, isIt);

@@ -101,7 +101,7 @@ private:
     using Key = std::int64_t;
     using Keys = std::vector<Key>;
     /// Character and type, as far as a part is of one.
-    using Stream = std::pair<std::optional<std::uint8_t>, std::optional<std::uint8_t>>;
+    using Stream = std::pair<std::optional<model::CharacterKey>, std::optional<std::uint8_t>>;
     using State = model::ListedIncident::State;
 
     [[nodiscard]] std::optional<IncidentLine> whole(Key key) const;

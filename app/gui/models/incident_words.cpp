@@ -38,13 +38,14 @@ QString groupWord(model::IncidentGroup group) {
 }
 
 QString whoseWords(model::SessionView& view, const model::Incident& incident) {
-    const std::vector<std::uint8_t> characters = incident.characters();
+    const std::vector<model::CharacterKey> characters = incident.characters();
     if (characters.empty()) {
         return shown(view.roster().addressOf(incident.sender));
     }
-    const model::CharacterKey first{incident.sender, characters.front()};
+    const model::CharacterKey& first = characters.front();
     const QString count = tr("%n characters", nullptr, static_cast<int>(characters.size()));
-    const QString sender = characters.size() == 1 ? QString() : senderApart(view, first);
+    const bool isOfOneSender = characters.size() > 1 && incident.sender == first.sender;
+    const QString sender = isOfOneSender ? senderApart(view, first) : QString();
     const QString name = characters.size() == 1 ? nameApart(view, first)
                          : sender.isEmpty()     ? count
                                                 : count + QStringLiteral(" · ") + sender;
@@ -52,12 +53,8 @@ QString whoseWords(model::SessionView& view, const model::Incident& incident) {
     return type ? name + QStringLiteral(" · ") + QString::fromStdString(wire::typeDigits(*type)) : name;
 }
 
-QString whoseWords(model::SessionView& view, const model::Incident& incident,
-                   const model::Incident::Part& part) {
-    if (!part.character) {
-        return shown(view.roster().addressOf(incident.sender));
-    }
-    return nameApart(view, {incident.sender, *part.character});
+QString whoseWords(model::SessionView& view, const model::Incident::Part& part) {
+    return part.character ? nameApart(view, *part.whose()) : shown(view.roster().addressOf(part.sender));
 }
 
 QString helpPlaceOf(const model::Incident& incident) {
@@ -89,7 +86,7 @@ PacketsBehind packetsBehind(model::SessionView& view, const model::Incident& inc
     const model::Incident own = part != nullptr ? incident.of(*part) : incident;
     PacketsBehind behind{packetFilterOf(view, own)};
     behind.type = own.type();
-    behind.character = own.character();
+    behind.character = own.character() ? std::optional(own.character()->character) : std::nullopt;
     const bool isSilence =
         incident.kind == IncidentKind::Outage && (incident.isCurrent || incident.samples == 0);
     const bool isSettled = own.lastPacket != 0;

@@ -16,8 +16,7 @@ namespace posewire::gui {
 /// Whose incident it is: "Mira Lin · 02", "Factory", or the address where it is of no character.
 [[nodiscard]] QString whoseWords(model::SessionView& view, const model::Incident& incident);
 /// "Mira Lin", or the address.
-[[nodiscard]] QString whoseWords(model::SessionView& view, const model::Incident& incident,
-                                 const model::Incident::Part& part);
+[[nodiscard]] QString whoseWords(model::SessionView& view, const model::Incident::Part& part);
 
 /// Where the guide says what it means and what to do about it: its cause where it is a loss, else its kind.
 [[nodiscard]] QString helpPlaceOf(const model::Incident& incident);

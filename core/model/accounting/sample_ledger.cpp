@@ -58,6 +58,7 @@ void SampleLedger::begin(log::Stamp stamp, CountHistory* history, bool isRestart
     if (m_begins == 0) {
         m_firstSample = m_present.first();
     }
+    m_present.conclude(history);
     std::swap(m_present, m_before);
     m_begin = stamp;
     ++m_begins;

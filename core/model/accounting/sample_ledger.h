@@ -28,6 +28,9 @@ public:
     /// The next datagram placed is the first of a sequence. `isRestart`: because the counter restarted.
     void begin(log::Stamp stamp, CountHistory* history, bool isRestart);
 
+    /// See SampleSequence.
+    void conclude(CountHistory* history) { m_present.conclude(history); }
+
     [[nodiscard]] const SampleSequence& present() const { return m_present; }
     [[nodiscard]] const SampleSequence& before() const { return m_before; }
     /// True if something of the sequence before may still come.

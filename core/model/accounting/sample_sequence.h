@@ -3,6 +3,7 @@
 
 #include "core/log/time.h"
 #include "core/model/accounting/count_history.h"
+#include "core/model/accounting/sample_step.h"
 #include "core/model/accounting/sample_window.h"
 #include "core/model/accounting/stream_counts.h"
 
@@ -10,34 +11,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 
 namespace posewire::model {
-
-/// A step is judged by this many of the newest differences between successive sample counters.
-inline constexpr std::size_t kStepDifferences = 64;
-/// A change of step is looked for among this many.
-inline constexpr std::size_t kStepHistory = 128;
-
-/// The sender's own spacing of sample counters, since a stream may be sent at a fraction of the capture rate:
-/// the most frequent of the newest kStepDifferences, the smallest of equally frequent ones, if it is at
-/// least 40 % of them and at least 90 % of them are multiples of it. Loss makes multiples, never fractions.
-/// 0 if there is none: the stream is irregular.
-[[nodiscard]] std::uint32_t findStep(std::span<const std::uint32_t> differences);
-
-/// True if a step that was found stays the step: at least 60 % of the newest kStepDifferences are multiples
-/// of it, and at least 20 % are equal to it.
-[[nodiscard]] bool holdsStep(std::span<const std::uint32_t> differences, std::uint32_t step);
-
-/// The step after another difference. `held` is the one until now, 0 if there was none. It is held on to
-/// once kStepDifferences differences are known; until then every difference decides afresh.
-[[nodiscard]] std::uint32_t nextStep(std::span<const std::uint32_t> differences, std::uint32_t held);
-
-/// Where the spacing changed from one step to another; 0 stands for irregular spacing. The place is the
-/// difference that makes those before it and those behind it the most likely, and itself may belong to
-/// neither.
-[[nodiscard]] std::size_t placeOfChange(std::span<const std::uint32_t> differences, std::uint32_t before,
-                                        std::uint32_t after);
 
 struct Placement {
     enum class Kind : std::uint8_t {
@@ -93,7 +68,9 @@ public:
     /// How many of the newest samples are remembered. Bursts that this forgets are added to the history.
     void setMost(std::size_t samples, CountHistory* history);
 
-    /// Nothing of it will come any more: adds the newest bursts to the history and forgets everything.
+    /// Nothing of it will come any more: a change of step just before is one however few samples followed.
+    void conclude(CountHistory* history);
+    /// The same is over: adds the newest bursts to the history and forgets everything.
     void clear(CountHistory* history);
 
 private:
@@ -115,6 +92,7 @@ private:
     Placement mark(const Datagram& datagram, std::size_t index, CountHistory* history, bool isSteady = false);
     [[nodiscard]] log::Stamp dueStamp(std::size_t index) const;
     void reconsiderStep(CountHistory* history);
+    void correctStep(std::uint32_t step, CountHistory* history);
     void changeStep(std::uint32_t step);
     [[nodiscard]] bool isTransitionTo(std::uint32_t step) const;
     void splitRun(std::size_t firstEntry, std::uint32_t step);

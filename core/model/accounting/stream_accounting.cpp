@@ -150,6 +150,7 @@ std::span<const Verdict> StreamAccounting::conclude() {
     if (!m_probation.empty()) {
         endDoubt(true);
     }
+    m_ledger.conclude(&m_history);
     return m_verdicts;
 }
 

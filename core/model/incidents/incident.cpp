@@ -64,8 +64,8 @@ auto onlyOne(const std::vector<Incident::Part>& parts, Get&& get) {
 }
 
 template <class Get>
-std::vector<std::uint8_t> eachOnce(const std::vector<Incident::Part>& parts, Get&& get) {
-    std::vector<std::uint8_t> values;
+auto eachOnce(const std::vector<Incident::Part>& parts, Get&& get) {
+    std::vector<std::decay_t<decltype(*get(parts.front()))>> values;
     for (const Incident::Part& part : parts) {
         if (const auto value = get(part)) {
             values.push_back(*value);
@@ -76,7 +76,7 @@ std::vector<std::uint8_t> eachOnce(const std::vector<Incident::Part>& parts, Get
     return values;
 }
 
-constexpr auto kCharacterOf = [](const Incident::Part& part) { return part.character; };
+constexpr auto kCharacterOf = [](const Incident::Part& part) { return part.whose(); };
 constexpr auto kTypeOf = [](const Incident::Part& part) { return part.type; };
 
 } // namespace
@@ -117,7 +117,7 @@ words::Fact causeFact(LossCause cause) {
     return {kKinds[static_cast<std::size_t>(cause)]};
 }
 
-std::optional<std::uint8_t> Incident::character() const {
+std::optional<CharacterKey> Incident::character() const {
     return onlyOne(parts, kCharacterOf);
 }
 
@@ -131,7 +131,7 @@ bool Incident::isOfMessages() const {
     });
 }
 
-std::vector<std::uint8_t> Incident::characters() const {
+std::vector<CharacterKey> Incident::characters() const {
     return eachOnce(parts, kCharacterOf);
 }
 
@@ -139,10 +139,10 @@ std::vector<std::uint8_t> Incident::types() const {
     return eachOnce(parts, kTypeOf);
 }
 
-Incident Incident::of(std::span<const std::uint8_t> which) const {
+Incident Incident::of(std::span<const CharacterKey> which) const {
     Incident own = *this;
     std::erase_if(own.parts, [which](const Part& part) {
-        return part.character && std::ranges::count(which, *part.character) == 0;
+        return part.character && std::ranges::count(which, *part.whose()) == 0;
     });
     const bool isShared =
         std::ranges::any_of(parts, [](const Part& part) { return part.character.has_value(); });
@@ -160,16 +160,25 @@ Incident Incident::of(std::span<const std::uint8_t> which) const {
     return own;
 }
 
-bool Incident::concerns(std::uint8_t which) const {
+std::uint64_t Incident::samplesOf(log::SenderId which) const {
+    std::uint64_t sum = which == sender ? samples : 0;
+    for (const Part& part : parts) {
+        sum += sender == log::kNoSender && part.sender == which ? part.samples : 0;
+    }
+    return sum;
+}
+
+bool Incident::concerns(const CharacterKey& which) const {
     return std::ranges::any_of(parts, [&](const Part& part) {
-        return part.character.value_or(which) == which && (part.isCurrent || !isCurrent);
+        return part.whose().value_or(which) == which && (part.isCurrent || !isCurrent);
     });
 }
 
-bool Incident::concerns(std::uint8_t which, std::uint8_t whichType) const {
+bool Incident::concerns(const log::StreamKey& which) const {
+    const CharacterKey character{which.sender, which.character};
     return std::ranges::any_of(parts, [&](const Part& part) {
-        return part.character.value_or(which) == which && part.type.value_or(whichType) == whichType &&
-               (part.isCurrent || !isCurrent);
+        return part.whose().value_or(character) == character &&
+               part.type.value_or(which.type) == which.type && (part.isCurrent || !isCurrent);
     });
 }
 

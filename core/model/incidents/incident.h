@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/log/stream_index.h"
 #include "core/log/time.h"
 #include "core/model/accounting/stream_counts.h"
 #include "core/model/keys.h"
@@ -83,6 +84,7 @@ struct Occurrence {
 struct Incident {
     /// What it was to one stream, or to a character or the sender as a whole.
     struct Part {
+        log::SenderId sender{};
         std::optional<std::uint8_t> character{};
         std::optional<std::uint8_t> type{};
         std::uint64_t count = 0;
@@ -93,6 +95,11 @@ struct Incident {
         std::optional<log::Stamp> lastMany{}; ///< end of the newest gap of kManySamples or more
         std::uint64_t times = 1;              ///< at which it happened, kApart or more from each other
         bool isAbove = false; ///< of a loss: more than its limit goes on being lost; see judgedShares()
+
+        /// Nothing if it is of the sender as a whole.
+        [[nodiscard]] std::optional<CharacterKey> whose() const {
+            return character ? std::optional(CharacterKey{sender, *character}) : std::nullopt;
+        }
     };
     static constexpr log::Duration kApart = std::chrono::milliseconds(100);
     /// So many missing in a row are seen: that is grave, whatever share of the stream they are.
@@ -102,7 +109,7 @@ struct Incident {
 
     std::uint64_t number = 0; ///< counted from the beginning of the session
     IncidentKind kind = IncidentKind::SourceUp;
-    log::SenderId sender{}; ///< kNoSender where it is of this computer
+    log::SenderId sender{}; ///< kNoSender if it is of this computer, or of several
     std::optional<LossCause> cause{};
     log::Stamp firstStamp{};
     log::Stamp lastStamp{};
@@ -121,19 +128,21 @@ struct Incident {
     [[nodiscard]] IncidentSeverity severity() const;
     [[nodiscard]] IncidentGroup group() const;
     /// Nothing unless it is of one alone.
-    [[nodiscard]] std::optional<std::uint8_t> character() const;
+    [[nodiscard]] std::optional<CharacterKey> character() const;
     [[nodiscard]] std::optional<std::uint8_t> type() const;
     /// Each once, in growing order.
-    [[nodiscard]] std::vector<std::uint8_t> characters() const;
+    [[nodiscard]] std::vector<CharacterKey> characters() const;
     [[nodiscard]] std::vector<std::uint8_t> types() const;
     /// All of it is of types that are sent again and again: what is missing are parts of messages.
     [[nodiscard]] bool isOfMessages() const;
     /// What of it was to one character, or to some; as a whole where it is of no character.
-    [[nodiscard]] Incident of(std::uint8_t character) const { return of(std::span(&character, 1)); }
-    [[nodiscard]] Incident of(std::span<const std::uint8_t> characters) const;
+    [[nodiscard]] Incident of(const CharacterKey& character) const { return of(std::span(&character, 1)); }
+    [[nodiscard]] Incident of(std::span<const CharacterKey> characters) const;
+    /// What of its samples one sender lost.
+    [[nodiscard]] std::uint64_t samplesOf(log::SenderId which) const;
     /// Whether a character is touched, or all of its sender; of what lasts, whether it still is.
-    [[nodiscard]] bool concerns(std::uint8_t character) const;
-    [[nodiscard]] bool concerns(std::uint8_t character, std::uint8_t type) const;
+    [[nodiscard]] bool concerns(const CharacterKey& character) const;
+    [[nodiscard]] bool concerns(const log::StreamKey& stream) const;
     [[nodiscard]] Incident of(const Part& part) const;
     [[nodiscard]] words::Fact fact() const;
     /// What happened to one stream: a silence is what it lost.

@@ -220,7 +220,7 @@ void IncidentFollower::resume(const CharacterKey& key, Character& character, log
         stream->excusedUntil = stamp + log::durationOf(kWindowAndMore * thresholds().windowS);
     }
     if (!wasSilent) {
-        m_incidents.takeBackPart(number, key.character);
+        m_incidents.takeBackPart(number, key);
         return;
     }
     Occurrence one = Occurrence::at(IncidentKind::Outage, key.sender, character.lastSampled, m_lastPacket);
@@ -229,7 +229,7 @@ void IncidentFollower::resume(const CharacterKey& key, Character& character, log
     one.count = 0;
     one.value = log::secondsOf(stamp - character.lastSampled);
     m_incidents.addTo(number, one);
-    m_incidents.endPartExactly(number, key.character, stamp);
+    m_incidents.endPartExactly(number, key, stamp);
 }
 
 void IncidentFollower::takeVerdict(Stream& stream, const Verdict& verdict) {
@@ -293,7 +293,7 @@ std::uint64_t IncidentFollower::takeLoss(const Loss& loss) {
             one.isOver = true;
             m_incidents.addTo(number, one);
             m_incidents.setCause(number, loss.cause);
-            return number;
+            return m_incidents.joinOutages(number);
         }
     }
     m_watch.takeLoss(loss.stream, loss.cause, loss.samples, loss.to);
@@ -303,6 +303,7 @@ std::uint64_t IncidentFollower::takeLoss(const Loss& loss) {
 void IncidentFollower::takeBack(std::uint64_t incident, const log::StreamKey& stream, std::uint64_t samples,
                                 bool isAll) {
     Incident::Part part;
+    part.sender = stream.sender;
     part.character = stream.character;
     part.type = stream.type;
     m_incidents.takeBack(incident, part, samples, isAll ? 1 : 0);
@@ -344,13 +345,13 @@ void IncidentFollower::takeContradiction(log::SenderId sender, std::optional<std
     }
 }
 
-void IncidentFollower::supersede(const CharacterKey& key, const CharacterKey& by, log::Stamp stamp) {
+void IncidentFollower::supersede(const CharacterKey& key, const CharacterKey& by, log::Stamp since) {
     const auto found = m_characters.find(key);
     if (found == m_characters.end()) {
         return;
     }
     if (found->second.outage != 0) {
-        resume(key, found->second, stamp);
+        resume(key, found->second, since);
     }
     found->second.lastSampled = {};
     for (Stream* stream : found->second.streams) { // nothing is expected of them
@@ -360,11 +361,11 @@ void IncidentFollower::supersede(const CharacterKey& key, const CharacterKey& by
     for (const Incident* lasting : m_incidents.currentOf(key.sender)) {
         if (lasting->group() == IncidentGroup::Limit) {
             for (const std::uint8_t type : lasting->types()) {
-                m_incidents.endPart(lasting->number, key.character, type, stamp);
+                m_incidents.endPart(lasting->number, key, type, since);
             }
         }
     }
-    m_characters[by].tookOver = TakeOver{key, stamp};
+    m_characters[by].tookOver = TakeOver{key, since};
 }
 
 void IncidentFollower::expect(const CharacterKey& key) {
@@ -390,7 +391,9 @@ void IncidentFollower::checkTakenOver(const CharacterKey& key, Character& charac
     }
     Occurrence one = Occurrence::at(IncidentKind::Restart, key.sender, tookOver.stamp, m_lastPacket);
     one.character = key.character;
-    one.detail = {words::Kind::OtherPort};
+    one.detail = key.sender == tookOver.before.sender
+                     ? words::Fact{words::Kind::OtherId, {{"id", std::uint64_t{key.character}}}}
+                     : words::Fact{words::Kind::OtherPort};
     m_incidents.report(one);
 }
 
@@ -479,7 +482,7 @@ std::vector<const Incident*> IncidentFollower::troublesOf(const CharacterKey& ke
     std::vector<const Incident*> troubles =
         stamp ? m_incidents.currentAt(*stamp) : m_incidents.currentOf(key.sender);
     std::erase_if(troubles, [&key](const Incident* incident) {
-        return incident->sender != key.sender || !incident->concerns(key.character) ||
+        return incident->sender != key.sender || !incident->concerns(key) ||
                incident->severity() == IncidentSeverity::Info;
     });
     // What happened is more specific than the limit that it broke.

@@ -63,9 +63,9 @@ public:
 
     /// Nothing of a sender lasts any longer, and its streams are about to go.
     void retire(log::SenderId sender);
-    /// Another sender sends a character now: that this one is silent is no fault. If it is, that is a
-    /// restart.
-    void supersede(const CharacterKey& key, const CharacterKey& by, log::Stamp stamp);
+    /// Another sender sends a character now, or this one by another ID, since then: that it is silent is no
+    /// fault. If it is, that is a restart.
+    void supersede(const CharacterKey& key, const CharacterKey& by, log::Stamp since);
     /// Whoever took it over is forgotten: if it is silent, that is a fault again.
     void expect(const CharacterKey& key);
 

@@ -32,20 +32,26 @@ Incidents::Episode Incidents::episodeOf(const Occurrence& one) {
 }
 
 Incidents::Episode Incidents::episodeOf(const Incident& incident) {
-    return {incident.sender, incident.kind,
-            factsOf(incident.kind).isOfCharacter ? incident.character() : std::nullopt, incident.cause};
+    const auto character = factsOf(incident.kind).isOfCharacter ? incident.character() : std::nullopt;
+    return {incident.sender, incident.kind, character ? std::optional(character->character) : std::nullopt,
+            incident.cause};
 }
 
 std::deque<Incident>::iterator Incidents::placeOf(std::uint64_t number) {
     return std::ranges::lower_bound(m_incidents, number, {}, &Incident::number);
 }
 
+std::uint64_t Incidents::numberNow(std::uint64_t number) const {
+    const auto joined = m_joined.find(number);
+    return joined == m_joined.end() ? number : joined->second;
+}
+
 Incident* Incidents::findOwn(std::uint64_t number) {
-    const auto place = placeOf(number);
-    return place != m_incidents.end() && place->number == number ? &*place : nullptr;
+    return const_cast<Incident*>(find(number));
 }
 
 const Incident* Incidents::find(std::uint64_t number) const {
+    number = numberNow(number);
     const auto place = std::ranges::lower_bound(m_incidents, number, {}, &Incident::number);
     return place != m_incidents.end() && place->number == number ? &*place : nullptr;
 }
@@ -170,7 +176,7 @@ void Incidents::add(Incident& incident, const Occurrence& one) {
 /// Null where there are too many already.
 Incident::Part* Incidents::partOf(Incident& incident, const Occurrence& one) {
     const auto known = std::ranges::find_if(incident.parts, [&](const Incident::Part& part) {
-        return part.character == one.character && part.type == one.type;
+        return part.sender == one.sender && part.character == one.character && part.type == one.type;
     });
     if (known != incident.parts.end()) {
         return &*known;
@@ -179,7 +185,8 @@ Incident::Part* Incidents::partOf(Incident& incident, const Occurrence& one) {
         return nullptr;
     }
     ++m_parts;
-    return &incident.parts.emplace_back(Incident::Part{one.character, one.type, 0, 0, one.from, one.to});
+    return &incident.parts.emplace_back(
+        Incident::Part{one.sender, one.character, one.type, 0, 0, one.from, one.to});
 }
 
 void Incidents::takeBack(std::uint64_t number, const Incident::Part& part, std::uint64_t samples,
@@ -192,7 +199,7 @@ void Incidents::takeBack(std::uint64_t number, const Incident::Part& part, std::
     take(incident->samples, samples);
     take(incident->count, gaps);
     for (Incident::Part& own : incident->parts) {
-        if (own.character == part.character && own.type == part.type) {
+        if (own.sender == part.sender && own.character == part.character && own.type == part.type) {
             take(own.samples, samples);
             take(own.count, gaps);
             own.lastMany = own.samples < Incident::kManySamples ? std::nullopt : own.lastMany;
@@ -205,7 +212,7 @@ void Incidents::takeBack(std::uint64_t number, const Incident::Part& part, std::
     const bool isNothing = incident->kind == IncidentKind::Loss ||
                            (incident->kind == IncidentKind::Local && incident->value == 0);
     if (isNothing && incident->samples == 0) {
-        erase(number);
+        erase(incident->number);
     }
 }
 
@@ -235,14 +242,14 @@ void Incidents::noteShares(std::uint64_t number, const std::vector<double>& inWi
     }
 }
 
-void Incidents::takeBackPart(std::uint64_t number, std::uint8_t character) {
+void Incidents::takeBackPart(std::uint64_t number, const CharacterKey& character) {
     Incident* const incident = findOwn(number);
     if (incident == nullptr) {
         return;
     }
     std::vector<Incident::Part>& parts = incident->parts;
     const std::size_t gone =
-        std::erase_if(parts, [&](const Incident::Part& part) { return part.character == character; });
+        std::erase_if(parts, [&](const Incident::Part& part) { return part.whose() == character; });
     m_parts -= gone;
     incident->count -= std::min<std::uint64_t>(incident->count, gone);
     if (!parts.empty()) {
@@ -264,14 +271,14 @@ void Incidents::end(std::uint64_t number, log::Stamp stamp) {
     }
 }
 
-void Incidents::endPart(std::uint64_t number, std::uint8_t character, std::optional<std::uint8_t> type,
+void Incidents::endPart(std::uint64_t number, const CharacterKey& character, std::optional<std::uint8_t> type,
                         log::Stamp stamp) {
     Incident* incident = findOwn(number);
     if (incident == nullptr) {
         return;
     }
     for (Incident::Part& part : incident->parts) {
-        if (part.character == character && part.type == type) {
+        if (part.whose() == character && part.type == type) {
             part.isCurrent = false;
             part.to = std::max(part.to, stamp);
         }
@@ -282,16 +289,57 @@ void Incidents::endPart(std::uint64_t number, std::uint8_t character, std::optio
     }
 }
 
-void Incidents::endPartExactly(std::uint64_t number, std::uint8_t character, log::Stamp stamp) {
+void Incidents::endPartExactly(std::uint64_t number, const CharacterKey& character, log::Stamp stamp) {
     Incident* incident = findOwn(number);
     if (incident == nullptr) {
         return;
     }
     for (Incident::Part& part : incident->parts) {
-        part.to = part.character == character ? stamp : part.to;
+        part.to = part.whose() == character ? stamp : part.to;
     }
     incident->lastStamp = std::ranges::max(incident->parts, {}, &Incident::Part::to).to;
     endPart(number, character, std::nullopt, stamp);
+}
+
+std::uint64_t Incidents::joinOutages(std::uint64_t number) {
+    constexpr std::ptrdiff_t kMostLooked = 256;
+    const Incident* const one = find(number);
+    if (one == nullptr || one->isCurrent || one->detail.kind != words::Kind::HostsSilent) {
+        return number;
+    }
+    std::vector<std::uint64_t> same;
+    const auto looked = m_incidents.end() - std::min(std::ssize(m_incidents), kMostLooked);
+    for (auto other = looked; other != m_incidents.end(); ++other) {
+        if (other->kind == one->kind && !other->isCurrent && other->detail.kind == one->detail.kind &&
+            other->firstStamp < one->lastStamp && one->firstStamp < other->lastStamp) {
+            same.push_back(other->number);
+        }
+    }
+    for (std::size_t i = 1; i < same.size(); ++i) {
+        join(same.front(), same[i]);
+    }
+    return same.empty() ? number : same.front();
+}
+
+void Incidents::join(std::uint64_t to, std::uint64_t from) {
+    Incident& all = *findOwn(to);
+    const Incident& joining = *find(from);
+    all.sender = log::kNoSender;
+    all.firstStamp = std::min(all.firstStamp, joining.firstStamp);
+    all.firstPacket = std::min(all.firstPacket, joining.firstPacket);
+    all.lastStamp = std::max(all.lastStamp, joining.lastStamp);
+    all.lastPacket = std::max(all.lastPacket, joining.lastPacket);
+    all.count += joining.count;
+    all.samples += joining.samples;
+    all.value = std::max(all.value, joining.value);
+    all.parts.insert(all.parts.end(), joining.parts.begin(), joining.parts.end());
+    m_parts += joining.parts.size();
+    for (auto& [before, now] : m_joined) {
+        now = now == from ? to : now;
+    }
+    erase(from);
+    m_joined.emplace(from, to);
+    changed(all);
 }
 
 void Incidents::setCause(std::uint64_t number, LossCause cause) {
@@ -342,6 +390,7 @@ void Incidents::erase(std::uint64_t number) {
     m_parts -= place->parts.size();
     std::erase_if(m_current, [&](const auto& current) { return current.second == number; });
     m_incidents.erase(place);
+    std::erase_if(m_joined, [&](const auto& joined) { return joined.second == number; });
     ++m_version;
 }
 

@@ -54,14 +54,17 @@ public:
     void noteShares(std::uint64_t number, const std::vector<double>& inWindow,
                     const std::vector<double>& recent, double limit, double hysteresis);
     /// For one character it was none; what comes to nothing is gone.
-    void takeBackPart(std::uint64_t number, std::uint8_t character);
+    void takeBackPart(std::uint64_t number, const CharacterKey& character);
     /// It is over.
     void end(std::uint64_t number, log::Stamp stamp);
     /// For one stream or character; and altogether, where it was the last of them.
-    void endPart(std::uint64_t number, std::uint8_t character, std::optional<std::uint8_t> type,
+    void endPart(std::uint64_t number, const CharacterKey& character, std::optional<std::uint8_t> type,
                  log::Stamp stamp);
     /// The same for a character as a whole, which ended then, however long it was thought to last.
-    void endPartExactly(std::uint64_t number, std::uint8_t character, log::Stamp stamp);
+    void endPartExactly(std::uint64_t number, const CharacterKey& character, log::Stamp stamp);
+    /// Hosts that were silent together had one outage: of those that are over, one number is left. Returns
+    /// it.
+    std::uint64_t joinOutages(std::uint64_t number);
     /// Whose fault it was is known now.
     void setCause(std::uint64_t number, LossCause cause);
     /// The number that the next loss of a sender will have where it begins an incident: so that what is not
@@ -89,12 +92,15 @@ private:
     Incident::Part* partOf(Incident& incident, const Occurrence& one);
     [[nodiscard]] Incident* findOwn(std::uint64_t number);
     [[nodiscard]] std::deque<Incident>::iterator placeOf(std::uint64_t number);
+    [[nodiscard]] std::uint64_t numberNow(std::uint64_t number) const;
+    void join(std::uint64_t to, std::uint64_t from);
     void changed(Incident& incident) { incident.version = ++m_version; }
     void erase(std::uint64_t number);
     void forget();
 
     std::deque<Incident> m_incidents; ///< by growing number
     std::map<Episode, std::uint64_t> m_current;
+    std::map<std::uint64_t, std::uint64_t> m_joined; ///< the number of others now
     std::map<log::SenderId, std::uint64_t> m_reserved;
     std::size_t m_parts = 0;
     std::uint64_t m_next = 1;

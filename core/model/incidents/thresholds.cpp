@@ -239,7 +239,7 @@ bool ThresholdWatch::noteRate(Stream& stream, log::Stamp to, log::Stamp now, Inc
     stream.excusedUntil = now + log::durationOf(m_thresholds.windowS); // the window has both rates
     const Occurrence limit = Occurrence::at(IncidentKind::RateLimit, stream.key.sender, now);
     if (const Incident* known = incidents.currentLike(limit)) {
-        incidents.endPart(known->number, *one.character, *one.type, now);
+        incidents.endPart(known->number, {one.sender, *one.character}, *one.type, now);
     }
     return true;
 }
@@ -253,7 +253,7 @@ void ThresholdWatch::hold(const Stream& stream, const Measure& measure, log::Sta
     one.value = measure.value;
     one.limit = measure.limit;
     const Incident* known = incidents.currentLike(one);
-    const bool isIn = known != nullptr && known->concerns(stream.key.character, stream.key.type);
+    const bool isIn = known != nullptr && known->concerns(stream.key);
     const bool isAbove = measure.limit > 0 && measure.value > measure.limit;
     if (isAbove && !isIn && stamp <= stream.excusedUntil) {
         return; // an incident explains it
@@ -262,7 +262,7 @@ void ThresholdWatch::hold(const Stream& stream, const Measure& measure, log::Sta
         one.count = isIn ? 0 : 1;
         incidents.report(one);
     } else if (isIn && (measure.limit <= 0 || measure.value <= measure.limit * m_thresholds.hysteresis)) {
-        incidents.endPart(known->number, *one.character, *one.type, stamp);
+        incidents.endPart(known->number, {one.sender, *one.character}, *one.type, stamp);
     }
 }
 
@@ -304,7 +304,7 @@ LossesByStream lossesInSilences(const Incidents& incidents, const std::optional<
         const auto cause = static_cast<std::size_t>(outage.cause.value_or(LossCause::Unknown));
         for (const Incident::Part& part : outage.parts) {
             if (part.character && part.type) {
-                losses[{outage.sender, *part.character, *part.type}][cause] += part.samples;
+                losses[{part.sender, *part.character, *part.type}][cause] += part.samples;
             }
         }
     }

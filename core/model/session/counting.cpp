@@ -152,8 +152,8 @@ void Counting::began(Stream& stream, const Sender& sender) {
     m_attribution.addStream(stream, sender.info);
 }
 
-void Counting::tookOver(const CharacterKey& before, const CharacterKey& after) {
-    m_incidents.supersede(before, after, m_observed);
+void Counting::tookOver(const CharacterKey& before, const CharacterKey& after, log::Stamp since) {
+    m_incidents.supersede(before, after, since);
 }
 
 void Counting::isAwaited(const CharacterKey& key) {

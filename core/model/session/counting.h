@@ -49,7 +49,7 @@ public:
     [[nodiscard]] const log::StreamIndex& index() const { return m_index; }
 
     void began(Stream& stream, const Sender& sender) override;
-    void tookOver(const CharacterKey& before, const CharacterKey& after) override;
+    void tookOver(const CharacterKey& before, const CharacterKey& after, log::Stamp since) override;
     void isAwaited(const CharacterKey& key) override;
     void goes(const Sender& sender) override;
     void haveGone() override { fitDepth(); }

@@ -130,6 +130,7 @@ void Ingest::take(const log::Packet& packet) {
         } else if (enter(seen)) {
             m_counting.takeDatagram(seen);
             m_content.take(seen);
+            m_roll.findRenumbered(seen);
         } else {
             ++m_unfollowed;
         }

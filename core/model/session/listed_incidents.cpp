@@ -49,15 +49,18 @@ std::map<log::SenderId, Untold> untoldOf(const SessionView& session) {
         Untold& own = rest[stream.key.sender];
         addLosses(own.lost, stream.lostByCause());
         if (stream.isStalled) {
-            own.stalled.push_back({stream.key.character, stream.key.type, 0, 0, stream.accounting.lastStamp(),
-                                   session.knownUntil()});
+            own.stalled.push_back({stream.key.sender, stream.key.character, stream.key.type, 0, 0,
+                                   stream.accounting.lastStamp(), session.knownUntil()});
         }
     }
     for (const Incident& incident : session.verdicts().incidents().all()) {
-        if (const auto own = rest.find(incident.sender); own != rest.end() && incident.samples != 0) {
+        if (incident.samples == 0) {
+            continue;
+        }
+        for (auto& [sender, own] : rest) {
             std::uint64_t& sum =
-                own->second.lost[static_cast<std::size_t>(incident.cause.value_or(LossCause::Unknown))];
-            sum -= std::min(sum, incident.samples);
+                own.lost[static_cast<std::size_t>(incident.cause.value_or(LossCause::Unknown))];
+            sum -= std::min(sum, incident.samplesOf(sender));
         }
     }
     session.accounts().forEachPending([&](const PendingLoss& loss) {
@@ -85,8 +88,8 @@ ListedIncident provisionalOf(const SessionView& session, log::SenderId sender, c
         if (loss.stream.sender == sender && !loss.isUnderWay) {
             incident.firstStamp = std::min(incident.firstStamp, loss.from);
             incident.lastStamp = std::max(incident.lastStamp, loss.to);
-            incident.parts.push_back(
-                {loss.stream.character, loss.stream.type, 1, loss.samples, loss.from, loss.to});
+            incident.parts.push_back({loss.stream.sender, loss.stream.character, loss.stream.type, 1,
+                                      loss.samples, loss.from, loss.to});
             ++incident.count;
         }
     });
@@ -106,7 +109,7 @@ ListedIncident provisionalOf(const SessionView& session, log::SenderId sender, c
 /// A type of it that ended has not come back.
 bool isMissingStill(const SessionView& session, const Incident& incident) {
     return std::ranges::any_of(incident.parts, [&](const Incident::Part& part) {
-        const Stream* stream = streamOf(session, incident.sender, part);
+        const Stream* stream = streamOf(session, part);
         return stream != nullptr && stream->hasEnded;
     });
 }
@@ -147,21 +150,18 @@ bool hasNamesake(const SessionView& session, const Incident& incident) {
     if (session.roster().senders().size() < 2 || session.roster().find(incident.sender) == nullptr) {
         return false;
     }
-    const std::vector<std::uint8_t> own = incident.characters();
+    const std::vector<CharacterKey> own = incident.characters();
     return std::ranges::any_of(session.atNow().roster().listed(), [&](const Character* one) {
-        return one->key.sender != incident.sender &&
-               std::ranges::find(own, one->key.character) != own.end() &&
-               !session.roster().isSame(one->key, {incident.sender, one->key.character});
+        const CharacterKey namesake{incident.sender, one->key.character};
+        return one->key.sender != incident.sender && std::ranges::find(own, namesake) != own.end() &&
+               !session.roster().isSame(one->key, namesake);
     });
 }
 
 /// Its characters, or the sender; with it if others send the same characters.
 words::Value whom(const SessionView& session, const Incident& incident) {
     const std::string address = session.roster().addressOf(incident.sender).shown();
-    std::vector<CharacterKey> keys;
-    for (const std::uint8_t character : incident.characters()) {
-        keys.push_back({incident.sender, character});
-    }
+    const std::vector<CharacterKey> keys = incident.characters();
     if (keys.empty()) {
         return address;
     }
@@ -174,7 +174,7 @@ words::Value whom(const SessionView& session, const Incident& incident) {
 words::Fact amountOf(const SessionView& session, const Incident& incident) {
     StreamCounts sum;
     for (const Incident::Part& part : incident.parts) {
-        const Stream* stream = streamOf(session, incident.sender, part);
+        const Stream* stream = streamOf(session, part);
         if (stream != nullptr) {
             sum += stream->accounting.countsBetween(incident.firstStamp,
                                                     incident.lastStamp + CountHistory::kFirstWidth);
@@ -258,9 +258,9 @@ words::Fact lostFact(const Incident& incident, std::uint64_t samples, std::uint6
     return {isOfMessages ? words::Kind::Incomplete : words::Kind::Lost, {{"n", std::move(amount)}}};
 }
 
-const Stream* streamOf(const SessionView& session, log::SenderId sender, const Incident::Part& part) {
+const Stream* streamOf(const SessionView& session, const Incident::Part& part) {
     return part.character && part.type
-               ? session.roster().find(log::StreamKey{sender, *part.character, *part.type})
+               ? session.roster().find(log::StreamKey{part.sender, *part.character, *part.type})
                : nullptr;
 }
 
@@ -301,13 +301,24 @@ std::vector<ListedIncident> listedIncidents(const SessionView& session, log::Sta
     return all;
 }
 
+std::vector<ForeignText> addressesOf(const SessionView& session, const Incident& incident) {
+    std::vector<ForeignText> addresses;
+    for (const CharacterKey& character : incident.characters()) {
+        const ForeignText address = session.roster().addressOf(character.sender);
+        if (addresses.empty() || addresses.back() != address) {
+            addresses.push_back(address);
+        }
+    }
+    return addresses.empty() ? std::vector{session.roster().addressOf(incident.sender)} : addresses;
+}
+
 words::Fact factOf(const SessionView& session, const ListedIncident& listed) {
     const Incident& incident = listed.incident;
     if (listed.state == State::Provisional) {
         return provisionalFact(session, incident);
     }
     words::Fact fact = incident.fact();
-    const std::string address = session.roster().addressOf(incident.sender).shown();
+    const std::string address = addressesOf(session, incident).front().shown();
     set(fact, "who", whom(session, incident));
     set(fact, "address", address);
     if (incident.kind == IncidentKind::Outage) {
@@ -329,8 +340,8 @@ words::Fact factOf(const SessionView& session, std::span<const ListedIncident> t
     bool isOneCause = true;
     for (const ListedIncident& one : inOrder) {
         isOneCause = isOneCause && one.incident.cause == first.incident.cause;
-        for (const std::uint8_t character : one.incident.characters()) {
-            const std::string name = session.roster().displayName({one.incident.sender, character}).shown();
+        for (const CharacterKey& character : one.incident.characters()) {
+            const std::string name = session.roster().displayName(character).shown();
             if (std::ranges::find(names, name) == names.end()) {
                 names.push_back(name);
             }

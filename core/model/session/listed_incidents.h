@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/model/foreign_text.h"
 #include "core/model/incidents/incident.h"
 #include "core/model/session/session_view.h"
 
@@ -34,8 +35,7 @@ struct ListedIncident {
 /// Of an incident of the session's list; a note is over unless it lasts.
 [[nodiscard]] ListedIncident::State stateOf(const SessionView& session, const Incident& incident);
 /// Of a part of an incident; null if it is of no stream, or that is there no more.
-[[nodiscard]] const Stream* streamOf(const SessionView& session, log::SenderId sender,
-                                     const Incident::Part& part);
+[[nodiscard]] const Stream* streamOf(const SessionView& session, const Incident::Part& part);
 [[nodiscard]] bool isNote(const Incident& incident);
 
 [[nodiscard]] bool isOnlyComing(const ListedIncident& one);
@@ -45,6 +45,9 @@ struct ListedIncident {
 
 /// "37 samples lost", or "2.3 % lost" of the samples expected if that says more; 0 expected: not known.
 [[nodiscard]] words::Fact lostFact(const Incident& incident, std::uint64_t samples, std::uint64_t expected);
+
+/// Of its senders, each once; "this computer" if it is of none.
+[[nodiscard]] std::vector<ForeignText> addressesOf(const SessionView& session, const Incident& incident);
 
 [[nodiscard]] words::Fact factOf(const SessionView& session, const ListedIncident& listed);
 /// Of several outages that last at once, or several characters that are sent twice: all of them, with the

@@ -35,7 +35,7 @@ bool RecentLosses::isAboveLimit(const Incident& incident) {
         return std::ranges::any_of(incident.parts, &Incident::Part::isAbove);
     }
     const std::vector<double> shares = judgedShares(incident, [&](const Incident::Part& part) {
-        const FaultCounts counts = countsOf(incident.sender, part);
+        const FaultCounts counts = countsOf(part);
         return LossShare{counts.lost[causeOf(incident)], counts.expected};
     });
     const double limit =
@@ -51,13 +51,13 @@ LossShare RecentLosses::shareOf(const Incident& incident) {
 FaultCounts RecentLosses::sumOf(const Incident& incident) {
     FaultCounts sum;
     for (const Incident::Part& part : incident.parts) {
-        sum += countsOf(incident.sender, part);
+        sum += countsOf(part);
     }
     return sum;
 }
 
-FaultCounts RecentLosses::countsOf(log::SenderId sender, const Incident::Part& part) {
-    const Stream* stream = streamOf(m_session, sender, part);
+FaultCounts RecentLosses::countsOf(const Incident::Part& part) {
+    const Stream* stream = streamOf(m_session, part);
     if (stream == nullptr) {
         return {};
     }

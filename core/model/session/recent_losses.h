@@ -27,7 +27,7 @@ public:
     [[nodiscard]] LossShare shareOf(const Incident& incident);
 
 private:
-    [[nodiscard]] FaultCounts countsOf(log::SenderId sender, const Incident::Part& part);
+    [[nodiscard]] FaultCounts countsOf(const Incident::Part& part);
     [[nodiscard]] FaultCounts sumOf(const Incident& incident);
 
     const SessionView& m_session;

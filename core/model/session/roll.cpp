@@ -12,6 +12,11 @@ constexpr std::size_t kStrangersAtOnce = 16;
 constexpr std::size_t kMostNamesakes = 16;
 /// So many datagrams of each character of a sender make it unlikely that another one appears.
 constexpr std::size_t kEstablishedEach = 32;
+/// A performer goes on under another ID within this time, and by then metadata has come again.
+constexpr log::Duration kTurn = std::chrono::seconds(2);
+constexpr log::Duration kNamed = std::chrono::seconds(5);
+/// From whom nothing has come for as long while another came may have ended.
+constexpr log::Duration kEnded = std::chrono::milliseconds(200);
 
 } // namespace
 
@@ -80,13 +85,34 @@ Character* Roll::characterOf(Sender& sender, const Observed& seen) {
     added.firstPacket = seen.packet.number;
     added.ordinal = m_characterCount++;
     if (before != nullptr) {
-        before->after = key;
-        added.before = before->key;
-        m_listener.tookOver(before->key, key);
-        added.ordinal = before->ordinal;
+        takeOver(*before, added, m_observed);
     }
     sender.characters.push_back(&added);
     return &added;
+}
+
+void Roll::takeOver(Character& before, Character& after, log::Stamp since) {
+    before.after = after.key;
+    after.before = before.key;
+    after.ordinal = before.ordinal;
+    m_listener.tookOver(before.key, after.key, since);
+}
+
+void Roll::findRenumbered(const Observed& seen) {
+    Character& one = *seen.character;
+    const log::Stamp since = one.streams.front()->accounting.firstStamp();
+    const log::Duration age = seen.packet.stamp - since;
+    const ForeignText& name = one.metadata.value("name", seen.packet.number);
+    if (one.before || !one.isConfirmed || name.isEmpty() || age < kEnded || age > kNamed) {
+        return;
+    }
+    for (const Character* each : seen.sender->characters) {
+        const bool hasEnded = each->lastPacket < one.firstPacket && since - each->lastStamp <= kTurn;
+        if (hasEnded && !each->after && each->metadata.value("name", seen.packet.number) == name) {
+            takeOver(*m_characters.find(each->key), one, since);
+            return;
+        }
+    }
 }
 
 Stream* Roll::streamOf(const log::StreamKey& key, const Sender& sender) {

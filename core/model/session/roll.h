@@ -68,7 +68,7 @@ struct FormerSender {
 class RollListener {
 public:
     virtual void began(Stream& stream, const Sender& sender) = 0;
-    virtual void tookOver(const CharacterKey& before, const CharacterKey& after) = 0;
+    virtual void tookOver(const CharacterKey& before, const CharacterKey& after, log::Stamp since) = 0;
     /// The character that took over from this one is gone: it is expected to send again.
     virtual void isAwaited(const CharacterKey& key) = 0;
     /// Called before its rows are removed.
@@ -80,9 +80,9 @@ protected:
 };
 
 /// The first stage: senders, characters and streams in order of first appearance, and which character goes on
-/// under another port. If there are too many, the sender that has been silent longest is retired with all of
-/// its rows and remembered in sums; a sender of nothing but strange bytes takes no place that a performance
-/// could need.
+/// under another port or ID. If there are too many, the sender that has been silent longest is retired with
+/// all of its rows and remembered in sums; a sender of nothing but strange bytes takes no place that a
+/// performance could need.
 class Roll {
 public:
     static constexpr std::size_t kMostSenders = 512;
@@ -113,6 +113,9 @@ public:
     /// Finds the character and the stream of a datagram that was decoded, or adds them. False if there are
     /// too many already.
     bool enter(Observed& seen);
+    /// Looks whether a character is a performer of the same sender who has been given another ID, for as long
+    /// as that may turn out.
+    void findRenumbered(const Observed& seen);
 
     [[nodiscard]] const RetiredTotals& retired() const { return m_retired; }
     /// Null unless it is one of the newest.
@@ -135,6 +138,7 @@ private:
     Character* characterOf(Sender& sender, const Observed& seen);
     Stream* streamOf(const log::StreamKey& key, const Sender& sender);
     [[nodiscard]] Character* predecessorOf(const Character& character);
+    void takeOver(Character& before, Character& after, log::Stamp since);
     /// Null unless it has taken over.
     [[nodiscard]] const Character* heirOf(const Character& character) const;
 

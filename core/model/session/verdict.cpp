@@ -42,10 +42,12 @@ auto rankOf(const ListedIncident& listed) {
 using Line = std::vector<CharacterKey>;
 
 bool concerns(const Incident& incident, const CharacterKey& character) {
-    return incident.sender == character.sender &&
-           (incident.parts.empty() || std::ranges::any_of(incident.parts, [&](const Incident::Part& part) {
-                return part.character.value_or(character.character) == character.character;
-            }));
+    if (incident.parts.empty()) {
+        return incident.sender == character.sender;
+    }
+    return std::ranges::any_of(incident.parts, [&](const Incident::Part& part) {
+        return part.sender == character.sender && part.whose().value_or(character) == character;
+    });
 }
 
 bool concerns(const Incident& incident, const Line& line) {
@@ -74,7 +76,7 @@ TakeVerdict fromIncidents(const SessionView& session, const std::vector<ListedIn
     verdict.since = worst.incident.firstStamp;
     verdict.incident = worst.incident.number;
     if (const auto character = worst.incident.character(); character && together.size() == 1) {
-        verdict.character = CharacterKey{worst.incident.sender, *character};
+        verdict.character = *character;
     }
     return verdict;
 }
@@ -206,8 +208,9 @@ void easeTo(const VerdictSpan& span, RecentLosses& losses, Incident& incident) {
 
 /// What of it is to one character: that may be over while others still have it. The last that lost something
 /// does so for as long as anybody.
-ListedIncident ofOne(const SessionView& session, const ListedIncident& one, std::uint8_t character) {
-    ListedIncident own{one.incident.of(character), one.state};
+ListedIncident ofOne(const SessionView& session, const ListedIncident& one,
+                     std::span<const CharacterKey> which) {
+    ListedIncident own{one.incident.of(which), one.state};
     const bool isOfTheLast =
         one.incident.kind == IncidentKind::Loss && own.incident.lastStamp == one.incident.lastStamp;
     if (one.state == State::Ongoing && !isOfTheLast) {
@@ -221,9 +224,9 @@ ListedIncident ofLasting(const SessionView& session, const ListedIncident& one) 
     if (one.incident.kind != IncidentKind::Loss || one.state != State::Ongoing) {
         return one;
     }
-    std::vector<std::uint8_t> lasting = one.incident.characters();
-    std::erase_if(lasting, [&](std::uint8_t character) {
-        return ofOne(session, one, character).state != State::Ongoing;
+    std::vector<CharacterKey> lasting = one.incident.characters();
+    std::erase_if(lasting, [&](const CharacterKey& character) {
+        return ofOne(session, one, std::span(&character, 1)).state != State::Ongoing;
     });
     return lasting.empty() ? one : ListedIncident{one.incident.of(lasting), one.state};
 }
@@ -266,8 +269,7 @@ public:
             if (!concerns(one.incident, line)) {
                 continue;
             }
-            ListedIncident mine =
-                character ? ofOne(m_session, one, character->character) : ofLasting(m_session, one);
+            ListedIncident mine = character ? ofOne(m_session, one, line) : ofLasting(m_session, one);
             easeTo(m_span, m_losses, mine.incident);
             const bool isMeant = !character || !isPast(mine, m_span);
             if (isMeant && (!worst || rankOf(*worst) < rankOf(mine))) {
@@ -292,13 +294,13 @@ private:
         }
         constexpr double kLittle = 0.5;
         constexpr double kChance = 2;
-        const std::vector<std::uint8_t> characters = all.characters();
+        const std::vector<CharacterKey> characters = all.characters();
         double worst = all.limit / 100;
-        for (const std::uint8_t character : characters) {
+        for (const CharacterKey& character : characters) {
             worst = std::max(worst, m_losses.shareOf(all.of(character)).ratio());
         }
-        std::vector<std::uint8_t> grave;
-        for (const std::uint8_t character : characters) {
+        std::vector<CharacterKey> grave;
+        for (const CharacterKey& character : characters) {
             Incident own = all.of(character);
             easeTo(m_span, m_losses, own);
             if (own.severity() == IncidentSeverity::Error ||

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/model/accounting/sample_sequence.h"
+#include "core/model/accounting/sample_step.h"
 
 #include <gtest/gtest.h>
 

@@ -477,6 +477,29 @@ TEST_F(Accounting, KeepsRangesOfALongStreamInBoundedMemory) {
     EXPECT_NEAR(stream.interArrival().deviationMs, 0, 1e-3);
 }
 
+TEST_F(Accounting, TakesTheSpacingOfItsLastSamplesForAStepIfItEndsWithThem) {
+    for (const bool isRestart : {false, true}) {
+        SCOPED_TRACE(isRestart);
+        stream = StreamAccounting(2);
+        sendSteady(1, 240);
+        sendSteady(242, 300, 2);
+        EXPECT_EQ(stream.counts().lost, 30U) << "as far as is known";
+        if (isRestart) {
+            sendSteady(5000, 5300, 2);
+        }
+        stream.conclude();
+        EXPECT_EQ(stream.counts().lost, 0U);
+        EXPECT_EQ(stream.countsBetween(at(0s), at(1h)).lost, 0U);
+    }
+}
+
+TEST_F(Accounting, TakesAFewEvenGapsAtTheEndForLoss) {
+    sendSteady(1, 240);
+    sendSteady(242, 248, 2);
+    stream.conclude();
+    EXPECT_EQ(stream.counts().lost, 4U);
+}
+
 TEST_F(Accounting, FindsBurstsAndGapsOfLoss) {
     sendSteady(1, 100);
     sendAll({102, 104, 106}); // a burst of three lost among five

@@ -37,7 +37,7 @@ TEST_F(IncidentBounds, ADatagramWithoutAReadableTypeIsOfItsCharacterAlone) {
     bytes[5] = std::byte{0xff}; // "MXTP0?"
     sendBytes(bytes, m_at);
     ASSERT_EQ(of(IncidentKind::Malformed).size(), 1U);
-    EXPECT_EQ(of(IncidentKind::Malformed)[0].characters(), std::vector<std::uint8_t>{1});
+    EXPECT_EQ(of(IncidentKind::Malformed)[0].characters().at(0).character, 1);
     sendBytes(std::span(bytes).first(20), m_at);
     EXPECT_FALSE(of(IncidentKind::Malformed)[0].character()) << "too short to say whose it is";
 }
@@ -112,7 +112,8 @@ TEST_F(IncidentBounds, ACharacterIsSilentWhileItsSenderSendsAnother) {
     poses(101, 400);
     auto outages = of(IncidentKind::Outage);
     ASSERT_EQ(outages.size(), 1U);
-    EXPECT_EQ(outages[0].characters(), (std::vector<std::uint8_t>{1}));
+    ASSERT_EQ(outages[0].characters().size(), 1U);
+    EXPECT_EQ(outages[0].characters()[0].character, 1);
     EXPECT_EQ(outages[0].firstStamp, last);
     EXPECT_TRUE(outages[0].isCurrent);
     EXPECT_EQ(m_session.verdicts().of({sender(), 1}).state, TakeVerdict::State::Bad);
@@ -205,7 +206,7 @@ TEST_F(IncidentBounds, TwoSendersConflictWhereOneComesBackWithinASecond) {
         m_at += 10s;
     }
     const Incident conflict = of(IncidentKind::Conflict).front();
-    EXPECT_EQ(conflict.character(), 0);
+    EXPECT_EQ(conflict.character()->character, 0);
     EXPECT_EQ(conflict.sender, sender());
     EXPECT_EQ(conflict.detail.kind, words::Kind::TwoSenders);
     EXPECT_EQ(numberIn(conflict.detail, "id"), 0);
@@ -261,7 +262,7 @@ TEST_F(IncidentBounds, AnotherBodyIsAScaleChangeAndTheSameOneIsNot) {
     send(nullPoseOf(1.1), 0, m_at + 10s);
     const auto changes = of(IncidentKind::ScaleChange);
     ASSERT_EQ(changes.size(), 1U);
-    EXPECT_EQ(changes[0].character(), 0);
+    EXPECT_EQ(changes[0].character()->character, 0);
     EXPECT_EQ(changes[0].fact().kind, words::Kind::NullPoseChanged);
     EXPECT_EQ(changes[0].severity(), IncidentSeverity::Info);
 }

@@ -30,6 +30,12 @@ Incident incidentOf(IncidentKind kind) {
     return incident;
 }
 
+constexpr auto kOne = static_cast<log::SenderId>(1);
+constexpr CharacterKey kFirst{kOne, 0};
+constexpr CharacterKey kSecond{kOne, 1};
+constexpr CharacterKey kThird{kOne, 2};
+constexpr CharacterKey kFourth{kOne, 3};
+
 std::vector<std::uint64_t> numbersOf(const std::vector<const Incident*>& events) {
     std::vector<std::uint64_t> numbers;
     for (const Incident* event : events) {
@@ -90,7 +96,7 @@ TEST(IncidentList, PutsAllStreamsOfASenderIntoOneAndOtherSendersAndCausesApart) 
     ASSERT_EQ(incidents.all().size(), 1U);
     EXPECT_EQ(incidents.all().front().samples, 48U);
     EXPECT_EQ(incidents.all().front().parts.size(), 24U);
-    EXPECT_EQ(incidents.all().front().characters(), (std::vector<std::uint8_t>{0, 1, 2, 3}));
+    EXPECT_EQ(incidents.all().front().characters(), (std::vector{kFirst, kSecond, kThird, kFourth}));
     EXPECT_EQ(incidents.all().front().types(), (std::vector<std::uint8_t>{20, 21, 22, 23, 24, 25}));
     EXPECT_EQ(incidents.all().front().character(), std::nullopt);
     one.cause = LossCause::Sender;
@@ -98,7 +104,7 @@ TEST(IncidentList, PutsAllStreamsOfASenderIntoOneAndOtherSendersAndCausesApart) 
     one.sender = static_cast<log::SenderId>(2);
     incidents.report(one);
     EXPECT_EQ(numbersOf(incidents.current()), (std::vector<std::uint64_t>{1, 2, 3}));
-    EXPECT_EQ(incidents.all().back().character(), 3);
+    EXPECT_EQ(incidents.all().back().character(), (CharacterKey{one.sender, 3}));
 }
 
 TEST(IncidentList, TakesBackWhatCameAfterAllAndForgetsWhatComesToNothing) {
@@ -110,8 +116,8 @@ TEST(IncidentList, TakesBackWhatCameAfterAllAndForgetsWhatComesToNothing) {
     const std::uint64_t number = incidents.report(one);
     one.type = 21;
     incidents.report(one);
-    const Incident::Part first{0, 2};
-    const Incident::Part second{0, 21};
+    const Incident::Part first{one.sender, 0, 2};
+    const Incident::Part second{one.sender, 0, 21};
     incidents.takeBack(number, first, 2, 0);
     EXPECT_EQ(incidents.find(number)->samples, 8U);
     EXPECT_EQ(incidents.find(number)->count, 2U);
@@ -143,14 +149,43 @@ TEST(IncidentList, EndsWithItsLastPart) {
     const std::uint64_t number = incidents.report(one);
     one.character = 1;
     incidents.report(one);
-    incidents.endPart(number, 0, {}, at(3s));
+    incidents.endPart(number, kFirst, {}, at(3s));
     EXPECT_TRUE(incidents.find(number)->isCurrent);
-    EXPECT_FALSE(incidents.find(number)->concerns(0));
-    EXPECT_TRUE(incidents.find(number)->concerns(1));
-    incidents.endPart(number, 1, {}, at(4s));
+    EXPECT_FALSE(incidents.find(number)->concerns(kFirst));
+    EXPECT_TRUE(incidents.find(number)->concerns(kSecond));
+    incidents.endPart(number, kSecond, {}, at(4s));
     EXPECT_FALSE(incidents.find(number)->isCurrent);
     EXPECT_EQ(incidents.find(number)->lastStamp, at(4s));
-    EXPECT_TRUE(incidents.find(number)->concerns(0)) << "it did";
+    EXPECT_TRUE(incidents.find(number)->concerns(kFirst)) << "it did";
+}
+
+TEST(IncidentList, JoinsTheOutagesOfHostsThatWereSilentTogether) {
+    Incidents incidents;
+    std::vector<std::uint64_t> numbers;
+    for (std::uint32_t sender = 1; sender <= 3; ++sender) {
+        Occurrence one = occurrenceAt(IncidentKind::Outage, at(sender == 3 ? 60s : 1s));
+        one.sender = static_cast<log::SenderId>(sender);
+        one.character = 0;
+        one.to = one.from + 1s;
+        one.samples = 40;
+        one.detail = {words::Kind::HostsSilent};
+        one.isOver = true;
+        numbers.push_back(incidents.report(one));
+        incidents.end(numbers.back(), one.to);
+        EXPECT_EQ(incidents.joinOutages(numbers.back()), sender == 3 ? numbers[2] : numbers[0]);
+    }
+    ASSERT_EQ(incidents.all().size(), 2U) << "the third was another time";
+    const Incident& both = incidents.all().front();
+    EXPECT_EQ(both.samples, 80U);
+    EXPECT_EQ(both.characters().size(), 2U);
+    EXPECT_EQ(both.samplesOf(static_cast<log::SenderId>(2)), 40U);
+    EXPECT_EQ(incidents.find(numbers[1]), &both) << "by either number";
+    Incident::Part part;
+    part.sender = static_cast<log::SenderId>(2);
+    part.character = 0;
+    incidents.takeBack(numbers[1], part, 40, 1);
+    EXPECT_EQ(both.samplesOf(static_cast<log::SenderId>(2)), 0U);
+    EXPECT_EQ(both.samples, 40U);
 }
 
 TEST(IncidentList, IsFoundByItsCauseOnceThatIsKnown) {

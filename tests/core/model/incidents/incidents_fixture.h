@@ -17,6 +17,7 @@ protected:
         wire::Datagram datagram;
         datagram.body = standingAt(0);
         datagram.header.sampleCounter = sample;
+        datagram.header.character = m_character;
         datagram.header.timeCode =
             static_cast<std::uint32_t>((m_at + m_timeCodeOff).time_since_epoch() / 1ms);
         wire::completeHeader(datagram, wire::HeaderEra::Counted);
@@ -34,6 +35,13 @@ protected:
             pose(sample);
         }
     }
+    void name(const std::string& who, const std::string& address = "127.0.0.1:40001") {
+        wire::Datagram datagram{{}, wire::MetaData{true, "name:" + who + "\n"}, {}};
+        datagram.header.character = m_character;
+        datagram.header.datagramCounter = 0x80;
+        wire::completeHeader(datagram, wire::HeaderEra::Counted);
+        sendBytes(*wire::encode(datagram), m_at, address);
+    }
     std::vector<Incident> of(IncidentKind kind) {
         follow();
         std::vector<Incident> found;
@@ -43,6 +51,7 @@ protected:
     }
     log::Stamp m_at{100s};
     log::Duration m_timeCodeOff{};
+    std::uint8_t m_character = 0; ///< whose poses
 };
 
 } // namespace posewire::model

@@ -293,6 +293,22 @@ TEST_F(IncidentsTest, TellARestartOnAnotherPortOnceTheOldOneIsSilent) {
     EXPECT_EQ(of(IncidentKind::Restart).size(), 1U);
 }
 
+TEST_F(IncidentsTest, TellAPerformerWhoGoesOnUnderAnotherId) {
+    poses(1, 50);
+    name("Ada");
+    poses(51, 150);
+    const log::Stamp from = m_at;
+    m_character = 7;
+    poses(151, 155);
+    name("Ada");
+    poses(156, 300);
+    EXPECT_TRUE(of(IncidentKind::Outage).empty());
+    const auto restarts = of(IncidentKind::Restart);
+    ASSERT_EQ(restarts.size(), 1U);
+    EXPECT_EQ(restarts[0].firstStamp, from);
+    EXPECT_EQ(restarts[0].detail.kind, words::Kind::OtherId);
+}
+
 TEST_F(IncidentsTest, TellTwoHostsWithOneCharacterWhateverTypesTheySend) {
     const auto both = [this](const std::string& other) {
         for (std::uint32_t sample = 1; sample <= 50; ++sample, m_at += 10ms) {
@@ -317,12 +333,6 @@ TEST_F(IncidentsTest, TellTwoHostsWithOneCharacterWhateverTypesTheySend) {
 }
 
 TEST_F(IncidentsTest, TellNoConflictOfHostsThatNameDifferentPeople) {
-    const auto name = [this](const char* who, const std::string& address) {
-        wire::Datagram datagram{{}, wire::MetaData{true, std::string("name:") + who + "\n"}, {}};
-        datagram.header.datagramCounter = 0x80;
-        wire::completeHeader(datagram, wire::HeaderEra::Counted);
-        sendBytes(*wire::encode(datagram), m_at, address);
-    };
     const auto conflictsOf = [&](const char* one, const char* other) {
         const std::size_t before = of(IncidentKind::Conflict).size();
         for (std::uint32_t sample = 1; sample <= 300; ++sample, m_at += 10ms) {

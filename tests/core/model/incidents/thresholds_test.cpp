@@ -266,7 +266,7 @@ TEST_F(Limits, HoldEveryStreamOnItsOwn) {
     ASSERT_EQ(m_events.all().size(), 1U);
     EXPECT_EQ(m_events.all().front().kind, IncidentKind::AgeLimit);
     EXPECT_EQ(m_events.all().front().type(), 21);
-    EXPECT_EQ(m_events.all().front().character(), 0);
+    EXPECT_EQ(m_events.all().front().character()->character, 0);
 }
 
 TEST_F(Limits, LeaveTheUsualIntervalOfASlowStreamAlone) {

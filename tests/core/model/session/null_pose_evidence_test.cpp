@@ -224,7 +224,7 @@ TEST_F(EvidenceTest, IsAnIncidentOfItsCharacterWhereItContradictsItself) {
     poses(1, 300);
     const Incident& incident = m_session.verdicts().incidents().all().back();
     EXPECT_EQ(incident.kind, IncidentKind::Scale);
-    EXPECT_EQ(incident.character(), 0);
+    EXPECT_EQ(incident.character()->character, 0);
     EXPECT_EQ(say(incident.fact(), words::Form::Sentence),
               say(findContradictions(evidence()).front().fact, words::Form::Sentence))
         << "as the dock has it";

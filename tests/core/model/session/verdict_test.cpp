@@ -350,7 +350,8 @@ TEST_F(VerdictTest, TakesBackASilenceThatWhatComesLateToUsShowsToBeNone) {
     }
     const auto outages = of(IncidentKind::Outage);
     ASSERT_EQ(outages.size(), 1U);
-    EXPECT_EQ(outages[0].characters(), std::vector<std::uint8_t>{1}) << "the first was never silent";
+    ASSERT_EQ(outages[0].characters().size(), 1U) << "the first was never silent";
+    EXPECT_EQ(outages[0].characters()[0].character, 1);
     EXPECT_EQ(outages[0].lastStamp - outages[0].firstStamp, 510ms) << "not until it was read";
     EXPECT_NE(outages[0].cause, LossCause::Sender) << "the other one shows what is lost";
 }
