@@ -257,7 +257,11 @@ void MonitorRun::tellInterrupted() {
 
 ExitStatus MonitorRun::conclude(exporting::MonitorFacts facts, ExitStatus status,
                                 std::optional<log::Stamp> end) {
-    m_session.settle();
+    if (m_options.file.empty()) {
+        m_session.settle();
+    } else {
+        m_session.endFile(receptionOf(facts).afterLast);
+    }
     std::ranges::copy(exceeded(m_session, m_options.limits, end), std::back_inserter(facts.exceeded));
     // Nobody may read standard output: all else comes before.
     const ExitStatus reported = m_options.report.empty() ? ExitStatus::Fine : writeReport(facts);

@@ -32,7 +32,7 @@ constexpr std::array kTable{
     Wording{.kind = K::Incomplete, .headline = {"{n} incomplete"}},
     Wording{.kind = K::CauseThisComputer, .headline = {"this computer"}},
     Wording{.kind = K::CauseNetwork, .headline = {"network"}},
-    Wording{.kind = K::CauseSender, .headline = {"sender"}},
+    Wording{.kind = K::CauseSender, .headline = {"sender's side"}},
     Wording{.kind = K::CauseUnknown, .headline = {"cause unknown"}, .sentence = {"unknown"}},
     // When something happened.
     Wording{.kind = K::Since, .headline = {"since {from}"}},

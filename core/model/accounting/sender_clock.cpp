@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
 namespace posewire::model {
 namespace {
@@ -81,7 +82,11 @@ void SenderClock::add(const Sample& sample) {
     }
     m_timeCodeMs += timeCodeMoved;
     const double periodMs = m_sumMoved > 0 ? m_sumSinceMs / m_sumMoved : 0;
-    const double senderMs = isFromTimeCode() ? timeCodeMoved : moved * periodMs;
+    // Standing still it tells nothing, nor does the step with which it makes up for that.
+    const bool isStill = timeCodeMoved == 0;
+    const bool wasStill = std::exchange(m_isStill, isStill);
+    const bool isTimed = isFromTimeCode() && !isStill && !wasStill;
+    const double senderMs = isTimed ? timeCodeMoved : moved * periodMs;
     m_jitterMs += (std::abs(sinceMs - senderMs) - m_jitterMs) / 16;
     m_differenceMs = log::millisecondsOf(sample.stamp - m_first->stamp) - static_cast<double>(m_timeCodeMs);
     m_previous = sample;

@@ -49,6 +49,7 @@ private:
     std::int64_t m_timeCodeMs = 0; ///< since the first sample, without wrap-around
     double m_differenceMs = 0;
     std::uint32_t m_generation = 0;
+    bool m_isStill = false;   ///< the newest time code is that of the sample before
     bool m_isInDoubt = false; ///< the newest time code: the clock has jumped, or it is corrupt
 };
 

@@ -66,6 +66,7 @@ log::Duration Ingest::behind() const {
 }
 
 void Ingest::endFile(log::Duration afterLast) {
+    m_isFile = true;
     m_isLive = false;
     m_fileEnd = m_observed + afterLast;
     if (afterLast > log::Duration::zero()) {

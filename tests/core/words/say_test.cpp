@@ -202,8 +202,8 @@ TEST(Say, LeavesOutWhatIsNotKnown) {
     EXPECT_EQ(say(outage, Form::Headline), "no data from Ana");
     set(outage, "lasted", Number{1.5, 2});
     set(outage, "cause", Fact{Kind::CauseSender});
-    EXPECT_EQ(say(outage, Form::Sentence), "No data for 1.50 s, cause: sender.");
-    EXPECT_EQ(say(outage, Form::Headline), "no data from Ana, sender");
+    EXPECT_EQ(say(outage, Form::Sentence), "No data for 1.50 s, cause: sender's side.");
+    EXPECT_EQ(say(outage, Form::Headline), "no data from Ana, sender's side");
     set(outage, "cause", Fact());
     EXPECT_EQ(say(outage, Form::Headline), "no data from Ana");
 }

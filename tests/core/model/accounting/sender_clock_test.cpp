@@ -76,6 +76,16 @@ TEST(SenderClock, PassesTheWrapAroundOfTheTimeCode) {
     EXPECT_EQ(wrapped.generation(), 0U);
 }
 
+TEST(SenderClock, HasNoJitterOfATimeCodeThatStoodStill) {
+    SenderClock clock;
+    for (std::uint32_t i = 0; i < 400; ++i) {
+        const std::uint32_t code = i >= 200 && i < 250 ? 2'000 : 10 * i;
+        clock.add({sentAt(1s + i * 10ms), i, code});
+        EXPECT_NEAR(clock.jitterMs(), 0, 1e-9) << "sample " << i;
+    }
+    EXPECT_TRUE(clock.isFromTimeCode());
+}
+
 TEST(SenderClock, TakesTheCounterWhereTheTimeCodeIsFrozen) {
     auto samples = jitteryStream(1'000, 500);
     for (SenderClock::Sample& sample : samples) {
