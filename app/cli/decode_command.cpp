@@ -9,6 +9,7 @@
 #include "core/wire/codec.h"
 #include "core/wire/field_tree.h"
 #include "core/wire/type_table.h"
+#include "core/words/say.h"
 
 #include <algorithm>
 #include <memory>
@@ -196,14 +197,18 @@ private:
     exporting::DatagramPlace placeOf(const log::FileRecord& record) {
         ++m_datagrams;
         return {m_index++, record.offset, record.time,
-                record.sender ? std::optional(record.sender->address) : std::nullopt};
+                record.sender ? std::optional(record.sender->address) : std::nullopt, record.flags.shared};
     }
     static std::string listed(const exporting::DatagramPlace& place, const log::FileRecord& record) {
         const auto header = wire::decodeHeader(record.bytes);
         return "#" + std::to_string(place.index) + "  offset " + std::to_string(place.offset) + "  " +
                std::to_string(record.bytes.size()) + " bytes" +
                (header ? "  " + wire::typeTitle(header->type()) : "") +
-               (place.sender ? "  from " + *place.sender : "") + '\n' + fieldListing(record.bytes) + '\n';
+               (place.sender ? "  from " + *place.sender : "") + '\n' +
+               (place.shared != 0
+                    ? "  notice: " + say(words::sharedFact(place.shared), words::Form::Sentence) + '\n'
+                    : "") +
+               fieldListing(record.bytes) + '\n';
     }
 
     Output& m_out;

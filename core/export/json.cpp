@@ -6,6 +6,7 @@
 #include "core/wire/form.h"
 #include "core/wire/text.h"
 #include "core/wire/walk.h"
+#include "core/words/say.h"
 
 #include <cmath>
 
@@ -168,6 +169,9 @@ std::string datagramJson(const DatagramPlace& place, wire::Bytes bytes) {
     }
     object["body"] = bodyOf(datagram->body);
     object["notices"] = noticesOf(*datagram);
+    if (place.shared != 0) {
+        object["notices"].push_back(say(words::sharedFact(place.shared), words::Form::Sentence));
+    }
     if (!givesBack(object, bytes)) {
         object["bytes"] = wire::hexadecimal(bytes);
     }

@@ -21,6 +21,7 @@ struct DatagramPlace {
     std::uint64_t offset = 0; ///< of its first byte in the file
     std::optional<log::WallTime> time;
     std::optional<std::string> sender;
+    std::uint8_t shared = 0; ///< datagrams in its packet; 0 if it came alone
 };
 
 /// One object without a newline. A datagram with a fault has the header fields that could be read and

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/log/log_writer.h"
 
+#include "core/log/shared_packet.h"
+
 #include <algorithm>
 #include <cstring>
 
@@ -58,7 +60,12 @@ std::span<const LogWriter::Lane> LogWriter::lanes() {
 
 void LogWriter::commit(std::size_t lane, std::size_t size, const Arrival& arrival) {
     const std::span<std::byte> bytes = m_lanes[lane].bytes;
-    if (size <= bytes.size() && m_chunk == m_laneChunk && hasPlaceFor(1)) {
+    const bool isInLane = size <= bytes.size();
+    if (isInLane && wire::firstDatagram(bytes.first(size)) != size) {
+        append(bytes.first(size), arrival);
+        return;
+    }
+    if (isInLane && m_chunk == m_laneChunk && hasPlaceFor(1)) {
         addRecord(bytes.data(), size, arrival);
         m_lanes[lane].bytes = bytes.subspan(std::min(aligned(size), bytes.size()));
         prefetchForWriting(m_lanes[lane].bytes.data(),
@@ -70,10 +77,21 @@ void LogWriter::commit(std::size_t lane, std::size_t size, const Arrival& arriva
     std::byte* copy = place(inLane + inSpill);
     std::memcpy(copy, bytes.data(), inLane);
     std::memcpy(copy + inLane, m_lanes[lane].spill.data(), inSpill);
-    addRecord(copy, inLane + inSpill, arrival);
+    const std::span<const std::byte> whole(copy, inLane + inSpill);
+    wire::firstDatagram(whole) == whole.size() ? addRecord(copy, whole.size(), arrival)
+                                               : append(whole, arrival);
 }
 
 void LogWriter::append(std::span<const std::byte> bytes, const Arrival& arrival) {
+    forEachDatagram(bytes, arrival.flags, [&](std::size_t from, std::size_t size, PacketFlags flags) {
+        Arrival own = arrival;
+        own.flags = flags;
+        own.kernelDropsBefore = from == 0 ? arrival.kernelDropsBefore : 0;
+        appendOne(bytes.subspan(from, size), own);
+    });
+}
+
+void LogWriter::appendOne(std::span<const std::byte> bytes, const Arrival& arrival) {
     // What is longer than a chunk can hold cannot be a datagram; its beginning is kept.
     const std::size_t most = m_history.limits().chunkSize - sizeof(Record);
     Arrival kept = arrival;

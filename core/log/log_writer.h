@@ -44,11 +44,11 @@ public:
     /// call of lanes() or append().
     std::span<const Lane> lanes();
 
-    /// The packet of `size` bytes in `lane` joins the log. A lane can be committed once; lanes may be left
-    /// out.
+    /// The packet of `size` bytes in `lane` joins the log, as several if it holds several datagrams. A lane
+    /// can be committed once; lanes may be left out.
     void commit(std::size_t lane, std::size_t size, const Arrival& arrival);
 
-    /// Copies a packet into the log.
+    /// Copies a packet into the log, likewise.
     void append(std::span<const std::byte> bytes, const Arrival& arrival);
 
     /// Readers now see everything committed and appended so far.
@@ -62,6 +62,7 @@ private:
         return m_chunk->room() >= records * sizeof(Record) && m_next + records <= m_chunkEnd;
     }
     std::byte* place(std::size_t size);
+    void appendOne(std::span<const std::byte> bytes, const Arrival& arrival);
     void addRecord(const std::byte* data, std::size_t size, const Arrival& arrival);
     void beginChunk();
     /// The chunk keeps the sender.

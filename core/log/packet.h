@@ -48,6 +48,11 @@ struct PacketFlags {
     /// The first packet of a port that was not listened to for a while, for its input had been removed: what
     /// was sent meanwhile is missing for that.
     bool afterClosed : 1 = false;
+    /// How many datagrams came in one packet, this one of them, each of which the log keeps as a packet of
+    /// its own; at most kMostShared are counted. 0 if it came alone.
+    std::uint8_t shared : 3 = 0;
+
+    static constexpr std::uint8_t kMostShared = 7;
 
     friend bool operator==(const PacketFlags&, const PacketFlags&) = default;
 };

@@ -23,6 +23,7 @@ constexpr std::string_view kSignature = "Posewire: ";
 constexpr std::array<std::string_view, 4> kTransports{"UDP", "TCP", "file", "performer"};
 constexpr std::array<std::string_view, 4> kFlags{"; truncated", "; between datagrams", "; news of drops",
                                                  "; first after the input was closed"};
+constexpr std::string_view kShared = "; datagrams in its packet: ";
 constexpr std::string_view kStampedOnReading = "; stamped on reading";
 constexpr std::string_view kClockSet = "; clock set by ";
 constexpr std::string_view kFrom = "; from ";
@@ -184,6 +185,9 @@ std::string originText(const RecordedOrigin& origin) {
     for (std::size_t i = 0; i < kFlags.size(); ++i) {
         text += said[i] ? kFlags[i] : "";
     }
+    if (flags.shared != 0) {
+        text.append(kShared) += static_cast<char>('0' + flags.shared);
+    }
     text += origin.flags.stampedByKernel ? "" : kStampedOnReading;
     if (origin.setBy != Duration::zero()) {
         text.append(kClockSet).append(secondsText(origin.setBy));
@@ -207,11 +211,16 @@ std::optional<RecordedOrigin> parseOrigin(std::string_view comment) {
     origin.transport = static_cast<Transport>(transport - kTransports.begin());
     std::array<bool, kFlags.size()> said{};
     std::ranges::transform(kFlags, said.begin(), [&](auto words) { return takes(comment, words); });
+    if (takes(comment, kShared) && !comment.empty()) {
+        origin.flags.shared = static_cast<unsigned>(comment.front() - '0') & 7U;
+        comment.remove_prefix(1);
+    }
     origin.flags = {.truncated = said[0],
                     .stampedByKernel = !takes(comment, kStampedOnReading),
                     .skipped = said[1],
                     .isDropRecord = said[2],
-                    .afterClosed = said[3]};
+                    .afterClosed = said[3],
+                    .shared = origin.flags.shared};
     if (takes(comment, kClockSet)) {
         const auto setBy = takeSeconds(comment);
         if (!setBy) {

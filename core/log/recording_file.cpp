@@ -2,6 +2,7 @@
 #include "core/log/recording_file.h"
 
 #include "core/log/reassembly.h"
+#include "core/log/shared_packet.h"
 #include "core/log/tcp_framer.h"
 #include "core/wire/byte_order.h"
 #include "core/wire/header.h"
@@ -406,7 +407,14 @@ tl::expected<void, FileError> readCapture(ByteSource& source, std::uint32_t magi
     const FileVisitor noted = [&](const FileRecord& record) {
         FileRecord complete = record;
         notes.apply(complete);
-        visit(complete);
+        forEachDatagram(record.bytes, complete.flags,
+                        [&](std::size_t from, std::size_t size, PacketFlags flags) {
+                            complete.offset = record.offset + from;
+                            complete.bytes = record.bytes.subspan(from, size);
+                            complete.flags = flags;
+                            visit(complete);
+                            complete.kernelDropsBefore = 0;
+                        });
     };
     Reassembly reassembly(noted);
     PieceReader reader(source);

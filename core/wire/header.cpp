@@ -152,4 +152,21 @@ Extent datagramExtent(Bytes bytes, bool isAtEnd) {
     return extent;
 }
 
+std::size_t firstDatagram(Bytes packet) {
+    if (packet.size() < 2 * kHeaderSize || !startsWithMagic(packet)) {
+        return packet.size();
+    }
+    const Extent extent = datagramExtent(packet, true);
+    const bool isClosed = extent.state == Extent::State::Known && extent.size + kHeaderSize <= packet.size();
+    return isClosed && startsDatagram(packet.subspan(extent.size)) ? extent.size : packet.size();
+}
+
+std::size_t countDatagrams(Bytes packet) {
+    std::size_t count = 0;
+    for (; !packet.empty(); ++count) {
+        packet = packet.subspan(firstDatagram(packet));
+    }
+    return count;
+}
+
 } // namespace posewire::wire

@@ -68,4 +68,8 @@ struct Extent {
 /// `isAtEnd`) by the end wins. Needs at most kMaxDatagramSize + 6 bytes to decide.
 [[nodiscard]] Extent datagramExtent(Bytes bytes, bool isAtEnd);
 
+/// Bytes of the first datagram of a packet: all, unless its sizes close it and another one begins there.
+[[nodiscard]] std::size_t firstDatagram(Bytes packet);
+[[nodiscard]] std::size_t countDatagrams(Bytes packet);
+
 } // namespace posewire::wire

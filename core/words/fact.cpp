@@ -70,6 +70,12 @@ std::size_t memoryBytes(const Fact& fact) {
     return bytes;
 }
 
+Fact sharedFact(std::uint8_t datagrams) {
+    constexpr std::uint8_t kMost = 7;
+    const std::string count = std::to_string(datagrams) + (datagrams < kMost ? "" : " or more");
+    return {Kind::SharedPacket, {{"n", count}}};
+}
+
 Fact typesFact(const std::vector<std::uint8_t>& types) {
     std::vector<std::string> digits;
     for (const std::uint8_t type : types) {

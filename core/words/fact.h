@@ -54,6 +54,7 @@ enum class Kind : std::uint8_t {
     Restarted,
     OtherPort,
     OtherId,
+    SharedPacket,
     StepChanged,
     StepIrregular,
     RateChanged,
@@ -290,5 +291,7 @@ void clip(Fact& fact, std::size_t most);
 }
 /// "type 02", "types 02, 12 and 20".
 [[nodiscard]] Fact typesFact(const std::vector<std::uint8_t>& types);
+/// "2 datagrams in one packet"; seven or more are "7 or more".
+[[nodiscard]] Fact sharedFact(std::uint8_t datagrams);
 
 } // namespace posewire::words

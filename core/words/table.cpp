@@ -92,6 +92,7 @@ constexpr std::array kTable{
             .headline = {"{who} goes on, now ID {id}"},
             .sentence = {"The same performer goes on, now ID {id}."},
             .brief = {"now ID {id}"}},
+    Wording{.kind = K::SharedPacket, .headline = {"{n} datagrams in one packet"}},
     Wording{.kind = K::StepChanged,
             .headline = {"{who}: the step of the sample counter is {step} now; it was {before}"},
             .sentence = {"The step of the sample counter is {step} now; it was {before}."},

@@ -1181,6 +1181,21 @@ local function dissect_stream(tvb, pinfo, root)
   return infos
 end
 
+-- Relays from TCP, and recorders, join several datagrams in one packet.
+local function dissect_packet(tvb, root)
+  local offset, infos = 0, {}
+  while offset < tvb:len() do
+    local rest = tvb(offset):tvb()
+    local size = extent_of(rest)
+    if not size or size + header_size > rest:len() or not starts_datagram(rest(size):tvb()) then
+      size = rest:len()
+    end
+    infos[#infos + 1] = dissect_datagram(rest(0, size):tvb(), root)
+    offset = offset + size
+  end
+  return infos
+end
+
 local port_type_tcp = 2
 
 local function dissect(tvb, pinfo, root)
@@ -1188,7 +1203,7 @@ local function dissect(tvb, pinfo, root)
   if pinfo.port_type == port_type_tcp then
     infos = dissect_stream(tvb, pinfo, root)
   elseif starts_with_magic(tvb) then
-    infos = { dissect_datagram(tvb, root) }
+    infos = dissect_packet(tvb, root)
   else
     return 0
   end

@@ -121,6 +121,16 @@ class Dissector(unittest.TestCase):
     def test_agrees_on_every_golden(self):
         self.compare_udp(list(goldens().items()))
 
+    def test_reads_every_datagram_of_a_packet(self):
+        joined = pose_of(range(1, 24)) + pose_of(range(1, 6)) + pose_of(range(1, 24))
+        trees = self.dissect(as_udp([joined]))[0]
+        decoded = decode(self.folder / "capture.pcap")
+        self.assertEqual([23, 5, 23], [one["items"] for one in decoded])
+        self.assertEqual(["3 datagrams in one packet"], decoded[0]["notices"])
+        for wanted, tree in zip(decoded, trees, strict=True):
+            wanted["notices"] = []
+            self.assertIsNone(difference("joined", about_datagram(wanted), dissected.object_of(tree)))
+
     def test_agrees_on_truncations(self):
         self.compare_udp([(f"{name} cut to {size}", data[:size]) for name, data in goldens().items()
                           for size in range(4, len(data)) if size < 160 or size % 11 == 0 or size > len(data) - 20])

@@ -45,6 +45,11 @@ QStringList conditionsOf(std::optional<std::uint8_t> type, std::optional<std::ui
     return conditions;
 }
 
+QString anyOf(const QStringList& conditions) {
+    const QString any = conditions.join(QStringLiteral(" || "));
+    return conditions.size() < 2 ? any : QLatin1Char('(') + any + QLatin1Char(')');
+}
+
 /// Empty if none of the senders is known any more.
 QString anySource(const model::SessionView& view, const std::set<log::SenderId>& senders) {
     QStringList sources;
@@ -53,8 +58,7 @@ QString anySource(const model::SessionView& view, const std::set<log::SenderId>&
             sources += expression("source", sender->info.address);
         }
     }
-    const QString any = sources.join(QStringLiteral(" || "));
-    return sources.size() < 2 ? any : QLatin1Char('(') + any + QLatin1Char(')');
+    return anyOf(sources);
 }
 
 /// The filter that finds the packets of such an incident; null if no packet shows it.
@@ -288,15 +292,24 @@ QString statisticsFilterTitle(int column) {
 
 QString characterFilter(const model::SessionView& view, const model::CharacterKey& key) {
     std::set<log::SenderId> senders;
+    QStringList ids;
     for (const model::Character* one : view.roster().lineage(key)) {
         senders.insert(one->key.sender);
+        ids += expression("character", std::to_string(one->key.character));
     }
-    QStringList conditions = conditionsOf({}, key.character, nullptr);
+    ids.removeDuplicates();
+    QStringList conditions{anyOf(ids)};
     const QString sources = anySource(view, senders);
     if (view.roster().senders().size() > 1 && !sources.isEmpty()) {
         conditions += sources;
     }
     return conditions.join(QStringLiteral(" && "));
+}
+
+/// Its ID.
+std::optional<std::uint8_t> characterOf(const model::Incident& event) {
+    const auto character = event.character();
+    return character ? std::optional(character->character) : std::nullopt;
 }
 
 QString packetFilterOf(model::SessionView& view, const model::Incident& event) {
@@ -306,7 +319,7 @@ QString packetFilterOf(model::SessionView& view, const model::Incident& event) {
         return {};
     }
     QStringList conditions =
-        conditionsOf(event.type(), event.character(),
+        conditionsOf(event.type(), characterOf(event),
                      view.roster().senders().size() > 1 ? view.roster().find(event.sender) : nullptr);
     if (condition != nullptr) {
         const QString text = QLatin1String(condition);

@@ -317,6 +317,10 @@ void FieldDocument::findProblems(const log::Packet& packet) {
     if (tree.fault) {
         addFault();
     }
+    if (packet.flags.shared != 0) {
+        addProblem(Health::Warning, said(words::sharedFact(packet.flags.shared), words::Form::Sentence),
+                   kNone, whole);
+    }
     for (const wire::Notice& notice : tree.notices) {
         addNotice(notice);
     }

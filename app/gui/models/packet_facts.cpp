@@ -79,6 +79,9 @@ QString findingsOf(model::SessionView& view, const log::Packet& packet, const mo
     if (digest.isTruncated) {
         texts += tr("cut off when it was received");
     }
+    if (packet.flags.shared != 0) {
+        texts += said(words::sharedFact(packet.flags.shared), words::Form::Sentence);
+    }
     if (digest.hasNotices) {
         texts += decodedFindings(packet);
     }

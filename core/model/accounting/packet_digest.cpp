@@ -12,7 +12,7 @@ PacketDigest digestOf(const log::Packet& packet, const wire::Datagram* datagram)
     if (datagram != nullptr) {
         digest.type = datagram->header.type();
         digest.character = datagram->header.character;
-        digest.hasNotices = !datagram->notices.empty();
+        digest.hasNotices = !datagram->notices.empty() || packet.flags.shared != 0;
         return digest;
     }
     const auto header = wire::decodeHeader(packet.bytes);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/log/log_writer.h"
 
+#include "tests/core/log/datagram_fixture.h"
 #include "tests/core/log/log_fixture.h"
 
 #include <gtest/gtest.h>
@@ -58,6 +59,42 @@ TEST(LogWriter, EveryLaneTakesTheLargestLegalDatagramAndItsSpillAnyOther) {
         }
         log.writer().commit(0, 2168, {});
     }
+}
+
+TEST(LogWriter, KeepsTheDatagramsOfOnePacketApart) {
+    for (const wire::HeaderEra era : {wire::HeaderEra::Counted, wire::HeaderEra::Reserved}) {
+        for (const std::size_t count : {1U, 2U, 40U}) {
+            SCOPED_TRACE(count);
+            ByteVector joined;
+            for (std::uint32_t sample = 1; sample <= count; ++sample) {
+                const ByteVector one = poseDatagram(sample, 23, era);
+                joined.insert(joined.end(), one.begin(), one.end());
+            }
+            PacketLog log(kSmallLog);
+            writeInto(log.writer().lanes()[0], joined);
+            log.writer().commit(0, joined.size(), {.kernelDropsBefore = 3});
+            log.writer().append(joined, {});
+            log.writer().publish();
+            LogReader reader(log);
+            ASSERT_EQ(reader.end(), 2 * count);
+            for (std::size_t number = 0; number < 2 * count; ++number) {
+                const auto packet = reader.packet(number);
+                EXPECT_TRUE(equal(packet->bytes,
+                                  poseDatagram(static_cast<std::uint32_t>(number % count) + 1, 23, era)));
+                EXPECT_EQ(packet->flags.shared, count == 1 ? 0U : std::min<std::size_t>(count, 7));
+                EXPECT_EQ(packet->kernelDropsBefore, number == 0 ? 3U : 0U);
+            }
+        }
+    }
+}
+
+TEST(LogWriter, KeepsAPacketWholeIfNoDatagramFollowsInIt) {
+    PacketLog log(kSmallLog);
+    ByteVector trailing = poseDatagram(1);
+    trailing.insert(trailing.end(), 30, std::byte{'M'});
+    log.writer().append(trailing, {});
+    log.writer().publish();
+    EXPECT_EQ(LogReader(log).end(), 1U);
 }
 
 TEST(LogWriter, LanesNeverOverlap) {

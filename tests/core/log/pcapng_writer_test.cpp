@@ -76,6 +76,8 @@ std::vector<Recorded> everyKind() {
         with({.stampedByKernel = true}, 0xffffffff),
         with({.truncated = true, .stampedByKernel = true}),
         with({.stampedByKernel = true, .afterClosed = true}),
+        with({.stampedByKernel = true, .shared = 2}),
+        with({.truncated = true, .shared = 7}),
         with({}),
         with({.truncated = true, .skipped = true}),
         commented({"look at this — é"}),
