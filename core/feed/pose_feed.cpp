@@ -63,6 +63,9 @@ public:
             return;
         }
         if (wire::decodeInto(packet.bytes, m_datagram)) {
+            if (m_character.parts[part].isUnframed[place]) {
+                m_datagram.header.markLast();
+            }
             m_order.add(place, m_datagram, packet);
         }
     }
@@ -189,6 +192,10 @@ PoseCharacter::Part partOf(const model::SessionView& session, const model::Chara
         std::ranges::transform(model::kPoseTypes, part.units.begin(),
                                [sender](std::uint8_t type) { return sender->positionUnit(type); });
     }
+    std::ranges::transform(model::kPoseTypes, part.isUnframed.begin(), [&](std::uint8_t type) {
+        const model::Stream* stream = session.roster().find(log::StreamKey{key.sender, key.character, type});
+        return stream != nullptr && stream->accounting.isUnframed();
+    });
     return part;
 }
 

@@ -31,6 +31,7 @@ struct PoseCharacter {
     struct Part {
         model::CharacterKey key;
         std::array<model::LengthUnit, model::kPoseTypes.size()> units{}; ///< of positions
+        std::array<bool, model::kPoseTypes.size()> isUnframed{};         ///< see StreamAccounting
     };
 
     model::CharacterKey key;

@@ -32,7 +32,9 @@ struct Header {
 
     /// Place of this datagram among those of its sample, from 0 (§2.4.1.3).
     [[nodiscard]] std::uint8_t datagramIndex() const { return datagramCounter & 0x7f; }
-    [[nodiscard]] bool isLast() const { return (datagramCounter & 0x80) != 0; }
+    [[nodiscard]] bool isLast() const { return (datagramCounter & kLast) != 0; }
+    void markLast() { datagramCounter |= kLast; }
+    static constexpr std::uint8_t kLast = 0x80;
 
     /// Items that the counts of newer senders add up to; 0 for older senders.
     [[nodiscard]] unsigned countedSegments() const { return bodySegments + props + fingerSegments; }

@@ -29,6 +29,9 @@ public:
     void begin(log::Stamp stamp, CountHistory* history, bool isRestart);
 
     /// See SampleSequence.
+    void completeAll(CountHistory* history, const std::function<void(std::uint32_t)>& f) {
+        m_present.completeAll(history, f);
+    }
     void conclude(CountHistory* history) { m_present.conclude(history); }
 
     [[nodiscard]] const SampleSequence& present() const { return m_present; }

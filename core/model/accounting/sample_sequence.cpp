@@ -402,6 +402,20 @@ void SampleSequence::setMost(std::size_t samples, CountHistory* history) {
     m_settled -= std::min(m_settled, m_window.setMost(samples));
 }
 
+void SampleSequence::completeAll(CountHistory* history, const std::function<void(std::uint32_t)>& f) {
+    for (std::size_t index = 0; index < m_window.size(); ++index) {
+        if (m_window[index].isComplete || !m_window.contains(index, 0)) {
+            continue;
+        }
+        m_window.complete(index);
+        Run& run = runFor(position(m_window[index].sample));
+        ++run.samples;
+        --run.incomplete;
+        history->add(dueStamp(index), {.samples = 1, .incomplete = static_cast<std::uint32_t>(-1)});
+        f(m_window[index].sample);
+    }
+}
+
 void SampleSequence::conclude(CountHistory* history) {
     const std::uint32_t step = this->step();
     if (step == 0) {

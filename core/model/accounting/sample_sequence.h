@@ -11,6 +11,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 
 namespace posewire::model {
 
@@ -44,6 +45,10 @@ public:
     /// Counts a datagram. Changes are added to `history` at the time when the samples were due, unless it is
     /// null.
     Placement place(const Datagram& datagram, CountHistory* history);
+
+    /// Every sample of which the first datagram came has no other: calls f(sample) for those that seemed
+    /// incomplete.
+    void completeAll(CountHistory* history, const std::function<void(std::uint32_t)>& f);
 
     /// Adds samples, incomplete and lost ones.
     void addTo(StreamCounts& counts) const;

@@ -84,6 +84,12 @@ SampleWindow::Mark SampleWindow::mark(std::size_t index, std::uint8_t datagram, 
     return Mark::Part;
 }
 
+void SampleWindow::complete(std::size_t index) {
+    Entry& entry = at(index);
+    entry.last = 0;
+    entry.isComplete = true;
+}
+
 bool SampleWindow::contains(std::size_t index, std::uint8_t datagram) const {
     const Entry& entry = (*this)[index];
     if (entry.parts == kWhole || entry.parts == kUnmarked) {

@@ -54,6 +54,8 @@ public:
     enum class Mark : std::uint8_t { Duplicate, Part, Completing };
     /// Notes a datagram of the sample at an index.
     Mark mark(std::size_t index, std::uint8_t datagram, bool isLast);
+    /// The sample at an index, of which the first datagram came, has no other.
+    void complete(std::size_t index);
     /// True if a datagram of the sample at an index has arrived.
     [[nodiscard]] bool contains(std::size_t index, std::uint8_t datagram) const;
 

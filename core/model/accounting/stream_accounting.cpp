@@ -88,10 +88,12 @@ std::span<const Verdict> StreamAccounting::add(const log::Packet& packet, const 
     CountHistory::Counters change{.bytes = packet.bytes.size(), .datagrams = 1};
     if (m_countsSamples) {
         m_history.add(packet.stamp, change);
-        takeSample({{packet.stamp, header.sampleCounter, header.datagramIndex(), header.isLast()},
-                    packet.number,
-                    header.timeCode,
-                    false});
+        noteFraming(packet, header);
+        takeSample(
+            {{packet.stamp, header.sampleCounter, header.datagramIndex(), header.isLast() || isUnframed()},
+             packet.number,
+             header.timeCode,
+             false});
         return m_verdicts;
     }
     const std::uint64_t incomplete = m_rounds.incomplete();
@@ -113,6 +115,29 @@ std::span<const Verdict> StreamAccounting::add(const log::Packet& packet, const 
                           .isAfterPartial = isBegin && isPartial});
     m_messagePacket = isBegin ? packet.number : m_messagePacket;
     return m_verdicts;
+}
+
+/// Senders exist that never mark the last datagram of a sample: where no second one ever comes either, the
+/// first is all there is.
+void StreamAccounting::noteFraming(const log::Packet& packet, const wire::Header& header) {
+    constexpr std::uint32_t kEnough = 4;
+    if (m_framing == Framing::Given) {
+        return;
+    }
+    if (header.isLast() || header.datagramIndex() != 0) {
+        m_framing = Framing::Given;
+        return;
+    }
+    const bool isOther = m_unframed == 0 || header.sampleCounter != m_unframedSample;
+    m_unframed += isOther ? 1 : 0;
+    m_unframedSample = header.sampleCounter;
+    if (m_framing == Framing::Unknown && m_unframed >= kEnough) {
+        m_framing = Framing::Missing;
+        m_ledger.completeAll(&m_history, [&](std::uint32_t sample) {
+            m_verdicts.push_back(
+                {.packet = packet.number, .stamp = packet.stamp, .sample = sample, .isCompleting = true});
+        });
+    }
 }
 
 void StreamAccounting::beginRun(log::Stamp stamp) {

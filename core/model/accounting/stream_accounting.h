@@ -160,6 +160,8 @@ public:
     }
     [[nodiscard]] std::uint64_t datagrams() const { return m_datagrams; }
     [[nodiscard]] std::uint32_t step() const { return m_ledger.present().step(); }
+    /// Its samples have one datagram each, which is not marked as the last.
+    [[nodiscard]] bool isUnframed() const { return m_framing == Framing::Missing; }
     [[nodiscard]] bool isInDoubt() const { return !m_probation.empty(); }
     /// The first packet that waits for what comes after it; UINT64_MAX for none.
     [[nodiscard]] std::uint64_t firstInDoubt() const {
@@ -171,11 +173,16 @@ public:
 private:
     static constexpr std::uint64_t kUncertain = 128; ///< datagrams of a run
 
+    enum class Framing : std::uint8_t { Unknown, Given, Missing };
+    void noteFraming(const log::Packet& packet, const wire::Header& header);
     void takeSample(const Probation::Waiting& datagram);
     void endDoubt(bool isEnd);
     void settle(const Probation::Waiting& datagram, Probation::Outcome outcome, bool isMoved);
 
     bool m_countsSamples;
+    Framing m_framing = Framing::Unknown;
+    std::uint32_t m_unframed = 0;       ///< samples in a row without a last datagram, or a second one
+    std::uint32_t m_unframedSample = 0; ///< the newest of them
     AccountingDepth m_depth;
     std::uint64_t m_datagrams = 0;
     std::uint64_t m_bytes = 0;

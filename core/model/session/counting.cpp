@@ -71,7 +71,11 @@ void Counting::takeFaulty(const Observed& seen) {
 void Counting::takeDatagram(Observed& seen) {
     const log::Packet& packet = seen.packet;
     Stream& stream = *seen.stream;
-    m_index.add(packet, *seen.header);
+    wire::Header header = *seen.header;
+    if (stream.accounting.isUnframed()) {
+        header.markLast();
+    }
+    m_index.add(packet, header);
     stream.statistics.add(packet.stamp);
     if (stream.hasEnded && packet.stamp - stream.accounting.lastStamp() >= kUnsent) {
         stream.accounting.beginRun(packet.stamp);
