@@ -31,6 +31,7 @@ struct PoseCharacter {
     struct Part {
         model::CharacterKey key;
         std::array<model::LengthUnit, model::kPoseTypes.size()> units{}; ///< of positions
+        model::UpAxis up = model::UpAxis::Z;
     };
 
     model::CharacterKey key;
