@@ -36,4 +36,9 @@ ExitStatus readingStatus(const tl::expected<void, log::FileError>& result, const
     return status;
 }
 
+DeclaredOption addUp(usage::Arguments arguments, std::string& up) {
+    return arguments.choice("--up auto|y|z", up,
+                            "axis that is up in types 02, 21 and 22, instead of what poses look like");
+}
+
 } // namespace posewire::cli

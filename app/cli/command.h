@@ -50,6 +50,9 @@ struct Command {
     std::function<ExitStatus(Console&)> run;
 };
 
+/// `--up`: declared about all senders.
+DeclaredOption addUp(usage::Arguments arguments, std::string& up);
+
 Command addDecodeCommand(CommandLine& program);
 Command addEncodeCommand(CommandLine& program);
 Command addExportCommand(CommandLine& program);

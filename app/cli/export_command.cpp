@@ -72,6 +72,8 @@ public:
         }
     }
 
+    void declare(const model::SenderOverride& usual) { m_session.setUsual(usual); }
+
     /// Reads all of it; `progress` gets from 0 to 1 how far it is, where the file has a size. Where it is cut
     /// off, what is before that was read.
     tl::expected<void, log::FileError> read(log::ByteSource& source,
@@ -162,6 +164,7 @@ struct ExportOptions {
     std::optional<double> fromSeconds;
     std::optional<double> untilSeconds;
     std::vector<std::string> characters; ///< none: all
+    std::string up;                      ///< "y", "z"; others: as detected
     bool replaces = false;
 };
 
@@ -392,6 +395,7 @@ ExitStatus exportRecording(const ExportOptions& options, const Console& console)
     }
     ProgressLine line("posewire-cli export");
     RecordedSession recorded(options.input);
+    recorded.declare({.up = model::upNamed(options.up)});
     WatchedInput input(**file, recorded.contents(), [&](const std::string& text) {
         line.clear();
         console.complain(text);
@@ -429,6 +433,7 @@ Command addExportCommand(CommandLine& program) {
         .seconds();
     arguments.add("--characters LIST", options->characters,
                   "names or IDs, with commas between them (default: all); may be given several times");
+    addUp(arguments, options->up);
     arguments.force(options->replaces);
     return {"export", [options](Console& console) {
                 if (options->fromSeconds && options->untilSeconds &&

@@ -46,6 +46,7 @@ struct MonitorOptions {
     std::vector<std::string> tcpListen;
     std::vector<std::string> tcp;
     std::vector<std::string> allowed; ///< hosts and nets to listen to; none: all
+    std::string up;                   ///< "y", "z"; others: as detected
     double durationSeconds = 0;       ///< 0: until interrupted
     double intervalSeconds = 1;
     std::string record; ///< empty: not; "-" for standard output

@@ -265,6 +265,7 @@ Command addMonitorCommand(CommandLine& program) {
     arguments.add("--report FILE", options->report,
                   "write a report there as HTML: what was received, what not, and whose fault it was");
     arguments.force(options->replaces);
+    addUp(arguments, options->up);
     arguments.verbose(options->isVerbose,
                       "where it listens and each new sender; the JSON then has what is kept in memory, too");
     addLimits(arguments, options->limits);
@@ -284,6 +285,7 @@ Command addReportCommand(CommandLine& program) {
     arguments.add("FILE", options->file, "pcap, pcapng, or datagrams back to back; - for standard input")
         .required();
     arguments.add("-o,--output FILE", options->report, "the HTML file; - for standard output").required();
+    addUp(arguments, options->up);
     arguments.force(options->replaces);
     arguments.add("--from SECONDS", options->fromSeconds, "begin this many seconds after the first datagram")
         .seconds();

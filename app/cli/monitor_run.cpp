@@ -132,6 +132,7 @@ MonitorRun::MonitorRun(const MonitorOptions& options, Console& console)
       m_lines(log::durationOf(options.intervalSeconds)),
       m_nextShow(std::chrono::steady_clock::now()) {
     m_session.setThresholds(thresholdsOf(options.limits));
+    m_session.setUsual({.up = model::upNamed(options.up)});
     if (!options.asJson && !options.isQuiet) {
         m_table.emplace(system::kStandardOutput, m_isTerminal);
     }

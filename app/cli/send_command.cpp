@@ -221,6 +221,7 @@ void addPerformer(Arguments arguments, SendOptions& options) {
         .showDefault();
     arguments.add("--revision E|J|K|N", options.revision, "of the specification that they follow")
         .showDefault();
+    arguments.choice("--up y|z", options.up, "axis that is up in types 02, 21 and 22; z by default");
     arguments.add("--seed", settings.seed, "the same seed gives the same bytes and faults")
         .wholeUpTo(UINT64_MAX)
         .showDefault();

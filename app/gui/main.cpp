@@ -203,6 +203,7 @@ int main(int argc, char** argv) {
 
     const log::SystemClock clock;
     SessionDriver driver(clock, QStandardPaths::writableLocation(QStandardPaths::CacheLocation));
+    driver.commands().setUsual({.up = model::upNamed(options->up)});
     MainWindow window(driver, file, settings);
     if (options->size.isValid()) {
         window.resize(options->size);

@@ -243,6 +243,20 @@ DeclaredOption Arguments::read(const std::string& name, Reading reading, const s
     return DeclaredOption(form.empty() ? *option : *option->type_name(form));
 }
 
+DeclaredOption Arguments::choice(const std::string& name, std::string& value, const std::string& text) {
+    const auto [names, form] = partsOf(name);
+    return read(
+        name,
+        [&value, names = names, form = form](const std::string& typed) {
+            value = typed;
+            Option option;
+            option.form = form;
+            const bool isOne = std::ranges::count(alternativesOf(option), typed) != 0;
+            return isOne ? std::string() : names + ": '" + typed + "' is none of " + form;
+        },
+        text);
+}
+
 DeclaredOption Arguments::flag(const std::string& name, bool& isOn, const std::string& text) {
     return DeclaredOption(*m_parser->add_flag(name, isOn, text));
 }

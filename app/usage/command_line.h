@@ -58,6 +58,8 @@ public:
     DeclaredOption add(const std::string& name, T& value, const std::string& text);
     /// The same for other types.
     DeclaredOption read(const std::string& name, Reading reading, const std::string& text);
+    /// One of the alternatives in `name`, as "--up auto|y|z".
+    DeclaredOption choice(const std::string& name, std::string& value, const std::string& text);
     /// On when it is given.
     DeclaredOption flag(const std::string& name, bool& isOn, const std::string& text);
     /// Accepted and otherwise without effect: it names the default.

@@ -66,6 +66,9 @@ public:
             if (m_character.parts[part].isUnframed[place]) {
                 m_datagram.header.markLast();
             }
+            if (m_character.parts[part].up == model::UpAxis::Y) {
+                model::turnBodyTo(model::UpAxis::Z, m_datagram.body);
+            }
             m_order.add(place, m_datagram, packet);
         }
     }
@@ -187,7 +190,7 @@ std::vector<PoseBody> bodiesOf(const model::SessionView& session, const PoseChar
 }
 
 PoseCharacter::Part partOf(const model::SessionView& session, const model::CharacterKey& key) {
-    PoseCharacter::Part part{key};
+    PoseCharacter::Part part{.key = key, .up = session.roster().up(key.sender)};
     if (const model::Sender* sender = session.roster().find(key.sender)) {
         std::ranges::transform(model::kPoseTypes, part.units.begin(),
                                [sender](std::uint8_t type) { return sender->positionUnit(type); });

@@ -32,6 +32,7 @@ struct PoseCharacter {
         model::CharacterKey key;
         std::array<model::LengthUnit, model::kPoseTypes.size()> units{}; ///< of positions
         std::array<bool, model::kPoseTypes.size()> isUnframed{};         ///< see StreamAccounting
+        model::UpAxis up = model::UpAxis::Z;
     };
 
     model::CharacterKey key;

@@ -167,6 +167,11 @@ void Performer::addFrameTypes(Character& character, std::uint64_t index,
             if (sends(T::kType)) {
                 T message;
                 perform(subject, message);
+                if constexpr (requires { turnTo(model::UpAxis::Y, message); }) {
+                    if (m_settings.isYUp) {
+                        turnTo(model::UpAxis::Y, message);
+                    }
+                }
                 add(character, std::move(message), into);
                 into.back().header.sampleCounter = m_settings.firstSample + static_cast<std::uint32_t>(index);
                 into.back().header.timeCode = static_cast<std::uint32_t>(subject.timeOfDayMs);

@@ -26,6 +26,7 @@ struct PerformerSettings {
     Revision revision = Revision::N;
     std::string motion = "walk";                 ///< one of motionNames()
     int props = 0;                               ///< 0 to 4 for each character
+    bool isYUp = false;                          ///< types 02, 21 and 22
     bool fingers = false;                        ///< both hands of each character; revision N only
     std::uint32_t firstSample = 1;               ///< sample counter of frame 0
     std::uint32_t startTimeOfDayMs = 36'000'000; ///< time code of frame 0: 10:00:00

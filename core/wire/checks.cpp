@@ -5,11 +5,14 @@
 #include "core/wire/type_table.h"
 #include "core/wire/write.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace posewire::wire {
 namespace {
 
+constexpr std::uint32_t kBodyItems = 23;
+constexpr std::uint32_t kFingerItems = 40;
 constexpr float kNormTolerance = 0.02F; ///< of the squared length: 0.01 of the length
 
 struct Tally {
@@ -129,11 +132,19 @@ void checkItems(ItemChecks& checks, const std::vector<Item>& items, std::size_t 
 void checkTags(Datagram& datagram, std::string_view text, std::size_t start) {
     const TagList list = parseTags(text);
     Tally unknown;
+    Tally colours;
     for (const Tag& tag : list.tags) {
+        const bool isHexadecimal =
+            tag.value.size() == 6 &&
+            tag.value.find_first_not_of("0123456789abcdefABCDEF") == std::string_view::npos;
+        if (tag.name == "color" && !isHexadecimal) {
+            colours.add(1, start + static_cast<std::size_t>(tag.value.data() - text.data()));
+        }
         const auto place = static_cast<std::size_t>(tag.name.data() - text.data());
         unknown.add(isKnownTag(tag.name) ? 0 : 1, start + place);
     }
     report(datagram, NoticeCode::UnknownTag, unknown);
+    report(datagram, NoticeCode::BadColour, colours);
     report(datagram, NoticeCode::LineWithoutTag,
            {list.strayLines, static_cast<std::uint32_t>(start + list.firstStray)});
 }
@@ -216,10 +227,40 @@ void checkHeader(Datagram& datagram) {
     }
 }
 
+/// 100 or 256 for each segment, and the point; anything else is a tag.
+bool mayBeMarker(std::uint32_t id) {
+    const auto isPoint = [](std::uint32_t segment, std::uint32_t point) {
+        return segment - 1 < kMaxSegments && point - 1 < 14;
+    };
+    return isPoint(id >> 8, id & 0xff) || isPoint(id / 100, id % 100);
+}
+
+/// More than the specification allows is read all the same.
+void checkLimits(Datagram& datagram) {
+    constexpr std::uint32_t kMostProps = 4;
+    constexpr std::uint32_t kMostMarkers = 46;
+    const Header& header = datagram.header;
+    const auto limit = [&](NoticeCode code, std::uint32_t offset, std::uint32_t count, std::uint32_t most) {
+        report(datagram, code, {count > most ? count : 0, offset});
+    };
+    limit(NoticeCode::TooManyProps, 18, header.props, kMostProps);
+    if (const auto* unity = std::get_if<PoseUnity>(&datagram.body)) {
+        limit(NoticeCode::TooManyItems, 11, static_cast<std::uint32_t>(unity->segments.size()), kBodyItems);
+    } else if (const auto* points = std::get_if<PointPositions>(&datagram.body)) {
+        const auto markers = std::ranges::count_if(points->points, mayBeMarker, &Point::id);
+        limit(NoticeCode::TooManyPoints, 11, static_cast<std::uint32_t>(markers), kMostMarkers);
+    } else if (countsSegments(header.type()) && header.countedSegments() == 0 &&
+               header.items < kBodyItems + kFingerItems) {
+        const std::uint32_t props = std::max<std::uint32_t>(header.items, kBodyItems) - kBodyItems;
+        limit(NoticeCode::TooManyProps, 11, props, kMostProps);
+    }
+}
+
 } // namespace
 
 void checkValues(Bytes bytes, Datagram& datagram) {
     checkHeader(datagram);
+    checkLimits(datagram);
     const std::size_t announced = kHeaderSize + datagram.header.payloadSize;
     if (datagram.header.payloadSize != 0 && bytes.size() > announced) {
         datagram.notices.push_back({NoticeCode::SizeDisagrees, static_cast<std::uint32_t>(announced),

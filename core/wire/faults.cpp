@@ -29,6 +29,8 @@ constexpr std::array<ErrorRow, kErrorCodeCount> kErrors{{
      "the header is cut off (byte {offset}: needs {need} bytes, has {have})"},
     {ErrorCode::BadMagic, "badMagic", "does not begin with \"MXTP\" (byte {offset})"},
     {ErrorCode::BadType, "badType", "\"MXTP\" is not followed by two digits (byte {offset})"},
+    {ErrorCode::TypeAsNumber, "typeAsNumber",
+     "type sent as a number: 0x0{need} 0x0{have} for \"{need}{have}\" (byte {offset})"},
     {ErrorCode::PayloadTruncated, "payloadTruncated",
      "shorter than its header announces (byte {offset}: needs {need} bytes, has {have})"},
     {ErrorCode::ItemsTruncated, "itemsTruncated",
@@ -82,6 +84,13 @@ constexpr std::array<NoticeRow, kNoticeCodeCount> kNotices{{
      "line that is not \"tag:value\" (byte {offset}, {count} line)"},
     {NoticeCode::LengthDisagrees, "lengthDisagrees", "length before the time code is not 12 (byte {offset})"},
     {NoticeCode::NotATimeCode, "notATimeCode", "time code is not HH:MM:SS.mmm (byte {offset})"},
+    {NoticeCode::BadColour, "badColour", "colour is not six hexadecimal digits (byte {offset}; § 2.6.3)"},
+    {NoticeCode::TooManyProps, "tooManyProps",
+     "{count} props, at most 4 are specified (byte {offset}; § 2.5.2)"},
+    {NoticeCode::TooManyItems, "tooManyItems",
+     "{count} segments, exactly 23 are specified for type 05 (byte {offset}; § 2.5.5)"},
+    {NoticeCode::TooManyPoints, "tooManyPoints",
+     "{count} points, sets of markers have up to 46 (byte {offset}; § 2.4.1.1)"},
 }};
 static_assert(followTheEnum(kNotices));
 
@@ -111,6 +120,8 @@ std::string errorText(const WireError& error, FaultLanguage language) {
     fill(text, "{need}",
          error.code == ErrorCode::BadLength ? std::int64_t{static_cast<std::int32_t>(error.need)}
                                             : std::int64_t{error.need});
+    fill(text, "{have}", error.have);
+    fill(text, "{need}", error.need); // a type is there twice
     fill(text, "{have}", error.have);
     return text;
 }

@@ -16,6 +16,7 @@ enum class ErrorCode : std::uint8_t {
     HeaderTruncated,  ///< fewer than 24 bytes
     BadMagic,         ///< does not begin with "MXTP"
     BadType,          ///< "MXTP" is not followed by two digits
+    TypeAsNumber,     ///< two bytes below 10 in place of two digits
     PayloadTruncated, ///< the header announces more bytes than there are
     ItemsTruncated,   ///< the announced items do not fit in the bytes that are there
     FieldTruncated,   ///< a field runs past the end
@@ -26,7 +27,7 @@ enum class ErrorCode : std::uint8_t {
     TooLong,          ///< longer than any UDP datagram, or a value that its field cannot hold (when encoding)
 };
 
-inline constexpr std::size_t kErrorCodeCount = 11;
+inline constexpr std::size_t kErrorCodeCount = 12;
 
 /// A fault in one datagram. Offsets and sizes are bytes from the datagram's first byte.
 struct WireError {
@@ -68,9 +69,13 @@ enum class NoticeCode : std::uint8_t {
     LineWithoutTag,    ///< type 12: a line without ':' or without an end
     LengthDisagrees,   ///< type 25: the length before the string is not 12
     NotATimeCode,      ///< type 25: not HH:MM:SS.mmm
+    BadColour,         ///< type 12: a colour that is not six hexadecimal digits
+    TooManyProps,      ///< more than four
+    TooManyItems,      ///< type 05: more than 23 segments
+    TooManyPoints,     ///< type 03: more than all sets of markers have
 };
 
-inline constexpr std::size_t kNoticeCodeCount = 13;
+inline constexpr std::size_t kNoticeCodeCount = 17;
 
 /// One oddity; several of a kind in one datagram are one notice with a count, so that notices stay few.
 struct Notice {

@@ -16,11 +16,16 @@ bool isDigit(std::byte character) {
     return character >= std::byte{'0'} && character <= std::byte{'9'};
 }
 
-/// "MXTP" and two digits, or what there is of it.
+/// A digit of a type, or the number that some send in its place.
+bool isOfType(std::byte character) {
+    return isDigit(character) || character < std::byte{10};
+}
+
+/// "MXTP" and a type, or what there is of it.
 bool mayStartDatagram(Bytes bytes) {
     for (std::size_t i = 0; i < std::min(bytes.size(), kMark); ++i) {
         const bool isMagic = i < kMagic.size();
-        if (isMagic ? static_cast<char>(bytes[i]) != kMagic[i] : !isDigit(bytes[i])) {
+        if (isMagic ? static_cast<char>(bytes[i]) != kMagic[i] : !isOfType(bytes[i])) {
             return false;
         }
     }
@@ -106,7 +111,7 @@ bool startsWithMagic(Bytes bytes) {
 }
 
 bool startsDatagram(Bytes bytes) {
-    return bytes.size() >= kMark && startsWithMagic(bytes) && isDigit(bytes[4]) && isDigit(bytes[5]);
+    return bytes.size() >= kMark && startsWithMagic(bytes) && isOfType(bytes[4]) && isOfType(bytes[5]);
 }
 
 Result<Header> decodeHeader(Bytes bytes) {
@@ -118,6 +123,12 @@ Result<Header> decodeHeader(Bytes bytes) {
         if (bytes.size() >= kMark) {
             return tl::unexpected(WireError{ErrorCode::BadType, 0, 4, 2, 2});
         }
+    }
+    if (bytes.size() >= kMark && !(isDigit(bytes[4]) && isDigit(bytes[5]))) {
+        const auto digit = [&](std::size_t place) {
+            return std::to_integer<std::uint32_t>(bytes[place]) & 15U;
+        };
+        return tl::unexpected(WireError{ErrorCode::TypeAsNumber, 0, 4, digit(4), digit(5)});
     }
     if (bytes.size() < kHeaderSize) {
         const auto have = static_cast<std::uint32_t>(bytes.size());
@@ -136,7 +147,8 @@ Extent datagramExtent(Bytes bytes, bool isAtEnd) {
     }
     const auto header = decodeHeader(bytes);
     if (!header) {
-        return isAtEnd ? kUnknown : kNeedMore;
+        const bool isWhole = header.error().code == ErrorCode::TypeAsNumber && bytes.size() >= kHeaderSize;
+        return isAtEnd || isWhole ? kUnknown : kNeedMore;
     }
     if (header->payloadSize != 0) {
         const Bytes payload = bytes.subspan(kHeaderSize);

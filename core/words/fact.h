@@ -144,6 +144,9 @@ enum class Kind : std::uint8_t {
     PelvisAt,
     ReachOf,
     UnitBy,
+    ZUp,
+    YUp,
+    UprightAlong,
     // Null poses, errors.
     NameTwice,
     MoreNamesTwice,

@@ -303,6 +303,9 @@ constexpr std::array kTable{
     Wording{.kind = K::PelvisAt, .headline = {"pelvis at {value}"}},
     Wording{.kind = K::ReachOf, .headline = {"reach of {value}"}},
     Wording{.kind = K::UnitBy, .headline = {"{looks} ({evidence})"}},
+    Wording{.kind = K::ZUp, .headline = {"Z-up"}},
+    Wording{.kind = K::YUp, .headline = {"Y-up"}},
+    Wording{.kind = K::UprightAlong, .headline = {"body upright along {axis}"}},
 };
 
 static_assert(std::ranges::is_sorted(kTable, std::ranges::less(), &Wording::kind));

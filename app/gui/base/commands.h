@@ -74,6 +74,13 @@ public:
     void resetForTake();
     void setThresholds(const model::Thresholds& thresholds);
 
+    /// Declares facts about all senders that come from now on, live or in files that are opened.
+    void setUsual(const model::SenderOverride& usual) {
+        m_usual = usual;
+        m_live.setUsual(usual);
+    }
+    [[nodiscard]] const model::SenderOverride& usual() const { return m_usual; }
+
 signals:
     void changed();
     /// Another session is shown.
@@ -94,6 +101,7 @@ private:
     }
 
     model::Session& m_live;
+    model::SenderOverride m_usual;
     model::Session* m_shown;
 };
 

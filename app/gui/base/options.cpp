@@ -151,6 +151,8 @@ struct Declared {
                  "stop this many seconds after the beginning of FILE instead of at its end")
             .within(0.0, kSecondsOfDay)
             .needs(file);
+        arguments.choice("--up auto|y|z", options.up,
+                         "axis that is up in types 02, 21 and 22, instead of what poses look like");
         arguments.read("--compare FILE", into(options.comparedFile),
                        "compare what is shown with this recording");
     }

@@ -24,6 +24,7 @@ struct Options {
     std::vector<InputAddress> udpPorts;  ///< multicast groups are joined at each
     std::vector<InputAddress> tcpInputs; ///< listening first
     QStringList allowed;                 ///< hosts and nets to listen to; none: as kept in the settings
+    std::string up;                      ///< "y", "z"; others: as detected
     int demoCharacters = 0;              ///< 0 for no demo
     QString layout;                      ///< name or file; empty for the one in use when the program ended
     bool resetsLayout = false;

@@ -91,6 +91,7 @@ void Comparing::open(const QString& path) {
     qCInfo(filesLog).noquote() << "comparing with" << path;
     clear();
     m_file = std::make_unique<OpenedFile>(m_clock, path, m_cacheFolder);
+    m_file->session().setUsual(m_commands.usual());
     m_state.isOpen = true;
     m_state.name = m_file->name();
     emit changed();

@@ -18,6 +18,7 @@ void Files::open(const QString& path) {
     close();
     qCInfo(filesLog).noquote() << "opening" << path;
     m_file = std::make_unique<OpenedFile>(m_clock, path, m_cacheFolder);
+    m_file->session().setUsual(m_commands.usual());
     m_file->session().setThresholds(m_commands.live().verdicts().thresholds());
 }
 

@@ -105,12 +105,13 @@ QString cutByReceiverText(const FieldDocument& document) {
 
 } // namespace
 
-FieldDocument::FieldDocument(const log::Packet& packet, model::LengthUnit lengthUnit)
+FieldDocument::FieldDocument(const log::Packet& packet, model::LengthUnit lengthUnit, bool sentYUp)
     : bytes(packet.bytes.begin(), packet.bytes.end()),
       number(packet.number),
       stamp(packet.stamp),
       sender(packet.sender),
-      unit(lengthUnit) {
+      unit(lengthUnit),
+      isYUp(sentYUp) {
     if (packet.flags.skipped) {
         kind = model::PacketKind::Skipped;
         FieldNode& rest = tree.nodes.emplace_back();

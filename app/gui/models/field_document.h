@@ -37,8 +37,9 @@ inline std::size_t nodeIndex(std::int32_t node) {
 /// and what is wrong with it. Nodes are indices in tree.nodes.
 struct FieldDocument {
     FieldDocument() = default;
-    /// `lengthUnit` is that of positions in types 02, 21 and 24 of this sender.
-    FieldDocument(const log::Packet& packet, model::LengthUnit lengthUnit);
+    /// `lengthUnit` is that of positions in types 02, 21 and 24 of this sender; `sentYUp`: the type is Z-up
+    /// by default, and this sender sends it Y-up.
+    FieldDocument(const log::Packet& packet, model::LengthUnit lengthUnit, bool sentYUp = false);
 
     std::vector<std::byte> bytes;
     std::uint64_t number = 0;
@@ -48,6 +49,7 @@ struct FieldDocument {
     bool hasHeader = false;
     wire::Header header;
     model::LengthUnit unit = model::LengthUnit::Metre;
+    bool isYUp = false;
     wire::FieldTree tree;
     std::vector<FieldProblem> problems;
 

@@ -18,12 +18,12 @@ using wire::NodeKind;
 using wire::Unit;
 
 /// The wire's vector in the frame above the wire, without a change of unit.
-Eigen::Vector3d zUpOf(std::uint8_t type, const Eigen::Vector3d& sent) {
-    const wire::TypeInfo* info = wire::findType(type);
+Eigen::Vector3d zUpOf(const FieldDocument& document, const Eigen::Vector3d& sent) {
+    const wire::TypeInfo* info = wire::findType(document.type());
     const wire::Frame frame = info != nullptr ? info->frame : wire::Frame::None;
-    return frame == wire::Frame::YUp     ? model::zUpFromYUp(sent)
-           : frame == wire::Frame::Unity ? model::zUpFromUnity(sent)
-                                         : sent;
+    return document.isYUp || frame == wire::Frame::YUp ? model::zUpFromYUp(sent)
+           : frame == wire::Frame::Unity               ? model::zUpFromUnity(sent)
+                                                       : sent;
 }
 
 struct Scale {
@@ -82,7 +82,7 @@ QString vectorText(const FieldDocument& document, std::int32_t index) {
     const Scale scale = scaleOf(document, node);
     std::vector<double> values = components(document, index);
     if (values.size() == 3 && isLength(node.unit)) {
-        const Eigen::Vector3d zUp = zUpOf(document.type(), {values[0], values[1], values[2]});
+        const Eigen::Vector3d zUp = zUpOf(document, {values[0], values[1], values[2]});
         values.assign({zUp.x(), zUp.y(), zUp.z()});
     }
     QString text;
@@ -104,7 +104,7 @@ QString componentText(const FieldDocument& document, std::int32_t index) {
     }
     const auto siblings = document.children(node.parent);
     const auto place = std::find(siblings.begin(), siblings.end(), index) - siblings.begin();
-    const Eigen::Vector3d zUp = zUpOf(document.type(), Eigen::Vector3d::Unit(static_cast<int>(place)));
+    const Eigen::Vector3d zUp = zUpOf(document, Eigen::Vector3d::Unit(static_cast<int>(place)));
     Eigen::Index axis = 0;
     zUp.cwiseAbs().maxCoeff(&axis);
     if (axis == place && zUp[axis] > 0) {
@@ -179,7 +179,9 @@ QStringList documentLines(const FieldDocument& document) {
         tr("%1 · sample %2 · %3")
             .arg(size, grouped(header.sampleCounter), datagramCounterText(header.datagramCounter))};
     if (const wire::TypeInfo* type = wire::findType(document.type())) {
-        QStringList about{translatedText(wire::frameName(type->frame)), translatedText(type->remark)};
+        const QString frame =
+            document.isYUp ? tr("as sent: Y-up; shown: Z-up") : translatedText(wire::frameName(type->frame));
+        QStringList about{frame, translatedText(type->remark)};
         about.removeAll(QString());
         lines += about.join(QStringLiteral(" · "));
         lines += tr("Revisions %1 · § %2").arg(fromUtf8(type->revisions), fromUtf8(type->section));

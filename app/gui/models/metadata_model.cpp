@@ -149,6 +149,16 @@ PropertyValue units(const model::Sender& sender) {
         own, tr("Unit of positions in types 02, 05, 21 and 24, judged by the size of a body · the evidence"));
 }
 
+PropertyValue upAxis(const model::Sender& sender) {
+    const model::Detection& found = sender.detector.result();
+    const auto own = sender.overrides.up
+                         ? std::optional(said(model::upName(*sender.overrides.up), words::Form::Headline))
+                         : std::nullopt;
+    return concluded(found.upEvidence.isNothing() ? tr("Z-up · not known yet")
+                                                  : withEvidence(model::upName(found.up), found.upEvidence),
+                     own, tr("Axis that is up in types 02, 21 and 22 as sent · the evidence"));
+}
+
 PropertyValue address(const model::Sender& sender) {
     return {shown(sender.address())};
 }
@@ -192,7 +202,8 @@ std::vector<Property> characterFacts(model::SessionView& view, const std::option
                                            PropertyValue (*read)(model::SessionView&, const Key&)) {
         return Property{label, [&view, &key, read] { return key ? read(view, *key) : PropertyValue{}; }};
     };
-    return {ofSender(tr("Revision"), revision), ofSender(tr("Units"), units), ofSender(tr("Sender"), address),
+    return {ofSender(tr("Revision"), revision),    ofSender(tr("Units"), units),
+            ofSender(tr("Up axis"), upAxis),       ofSender(tr("Sender"), address),
             ofCharacter(tr("Segments"), segments), ofCharacter(tr("Null pose"), nullPose)};
 }
 

@@ -19,11 +19,23 @@ namespace {
 
 constexpr int kDetailLines = 4;
 
-model::LengthUnit unitOf(model::SessionView& view, const log::Packet& packet) {
+/// Taken apart as what is known of its sender says.
+std::shared_ptr<const FieldDocument> documentOf(model::SessionView& view, const log::Packet& packet) {
     const model::Sender* sender = view.roster().find(packet.sender);
     const model::PacketDigest* digest = view.accounts().digests().find(packet.number);
-    return sender == nullptr || digest == nullptr ? model::LengthUnit::Metre
-                                                  : sender->positionUnit(digest->type);
+    if (sender == nullptr || digest == nullptr) {
+        return std::make_shared<FieldDocument>(packet, model::LengthUnit::Metre);
+    }
+    return std::make_shared<FieldDocument>(packet, sender->positionUnit(digest->type),
+                                           sender->isYUp(digest->type));
+}
+
+/// What is known of the sender has not changed since.
+bool isAsRead(model::SessionView& view, const FieldDocument& document) {
+    const model::Sender* sender = view.roster().find(document.sender);
+    return sender == nullptr || !document.hasHeader ||
+           (document.unit == sender->positionUnit(document.type()) &&
+            document.isYUp == sender->isYUp(document.type()));
 }
 
 /// Plain text in a colour, as rich text.
@@ -135,7 +147,7 @@ void InspectorPanel::refresh() {
         return;
     }
     const bool isNew = !m_isShown || m_document->number != packet->number ||
-                       m_document->sender != packet->sender || m_document->unit != unitOf(m_view, *packet);
+                       m_document->sender != packet->sender || !isAsRead(m_view, *m_document);
     if (isNew) {
         inspect(*packet);
     }
@@ -163,7 +175,7 @@ void InspectorPanel::showParts() {
 }
 
 void InspectorPanel::inspect(const log::Packet& packet) {
-    m_document = std::make_shared<FieldDocument>(packet, unitOf(m_view, packet));
+    m_document = documentOf(m_view, packet);
     m_sequence = sequenceFindings(m_view, packet.number);
     m_isShown = true;
     showParts();
@@ -201,7 +213,7 @@ void InspectorPanel::showComparison() {
         number = m_reference;
     }
     if (const auto packet = number ? m_view.packet(*number) : std::nullopt) {
-        other = std::make_shared<FieldDocument>(*packet, unitOf(m_view, *packet));
+        other = documentOf(m_view, *packet);
     }
     const bool isSameType =
         other != nullptr && other->hasHeader && m_document->hasHeader && other->type() == m_document->type();

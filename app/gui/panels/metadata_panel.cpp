@@ -19,6 +19,7 @@ namespace {
 using model::LengthUnit;
 using model::Revision;
 using model::SenderOverride;
+using model::UpAxis;
 
 /// Checks what is declared and returns its text, a short one where nothing is.
 template <class Value>
@@ -60,8 +61,11 @@ constexpr ActionInfo entry(const char* id, const char* menu, const char* text) {
 
 constexpr auto kRevision = &SenderOverride::revision;
 constexpr auto kUnit = &SenderOverride::positionUnit;
+constexpr auto kUp = &SenderOverride::up;
 constexpr const char* kRevisions = QT_TRANSLATE_NOOP("Action", "&Input/&Revision of the sender");
 constexpr const char* kUnits = QT_TRANSLATE_NOOP("Action", "&Input/&Units of positions");
+
+constexpr const char* kUps = QT_TRANSLATE_NOOP("Action", "&Input/U&p axis of the sender");
 
 constexpr ActionInfo kMetadataActions[] = {
     entry<kRevision, kAutomatic>("revisionAutomatic", kRevisions, QT_TRANSLATE_NOOP("Action", "&Automatic")),
@@ -72,6 +76,9 @@ constexpr ActionInfo kMetadataActions[] = {
     entry<kUnit, LengthUnit::Metre>("unitsMetres", kUnits, QT_TRANSLATE_NOOP("Action", "&Metres")),
     entry<kUnit, LengthUnit::Centimetre>("unitsCentimetres", kUnits,
                                          QT_TRANSLATE_NOOP("Action", "&Centimetres")),
+    entry<kUp, kAutomatic>("upAutomatic", kUps, QT_TRANSLATE_NOOP("Action", "&Automatic")),
+    entry<kUp, UpAxis::Z>("upZ", kUps, QT_TRANSLATE_NOOP("Action", "&Z-up")),
+    entry<kUp, UpAxis::Y>("upY", kUps, QT_TRANSLATE_NOOP("Action", "&Y-up")),
 };
 
 } // namespace
@@ -91,7 +98,10 @@ DetectionBar::DetectionBar(model::SessionView& view, Commands& commands, QWidget
                                    &SenderOverride::positionUnit,
                                    {{tr("automatic"), std::nullopt},
                                     {tr("metres"), LengthUnit::Metre},
-                                    {tr("centimetres"), LengthUnit::Centimetre}})) {
+                                    {tr("centimetres"), LengthUnit::Centimetre}})),
+      m_up(addChoice<UpAxis>(
+          tr("Axis assumed to be up in types 02, 21 and 22"), &SenderOverride::up,
+          {{tr("automatic"), std::nullopt}, {tr("Z-up"), UpAxis::Z}, {tr("Y-up"), UpAxis::Y}})) {
     const int margin = CellDelegate::margin(fontMetrics());
     m_contradictions->setWordWrap(true);
     m_contradictions->setContentsMargins(margin, margin / 2, margin, 0);
@@ -99,6 +109,7 @@ DetectionBar::DetectionBar(model::SessionView& view, Commands& commands, QWidget
     auto* row = spacedRow({margin, margin, margin, margin}, margin);
     row->addWidget(m_revision.button);
     row->addWidget(m_unit.button);
+    row->addWidget(m_up.button);
     row->addStretch(1);
     auto* column = tightColumn(this);
     column->addWidget(new Line(this));
@@ -150,6 +161,7 @@ void DetectionBar::showSender(std::optional<log::SenderId> sender) {
     const QString unit = check(*m_unit.group, found->overrides.positionUnit);
     m_revision.button->setText(tr("Revision: %1 ▾").arg(revision));
     m_unit.button->setText(tr("Units: %1 ▾").arg(unit));
+    m_up.button->setText(tr("Up: %1 ▾").arg(check(*m_up.group, found->overrides.up)));
     showContradictions(*found);
 }
 

@@ -41,6 +41,7 @@ private:
     QLabel* m_contradictions;
     Choice m_revision;
     Choice m_unit;
+    Choice m_up;
 };
 
 /// Dock `metadata`: every tag of the shown character, and what was concluded about its sender.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/model/body/character_pose.h"
+#include "core/model/body/up_axis.h"
 #include "core/model/message.h"
 
 #include <array>
@@ -16,6 +17,14 @@ namespace posewire::model {
 inline constexpr std::array<std::uint8_t, 6> kPoseTypes{
     wire::PoseQuaternion::kType,   wire::PoseEuler::kType,         wire::PoseUnity::kType,
     wire::LinearKinematics::kType, wire::AngularKinematics::kType, wire::PointPositions::kType};
+
+/// Makes a message Z-up that was just decoded.
+inline void turnUpright(Message& message, UpAxis sent) {
+    message.isSentYUp = sent == UpAxis::Y;
+    if (message.isSentYUp) {
+        turnBodyTo(UpAxis::Z, message.datagram.body);
+    }
+}
 
 /// At most one message of each of kPoseTypes, in their order; null for none.
 using PoseMessages = std::array<const Message*, kPoseTypes.size()>;

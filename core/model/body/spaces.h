@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/model/body/units.h"
+#include "core/model/body/up_axis.h"
 #include "core/wire/messages.h"
 
 #include <Eigen/Geometry>

@@ -11,6 +11,8 @@ inline constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 inline constexpr double kGravity = 9.81; ///< m/s²
 
 enum class LengthUnit : std::uint8_t { Metre, Centimetre };
+/// Of a right-handed frame.
+enum class UpAxis : std::uint8_t { Z, Y };
 
 /// Metres per wire unit.
 constexpr double metresPer(LengthUnit unit) {

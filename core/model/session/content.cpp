@@ -49,7 +49,6 @@ void Content::take(const Observed& seen) {
     } else if (const auto* part = std::get_if<wire::NullPose>(&seen.datagram->body)) {
         takeNullPose(*part, seen);
     } else if (seen.header->datagramIndex() == 0) {
-        seen.sender->detector.addBody(seen.datagram->body);
         if (BodyMeasure& body = seen.character->measuredBody;
             !body.isSettled() && hasPoses(seen.header->type()) && seen.character->nullPoses == nullptr) {
             body.add(*seen.datagram, seen.sender->positionUnit(seen.header->type()));

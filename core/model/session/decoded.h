@@ -22,6 +22,7 @@ struct Messages::Decoded {
     struct PoseOrigin {
         std::array<std::uint64_t, kPoseTypes.size()> packets{}; ///< one past each; 0 for none
         std::array<LengthUnit, kPoseTypes.size()> units{};
+        std::array<bool, kPoseTypes.size()> areYUp{};
         std::uint64_t body = UINT64_MAX;
         bool isLifted = false;
         friend bool operator==(const PoseOrigin&, const PoseOrigin&) = default;

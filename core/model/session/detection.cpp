@@ -2,6 +2,7 @@
 #include "core/model/session/detection.h"
 
 #include "core/model/body/segments.h"
+#include "core/model/body/spaces.h"
 #include "core/wire/messages.h"
 #include "core/wire/type_table.h"
 
@@ -28,6 +29,85 @@ double reachOf(const std::vector<Item>& segments) {
     return reach;
 }
 
+/// A segment of the body, by its place if all are there, else by its ID; null if it was not sent.
+template <class Item>
+const Item* segmentOf(const std::vector<Item>& items, int segment) {
+    if (items.size() >= kBodySegments) {
+        return &items[static_cast<std::size_t>(segment)];
+    }
+    const auto found = std::ranges::find(items, static_cast<std::uint32_t>(segment) + 1, &Item::id);
+    return found != items.end() ? &*found : nullptr;
+}
+
+/// The direction from one segment to another in the frame of the first; zero where it is not known.
+Eigen::Vector3d boneOf(const wire::PoseQuaternion& pose, int from, int to, int frame) {
+    const auto* begin = segmentOf(pose.segments, from);
+    const auto* end = segmentOf(pose.segments, to);
+    const auto* turned = segmentOf(pose.segments, frame);
+    if (begin == nullptr || end == nullptr || turned == nullptr) {
+        return Eigen::Vector3d::Zero();
+    }
+    const Eigen::Quaterniond turn = toQuaternion(turned->orientation);
+    const Eigen::Vector3d bone =
+        turn.conjugate() * (toVector(end->position) - toVector(begin->position)).normalized();
+    return std::abs(turn.norm() - 1) < 0.1 && bone.allFinite() ? bone : Eigen::Vector3d::Zero();
+}
+
+/// In their own frames thighs hang down and the left hip is on the left, in any posture. A mirrored frame is
+/// neither.
+std::optional<UpAxis> upByThighs(const wire::PoseQuaternion& pose) {
+    using namespace segment;
+    constexpr double kAlong = 0.8;
+    const Eigen::Vector3d right = boneOf(pose, kRightUpperLeg, kRightLowerLeg, kRightUpperLeg);
+    const Eigen::Vector3d left = boneOf(pose, kLeftUpperLeg, kLeftLowerLeg, kLeftUpperLeg);
+    const Eigen::Vector3d hips = boneOf(pose, kRightUpperLeg, kLeftUpperLeg, kPelvis);
+    const Eigen::Vector3d down = right.cwiseMax(left);
+    if (down.z() < -kAlong && hips.y() > kAlong) {
+        return UpAxis::Z;
+    }
+    return down.y() < -kAlong && hips.x() > kAlong ? std::optional(UpAxis::Y) : std::nullopt;
+}
+
+/// Knees bend about the axis that points left.
+std::optional<UpAxis> upByKnees(const wire::AngularKinematics& angular) {
+    using namespace segment;
+    constexpr double kBent = 0.1; // sine of half the angle
+    constexpr double kAlong = 0.9;
+    Eigen::Vector3d most = Eigen::Vector3d::Zero();
+    for (const int thigh : {kRightUpperLeg, kLeftUpperLeg}) {
+        const auto* upper = segmentOf(angular.segments, thigh);
+        const auto* lower = segmentOf(angular.segments, thigh + 1);
+        if (upper != nullptr && lower != nullptr) {
+            const Eigen::Quaterniond bend =
+                toQuaternion(upper->orientation).conjugate() * toQuaternion(lower->orientation);
+            const Eigen::Vector3d axis = std::copysign(1.0, bend.w()) * bend.vec();
+            most = std::abs(bend.norm() - 1) < 0.1 && axis.norm() > most.norm() ? axis : most;
+        }
+    }
+    if (most.norm() < kBent || std::max(most.y(), most.x()) < kAlong * most.norm()) {
+        return std::nullopt;
+    }
+    return most.y() > most.x() ? UpAxis::Z : UpAxis::Y;
+}
+
+/// Positions alone: somebody who stands on the floor, the head above the feet.
+std::optional<UpAxis> upByStature(const wire::LinearKinematics& linear) {
+    const auto* head = segmentOf(linear.segments, segment::kHead);
+    const auto* right = segmentOf(linear.segments, segment::kRightFoot);
+    const auto* left = segmentOf(linear.segments, segment::kLeftFoot);
+    if (head == nullptr || right == nullptr || left == nullptr) {
+        return std::nullopt;
+    }
+    const Eigen::Vector3d feet = 0.5 * (toVector(right->position) + toVector(left->position));
+    const Eigen::Vector3d stature = toVector(head->position) - feet;
+    const double metres = metresPer(detectLengthUnit(stature.norm()));
+    const auto isUp = [&](int axis) {
+        return stature[axis] * metres > 0.9 && stature[axis] > 0.9 * stature.norm() &&
+               std::abs(feet[axis] * metres - 0.1) < 0.2;
+    };
+    return isUp(2) ? std::optional(UpAxis::Z) : isUp(1) ? std::optional(UpAxis::Y) : std::nullopt;
+}
+
 bool isSinceJ(const wire::TypeInfo* info) {
     return info != nullptr && info->firstRevision() >= 'J';
 }
@@ -46,6 +126,14 @@ words::Kind revisionName(Revision revision) {
 
 words::Kind unitName(LengthUnit unit) {
     return unit == LengthUnit::Metre ? words::Kind::Metres : words::Kind::Centimetres;
+}
+
+words::Kind upName(UpAxis up) {
+    return up == UpAxis::Z ? words::Kind::ZUp : words::Kind::YUp;
+}
+
+std::optional<UpAxis> upNamed(std::string_view name) {
+    return name == "z" ? std::optional(UpAxis::Z) : name == "y" ? std::optional(UpAxis::Y) : std::nullopt;
 }
 
 /// Evidence only ever grows: header counts outweigh message types, and those that only E has outweigh common
@@ -81,26 +169,31 @@ void Detector::noteHeaderForm(std::uint8_t type, HeaderForm form) {
     }
 }
 
+template <class Value>
+void Finder<Value>::add(Value value, const words::Fact& evidence, unsigned patience,
+                        words::Kind (*name)(Value)) {
+    m_otherRun = value == m_value ? 0 : m_otherRun + 1;
+    if (value == m_value ? !m_evidence.isNothing() : m_otherRun < patience) {
+        return;
+    }
+    if (!m_evidence.isNothing()) {
+        m_before = {words::Kind::UnitBy, {{"looks", words::Fact(name(m_value))}, {"evidence", m_evidence}}};
+    }
+    m_evidence = evidence;
+    m_value = value;
+    m_otherRun = 0;
+}
+
 void UnitFinder::add(double height, double reach) {
     const bool hasHeight = height > 0.05;
     const bool hasReach = reach >= 0.1;
     const LengthUnit unit = detectLengthUnit(hasHeight ? height : reach);
-    if (!(hasHeight || hasReach) || (hasHeight && hasReach && detectLengthUnit(reach) != unit)) {
-        return;
+    if ((hasHeight || hasReach) && !(hasHeight && hasReach && detectLengthUnit(reach) != unit)) {
+        Finder::add(unit,
+                    {hasHeight ? words::Kind::PelvisAt : words::Kind::ReachOf,
+                     {{"value", words::Number{hasHeight ? height : reach, 2}}}},
+                    evidence().isNothing() ? 1 : kPatience, unitName);
     }
-    m_otherRun = unit == m_unit ? 0 : m_otherRun + 1;
-    const bool isChange = m_otherRun == kPatience;
-    if (!m_evidence.isNothing() && !isChange) {
-        return;
-    }
-    if (isChange) {
-        m_before = {words::Kind::UnitBy,
-                    {{"looks", words::Fact(unitName(m_unit))}, {"evidence", m_evidence}}};
-    }
-    m_evidence = {hasHeight ? words::Kind::PelvisAt : words::Kind::ReachOf,
-                  {{"value", words::Number{hasHeight ? height : reach, 2}}}};
-    m_unit = unit;
-    m_otherRun = 0;
 }
 
 void Detector::addBody(const wire::Body& body) {
@@ -110,12 +203,34 @@ void Detector::addBody(const wire::Body& body) {
             const bool isYUp = info.frame == wire::Frame::YUp;
             const bool isZUp = info.frame == wire::Frame::ZUp && info.isSampled;
             if ((isYUp || isZUp) && !message.segments.empty()) {
-                UnitFinder& finder = isYUp ? m_yUp : m_zUp;
-                finder.add(message.segments.front().position[isYUp ? 1 : 2], reachOf(message.segments));
+                const auto& pelvis = message.segments.front().position;
+                (isYUp ? m_yUp : m_zUp)
+                    .add(pelvis[isYUp || up() == UpAxis::Y ? 1 : 2], reachOf(message.segments));
             }
         }
     };
+    addUp(body);
     std::visit(add, body);
+}
+
+void Detector::addUp(const wire::Body& body) {
+    constexpr unsigned kFirst = 10;   // segments show it in any posture
+    constexpr unsigned kUpright = 60; // about a second of upright positions
+    const bool isKnown = !m_up.evidence().isNothing();
+    std::optional<UpAxis> up;
+    unsigned patience = isKnown ? UnitFinder::kPatience : kFirst;
+    if (const auto* pose = std::get_if<wire::PoseQuaternion>(&body)) {
+        up = upByThighs(*pose);
+    } else if (const auto* angular = std::get_if<wire::AngularKinematics>(&body)) {
+        up = upByKnees(*angular);
+    } else if (const auto* linear = std::get_if<wire::LinearKinematics>(&body); linear && !isKnown) {
+        up = upByStature(*linear);
+        patience = kUpright;
+    }
+    if (up) {
+        m_up.add(*up, {words::Kind::UprightAlong, {{"axis", *up == UpAxis::Y ? "y" : "z"}}}, patience,
+                 upName);
+    }
 }
 
 std::optional<words::Fact> Detector::againstRevision(Revision declared) const {
@@ -153,6 +268,15 @@ std::vector<words::Fact> Detector::contradictions(const SenderOverride& declared
     }
     if (!m_zUp.before().isNothing()) {
         found.push_back({K::UnitChanged, {looks, evidence, {"before", m_zUp.before()}}});
+    }
+    const words::NamedValue looksUp{"looks", words::Fact(upName(up()))};
+    const words::NamedValue upEvidence{"evidence", m_up.evidence()};
+    if (declared.up && !m_up.evidence().isNothing() && *declared.up != up()) {
+        found.push_back(
+            {K::ReadInOtherUnit, {looksUp, upEvidence, {"read", words::Fact(upName(*declared.up))}}});
+    }
+    if (!m_up.before().isNothing()) {
+        found.push_back({K::UnitChanged, {looksUp, upEvidence, {"before", m_up.before()}}});
     }
     return found;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/session/ingest.h"
 
+#include "core/model/body/pose_messages.h"
 #include "core/wire/type_table.h"
 
 #include <algorithm>
@@ -155,6 +156,10 @@ void Ingest::decode(Observed& seen) {
             into.packet = packet.number;
             into.stamp = packet.stamp;
             into.sender = packet.sender;
+            if (seen.sender != nullptr && header->datagramIndex() == 0) {
+                seen.sender->detector.addBody(into.datagram.body);
+            }
+            turnUpright(into, seen.sender != nullptr ? seen.sender->up() : UpAxis::Z);
             seen.datagram = &into.datagram;
         }
     }

@@ -39,6 +39,7 @@ public:
     /// went by after its last packet while it was recorded.
     void endFile(log::Duration afterLast);
 
+    void setUsual(const SenderOverride& usual) { m_roll.setUsual(usual); }
     void setOverride(log::SenderId sender, const SenderOverride& overrides);
     /// See Roll.
     bool forget(log::SenderId sender) { return m_roll.forget(sender, m_now); }

@@ -74,6 +74,7 @@ bool Messages::readWhole(const log::StreamEntry& entry, Message& message) const 
     message.stamp = packet->stamp;
     message.packet = entry.packet;
     message.sender = packet->sender;
+    turnUpright(message, m_roster.up(packet->sender));
     m_decoded->bytes += &message == &m_decoded->visited ? 0 : packet->bytes.size();
     return true;
 }
@@ -130,12 +131,14 @@ const Message* Messages::message(const CharacterKey& key, std::uint8_t type) con
     const log::StreamEntry& newest = (*stream)[count - 1];
     if (newest.isLast && newest.datagram == 0) {
         const Stream* ingested = m_roster.find(streamKey);
-        if (ingested != nullptr && ingested->newest.packet == newest.packet) {
+        if (ingested != nullptr && ingested->newest.packet == newest.packet &&
+            ingested->newest.isSentYUp == (m_roster.up(key.sender) == UpAxis::Y)) {
             return &ingested->newest;
         }
     }
     Decoded::OfStream& read = decoded().messages[streamKey];
-    if (read.packet != newest.packet) {
+    if (read.packet != newest.packet ||
+        (read.isValid && read.message.isSentYUp != (m_roster.up(key.sender) == UpAxis::Y))) {
         read.isValid = readMessage(*stream, count, read.message);
         read.packet = newest.packet;
     }

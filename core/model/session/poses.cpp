@@ -33,7 +33,8 @@ const Message* Messages::messageOfSample(const CharacterKey& key, std::size_t pl
             continue;
         }
         Decoded::OfStream& read = decoded().characters[key].parts[place];
-        if (read.packet != (*stream)[i].packet) {
+        if (read.packet != (*stream)[i].packet ||
+            read.message.isSentYUp != (m_roster.up(key.sender) == UpAxis::Y)) {
             read.isValid = readMessage(*stream, i + 1, read.message);
             read.packet = (*stream)[i].packet;
         }
@@ -64,6 +65,7 @@ const CharacterPose* Messages::pose(const CharacterKey& key) const {
         if (const Message* one = chosen[i]) {
             const Sender* sender = m_roster.find(one->sender);
             origin.packets[i] = one->packet + 1;
+            origin.areYUp[i] = one->isSentYUp;
             origin.units[i] = sender != nullptr ? sender->positionUnit(kPoseTypes[i]) : LengthUnit::Metre;
         }
     }

@@ -38,10 +38,11 @@ Sender* Roll::take(const log::Packet& packet) {
     sender.info = *held;
     sender.history.setMost(kBucketsOfSender);
     sender.held = std::move(held);
+    sender.overrides = m_usual;
     if (const auto host = sender.host()) {
         const auto [newest, isNew] = m_newestOfHost.try_emplace(*host, sender.id);
         const Sender* before = isNew ? nullptr : m_senders.find(std::exchange(newest->second, sender.id));
-        sender.overrides = before != nullptr ? before->overrides : SenderOverride{};
+        sender.overrides = before != nullptr ? before->overrides : m_usual;
     }
     m_recencies[sender.id] = {&m_strangers, m_strangers.insert(m_strangers.end(), sender.id)};
     return &sender;

@@ -100,6 +100,9 @@ public:
     /// Both outlive this.
     Roll(const log::SenderTable& known, RollListener& listener) : m_known(known), m_listener(listener) {}
 
+    /// Declared of all senders that come from now on.
+    void setUsual(const SenderOverride& usual) { m_usual = usual; }
+
     [[nodiscard]] const KeyedList<log::SenderId, Sender>& senders() const { return m_senders; }
     [[nodiscard]] const KeyedList<CharacterKey, Character>& characters() const { return m_characters; }
     [[nodiscard]] const KeyedList<log::StreamKey, Stream>& streams() const { return m_streams; }
@@ -152,6 +155,7 @@ private:
 
     const log::SenderTable& m_known;
     RollListener& m_listener;
+    SenderOverride m_usual;
     KeyedList<log::SenderId, Sender> m_senders;
     KeyedList<CharacterKey, Character> m_characters;
     KeyedList<log::StreamKey, Stream> m_streams;

@@ -12,6 +12,11 @@
 namespace posewire::model {
 Roster::Roster(const Moment& moment) : m_moment(moment), m_roll(moment.ingest().roll()) {}
 
+UpAxis Roster::up(log::SenderId id) const {
+    const Sender* sender = find(id);
+    return sender != nullptr ? sender->up() : UpAxis::Z;
+}
+
 ForeignText Roster::addressOf(log::SenderId id) const {
     if (const Sender* sender = find(id)) {
         return sender->address();

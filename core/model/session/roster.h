@@ -22,6 +22,8 @@ public:
     [[nodiscard]] const Sender* find(log::SenderId id) const { return senders().find(id); }
     [[nodiscard]] const Character* find(const CharacterKey& key) const { return characters().find(key); }
     [[nodiscard]] const Stream* find(const log::StreamKey& key) const { return streams().find(key); }
+    /// The axis that is up in types 02, 21 and 22 of a sender.
+    [[nodiscard]] UpAxis up(log::SenderId id) const;
     /// "10.0.0.5:40001"; "this computer" for kNoSender; "a retired sender" for one retired long ago.
     [[nodiscard]] ForeignText addressOf(log::SenderId id) const;
 

@@ -63,6 +63,11 @@ struct Sender {
     /// Of any type. Those with Y up have a unit of their own, usually centimetres, and what describes the
     /// body (13) is in metres by definition.
     [[nodiscard]] LengthUnit positionUnit(std::uint8_t type) const;
+    /// Of types 02, 21 and 22; other types have one of their own.
+    [[nodiscard]] UpAxis up() const { return overrides.up.value_or(detector.up()); }
+    [[nodiscard]] bool isYUp(std::uint8_t type) const {
+        return up() == UpAxis::Y && (type == 2 || type == 21 || type == 22);
+    }
     [[nodiscard]] std::vector<words::Fact> contradictions() const {
         return detector.contradictions(overrides);
     }

@@ -49,6 +49,9 @@ public:
         m_ingest.setOverride(sender, overrides);
     }
 
+    /// The same about all senders that come from now on.
+    void setUsual(const SenderOverride& usual) { m_ingest.setUsual(usual); }
+
     void setCursor(Cursor cursor) { m_choices.cursor = cursor; }
     void setSelection(const Selection& selection) { m_choices.selection = selection; }
     void setRange(const RangeChoice& range) { m_choices.range = range; }

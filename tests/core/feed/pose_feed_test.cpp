@@ -208,5 +208,69 @@ TEST_F(PoseFeedTest, CountsWhatItMissedOnAnotherThread) {
     EXPECT_LT(poses.missed(), sent);
 }
 
+using UpAxisTest = MotionTest;
+
+/// What one performer sends, in each of the frames, is one pose, drawn and exported.
+TEST_F(UpAxisTest, AYUpSenderIsFedAndWrittenAsAZUpOne) {
+    constexpr double kHundredthOfAMillimetre = 1e-5;
+    for (const std::vector<std::uint8_t>& types :
+         std::vector<std::vector<std::uint8_t>>{{2, 12, 13}, {21, 22, 12, 13}}) {
+        std::array<std::vector<std::vector<model::SegmentPose>>, 2> poses;
+        for (const bool isYUp : {false, true}) {
+            auto all = settings();
+            all.types = types;
+            all.isYUp = isYUp;
+            const std::string address = "10.0.0." + std::to_string(types[0]) + (isYUp ? "1:1" : "2:1");
+            perform(all, 60, sendsAll, kStart, address);
+            const model::Sender& sender = m_session.roster().senders().back();
+            EXPECT_EQ(sender.up(), isYUp ? model::UpAxis::Y : model::UpAxis::Z) << types[0];
+            const std::array keys{model::CharacterKey{sender.id, 0}};
+            const auto from = poseSourceOf(m_session, model::kAllTime, keys);
+            for (const auto& one : framesOf(from)) {
+                poses[isYUp ? 1 : 0].push_back(one.pose.segments);
+            }
+            EXPECT_LT(exporting::differenceOf(m_session.messages().pose(keys[0])->segments,
+                                              poses[isYUp ? 1 : 0].back()),
+                      kHundredthOfAMillimetre);
+        }
+        ASSERT_EQ(poses[0].size(), 60U);
+        ASSERT_EQ(poses[1].size(), 60U);
+        for (std::size_t i = 0; i < poses[0].size(); ++i) {
+            EXPECT_LT(exporting::differenceOf(poses[0][i], poses[1][i]), kHundredthOfAMillimetre);
+        }
+    }
+}
+
+TEST_F(UpAxisTest, AllPoseTypesOfAYUpSenderAgreeWithinATenthOfAMillimetre) {
+    std::vector<std::vector<model::SegmentPose>> poses;
+    for (const std::uint8_t type : std::vector<std::uint8_t>{1, 2, 5}) {
+        auto all = settings();
+        all.types = {type, 12, 13};
+        all.isYUp = true;
+        perform(all, 30, sendsAll, kStart, "10.0.0." + std::to_string(type) + ":1");
+        const std::array keys{model::CharacterKey{m_session.roster().senders().back().id, 0}};
+        poses.push_back(framesOf(poseSourceOf(m_session, model::kAllTime, keys)).back().pose.segments);
+    }
+    for (std::size_t i = 0; i < model::kBodySegments; ++i) {
+        EXPECT_LT((poses[0][i].position - poses[1][i].position).norm(), 1e-4);
+        EXPECT_LT((poses[2][i].position - poses[1][i].position).norm(), 1e-4);
+    }
+}
+
+TEST_F(UpAxisTest, WhatTheOperatorDeclaresHoldsAlsoForWhatWasReadBefore) {
+    auto all = settings();
+    all.isYUp = true;
+    perform(all, 30);
+    const model::CharacterKey key{m_session.roster().senders().back().id, 0};
+    const auto heightOfHead = [&] {
+        return m_session.messages().pose(key)->segments[model::segment::kHead].position.z();
+    };
+    EXPECT_GT(heightOfHead(), 1.2);
+    m_session.setOverride(key.sender, {.up = model::UpAxis::Z});
+    EXPECT_LT(heightOfHead(), 1.2);
+    m_session.setOverride(key.sender, {.up = model::UpAxis::Y});
+    EXPECT_GT(heightOfHead(), 1.2);
+}
+
 } // namespace
 } // namespace posewire::feed

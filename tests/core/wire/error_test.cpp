@@ -58,7 +58,7 @@ TEST(NoticeTable, HasANameAndATextOfItsOwnForEveryCode) {
         names.insert(std::string(noticeName(notice.code)));
         texts.insert(noticeText(notice));
     }
-    EXPECT_EQ(static_cast<std::size_t>(NoticeCode::NotATimeCode) + 1, kNoticeCodeCount);
+    EXPECT_EQ(static_cast<std::size_t>(NoticeCode::TooManyPoints) + 1, kNoticeCodeCount);
     EXPECT_EQ(names.size(), kNoticeCodeCount);
     EXPECT_EQ(texts.size(), kNoticeCodeCount);
 }

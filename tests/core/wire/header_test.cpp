@@ -55,6 +55,17 @@ TEST(Header, RejectsATypeThatIsNotTwoDigits) {
     }
 }
 
+TEST(Header, NamesATypeThatIsSentAsANumber) {
+    std::vector<std::byte> bytes = posewire::test::golden("02_quaternion_counted").bytes;
+    bytes[4] = std::byte{0};
+    bytes[5] = std::byte{3};
+    EXPECT_TRUE(startsDatagram(bytes));
+    const auto header = decodeHeader(bytes);
+    ASSERT_FALSE(header);
+    EXPECT_EQ(header.error(), (WireError{ErrorCode::TypeAsNumber, 0, 4, 0, 3}));
+    EXPECT_EQ(errorText(header.error()), "type sent as a number: 0x00 0x03 for \"03\" (byte 4)");
+}
+
 TEST(Header, GivesANoticeWhereReservedBytesAreInUse) {
     auto bytes = posewire::test::golden("02_quaternion_counted").bytes;
     bytes[20] = std::byte{1};

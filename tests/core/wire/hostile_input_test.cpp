@@ -4,6 +4,7 @@
 #include "core/wire/field_tree.h"
 #include "tests/support/golden.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <random>
@@ -93,6 +94,50 @@ TEST(HostileInput, GivesNoticesForOddValues) {
         EXPECT_EQ(decode(withWord("25_time_code_counted", 28, digits))->notices,
                   (std::vector{Notice{NoticeCode::NotATimeCode, 28, 1}}));
     }
+}
+
+TEST(HostileInput, NoticesAColourThatIsNotSixHexadecimalDigits) {
+    for (const std::string colour : {"#zz", "12345", "1234567", ""}) {
+        Datagram datagram;
+        datagram.body = MetaData{true, "name:A\ncolor:" + colour + "\n"};
+        completeHeader(datagram, HeaderEra::Counted);
+        EXPECT_EQ(decode(encode(datagram).value())->notices,
+                  (std::vector{Notice{NoticeCode::BadColour, 24 + 4 + 13, 1}}));
+    }
+}
+
+TEST(HostileInput, ReadsMoreThanTheSpecificationAllowsWithANotice) {
+    const auto noticesOf = [](Body body, std::uint8_t props, HeaderEra era) {
+        Datagram datagram;
+        datagram.header.bodySegments = 23;
+        datagram.header.props = props;
+        datagram.body = std::move(body);
+        completeHeader(datagram, era);
+        return decode(encode(datagram).value())->notices;
+    };
+    const auto items = [](auto message, std::uint32_t count) {
+        for (std::uint32_t id = 1; id <= count; ++id) {
+            message.segments.push_back({id, {}, {1, 0, 0, 0}});
+        }
+        return message;
+    };
+    EXPECT_THAT(noticesOf(items(PoseQuaternion(), 27), 4, HeaderEra::Counted), testing::IsEmpty());
+    EXPECT_THAT(noticesOf(items(PoseQuaternion(), 28), 5, HeaderEra::Counted),
+                testing::ElementsAre(Notice{NoticeCode::TooManyProps, 18, 5}));
+    EXPECT_THAT(noticesOf(items(PoseQuaternion(), 28), 0, HeaderEra::Reserved),
+                testing::ElementsAre(Notice{NoticeCode::TooManyProps, 11, 5}));
+    EXPECT_THAT(noticesOf(items(PoseQuaternion(), 63), 0, HeaderEra::Reserved), testing::IsEmpty());
+    EXPECT_THAT(noticesOf(items(PoseUnity(), 24), 0, HeaderEra::Reserved),
+                testing::ElementsAre(Notice{NoticeCode::TooManyItems, 11, 24}));
+    PointPositions points;
+    for (std::uint32_t id = 257; id < 257 + 46; ++id) {
+        points.points.push_back({256 * (1 + id % 23) + 1, {}});
+    }
+    points.points.push_back({12345678, {}}); // a tag
+    EXPECT_THAT(noticesOf(points, 0, HeaderEra::Reserved), testing::IsEmpty());
+    points.points.push_back({257, {}});
+    EXPECT_THAT(noticesOf(points, 0, HeaderEra::Reserved),
+                testing::ElementsAre(Notice{NoticeCode::TooManyPoints, 11, 47}));
 }
 
 TEST(HostileInput, ReadsABareTextThatBeginsWithAnyCharacter) {

@@ -32,7 +32,7 @@ TEST(MetadataText, CountsLinesThatAreNoTags) {
 
 TEST(MetadataText, GivesANoticeWithThePlaceOfALineWithoutATag) {
     Datagram datagram;
-    datagram.body = MetaData{true, "name:x\nno colon\ncolor:e9\n\n"};
+    datagram.body = MetaData{true, "name:x\nno colon\ncolor:e9e9e9\n\n"};
     completeHeader(datagram, HeaderEra::Counted);
     const auto decoded = decode(*encode(datagram));
     ASSERT_TRUE(decoded);

@@ -275,5 +275,86 @@ TEST_F(OverrideTest, OfAnUnknownSenderIsNothing) {
     EXPECT_TRUE(m_session.roster().senders().empty());
 }
 
+/// A figure that stands with its pelvis turned, or lies, as sent in a frame.
+wire::PoseQuaternion standing(UpAxis up, const Eigen::Quaterniond& turn = Eigen::Quaterniond::Identity()) {
+    wire::PoseQuaternion pose;
+    for (const Eigen::Vector3d& origin : referenceOrigins()) {
+        const auto id = static_cast<std::uint32_t>(pose.segments.size() + 1);
+        pose.segments.push_back({id, toFloats(Eigen::Vector3d(turn * origin)), toFloats(turn)});
+    }
+    if (up == UpAxis::Y) {
+        turnTo(up, pose);
+    }
+    return pose;
+}
+
+template <class Message>
+Detection afterPoses(Detector& detector, const Message& message, int count) {
+    for (int i = 0; i < count; ++i) {
+        detector.addBody(message);
+    }
+    return detector.result();
+}
+
+TEST(Detector, KnowsYUpByTheBodyAndNotByOneFrame) {
+    Detector detector;
+    EXPECT_EQ(afterPoses(detector, standing(UpAxis::Y), 5).up, UpAxis::Z);
+    EXPECT_TRUE(detector.result().upEvidence.isNothing());
+    EXPECT_EQ(afterPoses(detector, standing(UpAxis::Y), 5).up, UpAxis::Y);
+    EXPECT_EQ(detector.result().upEvidence, (words::Fact{words::Kind::UprightAlong, {{"axis", "y"}}}));
+    EXPECT_EQ(detector.result().positionUnit, LengthUnit::Metre);
+}
+
+TEST(Detector, NoPostureChangesTheAxisThatIsUp) {
+    for (const UpAxis up : {UpAxis::Z, UpAxis::Y}) {
+        Detector detector;
+        for (const Eigen::Vector3d& axis : {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 1, 0)}) {
+            for (const double angle : {-1.6, 1.6, 3.1}) { // lies on each side, stands on the hands
+                const Eigen::Quaterniond turn(Eigen::AngleAxisd(angle, axis));
+                EXPECT_EQ(afterPoses(detector, standing(up, turn), 100).up, up);
+            }
+        }
+        EXPECT_TRUE(found(detector).empty());
+    }
+}
+
+TEST(Detector, TakesNoMirroredFrameForYUp) {
+    wire::PoseQuaternion pose = standing(UpAxis::Y);
+    for (wire::SegmentQuaternion& item : pose.segments) {
+        item.position[0] = -item.position[0];
+    }
+    Detector detector;
+    EXPECT_TRUE(afterPoses(detector, pose, 100).upEvidence.isNothing());
+}
+
+TEST(Detector, KnowsYUpByPositionsOrOrientationsAlone) {
+    Detector positions;
+    wire::LinearKinematics linear;
+    for (const wire::SegmentQuaternion& item : standing(UpAxis::Y).segments) {
+        linear.segments.push_back({item.id, item.position, {}, {}});
+    }
+    EXPECT_EQ(afterPoses(positions, linear, 59).up, UpAxis::Z);
+    EXPECT_EQ(afterPoses(positions, linear, 1).up, UpAxis::Y);
+
+    Detector orientations;
+    wire::AngularKinematics angular;
+    const Eigen::Quaterniond bent(Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitY()));
+    for (std::uint32_t id = 1; id <= kBodySegmentCount; ++id) {
+        const bool isShank = id == segment::kRightLowerLeg + 1;
+        angular.segments.push_back({id, toFloats(isShank ? bent : Eigen::Quaterniond::Identity()), {}, {}});
+    }
+    turnTo(UpAxis::Y, angular);
+    EXPECT_EQ(afterPoses(orientations, angular, 10).up, UpAxis::Y);
+}
+
+TEST(Detector, SaysThatTheUpAxisWasSetOtherwise) {
+    Detector detector;
+    afterPoses(detector, standing(UpAxis::Y), 10);
+    EXPECT_EQ(found(detector, {.up = UpAxis::Z}).front().kind, Kind::ReadInOtherUnit);
+    EXPECT_TRUE(found(detector, {.up = UpAxis::Y}).empty());
+    afterPoses(detector, standing(UpAxis::Z), 40);
+    EXPECT_EQ(found(detector).front().kind, Kind::UnitChanged);
+}
+
 } // namespace
 } // namespace posewire::model
