@@ -13,7 +13,7 @@
 /// them.
 namespace posewire::words {
 
-enum class Kind : std::uint8_t {
+enum class Kind : std::uint16_t {
     Nothing,
     Text,
     Names,
@@ -73,6 +73,26 @@ enum class Kind : std::uint8_t {
     MetadataChanged,
     TagChanged,
     NullPoseChanged,
+    // Content of no use.
+    PoseFrozen,
+    AnnouncedMissing,
+    FingerSegments,
+    OrientationsZero,
+    OrientationsFar,
+    NumbersNotFinite,
+    PositionsAbsurd,
+    NumbersSwapped,
+    PelvisJumped,
+    UnitLooks,
+    IdsFromZero,
+    IdsRepeat,
+    ConventionLooks,
+    ConventionUnknown,
+    QuaternionXyzw,
+    QuaternionInverse,
+    UnityAxes,
+    AllMirrored,
+    PlacesMirrored,
     Overtaken,
     RelayStopped,
     RecordingEnded,
@@ -120,6 +140,7 @@ enum class Kind : std::uint8_t {
     NoOrientations,
     SegmentsSolved,
     SegmentsAssumed,
+    SegmentsBroken,
     TurnsAssumed,
     LongerThanScale,
     ShorterThanScale,

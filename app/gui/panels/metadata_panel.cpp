@@ -72,6 +72,8 @@ constexpr ActionInfo kMetadataActions[] = {
     entry<kUnit, LengthUnit::Metre>("unitsMetres", kUnits, QT_TRANSLATE_NOOP("Action", "&Metres")),
     entry<kUnit, LengthUnit::Centimetre>("unitsCentimetres", kUnits,
                                          QT_TRANSLATE_NOOP("Action", "&Centimetres")),
+    entry<kUnit, LengthUnit::Millimetre>("unitsMillimetres", kUnits,
+                                         QT_TRANSLATE_NOOP("Action", "M&illimetres")),
 };
 
 } // namespace
@@ -91,7 +93,8 @@ DetectionBar::DetectionBar(model::SessionView& view, Commands& commands, QWidget
                                    &SenderOverride::positionUnit,
                                    {{tr("automatic"), std::nullopt},
                                     {tr("metres"), LengthUnit::Metre},
-                                    {tr("centimetres"), LengthUnit::Centimetre}})) {
+                                    {tr("centimetres"), LengthUnit::Centimetre},
+                                    {tr("millimetres"), LengthUnit::Millimetre}})) {
     const int margin = CellDelegate::margin(fontMetrics());
     m_contradictions->setWordWrap(true);
     m_contradictions->setContentsMargins(margin, margin / 2, margin, 0);

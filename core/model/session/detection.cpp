@@ -45,7 +45,9 @@ words::Kind revisionName(Revision revision) {
 }
 
 words::Kind unitName(LengthUnit unit) {
-    return unit == LengthUnit::Metre ? words::Kind::Metres : words::Kind::Centimetres;
+    return unit == LengthUnit::Metre        ? words::Kind::Metres
+           : unit == LengthUnit::Centimetre ? words::Kind::Centimetres
+                                            : words::Kind::Millimetres;
 }
 
 /// Evidence only ever grows: header counts outweigh message types, and those that only E has outweigh common
@@ -85,7 +87,8 @@ void UnitFinder::add(double height, double reach) {
     const bool hasHeight = height > 0.05;
     const bool hasReach = reach >= 0.1;
     const LengthUnit unit = detectLengthUnit(hasHeight ? height : reach);
-    if (!(hasHeight || hasReach) || (hasHeight && hasReach && detectLengthUnit(reach) != unit)) {
+    const bool isOfBody = hasReach || unit != LengthUnit::Millimetre; // an object may be high up
+    if (!(hasHeight || hasReach) || !isOfBody || (hasHeight && hasReach && detectLengthUnit(reach) != unit)) {
         return;
     }
     m_otherRun = unit == m_unit ? 0 : m_otherRun + 1;
