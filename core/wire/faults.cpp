@@ -43,7 +43,6 @@ constexpr std::array<ErrorRow, kErrorCodeCount> kErrors{{
      "{need} items, has room for {have})"},
     {ErrorCode::BadSequence, "badSequence", "a string is not valid UTF-8 (byte {offset})"},
     {ErrorCode::UnterminatedText, "unterminatedText", "a string has no terminating zero (byte {offset})"},
-    {ErrorCode::NoItems, "noItems", "the header announces no items, and {have} bytes follow (byte {offset})"},
     {ErrorCode::TooLong, "tooLong",
      "longer than a datagram can be (byte {offset}: needs {need} bytes, has room for {have})"},
 }};

@@ -23,11 +23,10 @@ enum class ErrorCode : std::uint8_t {
     CountTooLarge,    ///< a count exceeds its maximum or what the remaining bytes can hold
     BadSequence,      ///< a string is not UTF-8
     UnterminatedText, ///< a zero-terminated string has no zero
-    NoItems,          ///< the header announces none, and bytes follow that could be some
     TooLong,          ///< longer than any UDP datagram, or a value that its field cannot hold (when encoding)
 };
 
-inline constexpr std::size_t kErrorCodeCount = 12;
+inline constexpr std::size_t kErrorCodeCount = 11;
 
 /// A fault in one datagram. Offsets and sizes are bytes from the datagram's first byte.
 struct WireError {

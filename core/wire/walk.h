@@ -180,11 +180,6 @@ template <auto Member, Form ItemForm, std::size_t Max, class T, class Visitor>
 bool readField(Cursor& cursor, const Items<Member, ItemForm, Max>& field, T& value, Visitor& visitor) {
     using List = Items<Member, ItemForm, Max>;
     if constexpr (!List::kIsCounted) {
-        constexpr std::size_t least = kWireSize<typename List::Item, ItemForm>;
-        if (cursor.items == 0 && cursor.left() >= least) {
-            (value.*Member).clear();
-            return cursor.fail(ErrorCode::NoItems, least, cursor.left());
-        }
         return readItems<ItemForm>(cursor, field.about, cursor.items, value.*Member, visitor);
     }
     if (cursor.left() < 4) {
