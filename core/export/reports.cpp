@@ -191,6 +191,9 @@ JsonValue incidentJson(const model::SessionView& session, const model::ListedInc
             return JsonValue(std::string(address.exact()));
         });
     }
+    if (incident.kind == model::IncidentKind::Content) {
+        object["what"] = model::factsOf(incident.what).word;
+    }
     return object;
 }
 

@@ -87,9 +87,10 @@ bool Condition::holdsFor(const ItemAt& at) const {
     if (place.read == nullptr) {
         return false;
     }
-    const bool isInCentimetres =
-        place.length && at.positionUnit.value_or(*place.length) == model::LengthUnit::Centimetre;
-    const Test& suited = isInCentimetres ? testInCentimetres : test;
+    const auto unit = place.length ? at.positionUnit.value_or(*place.length) : model::LengthUnit::Metre;
+    const Test& suited = unit == model::LengthUnit::Centimetre   ? testInCentimetres
+                         : unit == model::LengthUnit::Millimetre ? testInMillimetres
+                                                                 : test;
     for (std::size_t i = firstComponent; i < firstComponent + components; ++i) {
         if (suited.holds(place.read(at.datagram, at.item, i))) {
             return true;

@@ -55,6 +55,7 @@ struct Condition {
     bool comparesLengths = false;
     bool comparesJudged = false;
     Test testInCentimetres; ///< the same where a length comes in centimetres
+    Test testInMillimetres; ///< the same where it comes in millimetres
 
     [[nodiscard]] bool isOfItems() const { return readPacket == nullptr && !isTag; }
     [[nodiscard]] bool holds(Subject& subject) const;

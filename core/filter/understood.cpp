@@ -385,8 +385,9 @@ tl::expected<void, FilterError> setTests(const Asked& asked, const WrittenCondit
     auto set = setNumbers(asked, read, written, condition.test);
     if (set && isLength) {
         condition.comparesLengths = true;
-        condition.testInCentimetres.op = written.op;
-        return setNumbers(asked, findUnit("cm"), written, condition.testInCentimetres);
+        condition.testInCentimetres.op = condition.testInMillimetres.op = written.op;
+        set = setNumbers(asked, findUnit("cm"), written, condition.testInCentimetres);
+        return set ? setNumbers(asked, findUnit("mm"), written, condition.testInMillimetres) : set;
     }
     return set;
 }

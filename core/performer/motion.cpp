@@ -34,13 +34,22 @@ Vector3d standingSpot(const MotionSettings& settings) {
     return {0.0, kSpacing * (0.5 * (settings.characterCount - 1) - settings.character), 0.0};
 }
 
-/// The exact null pose at any time.
+/// The null pose at any time. A living body sways, here by a fifth of a millimetre: one that does not move at
+/// all is a frozen stream.
 class TPoseMotion final : public Motion {
 public:
     explicit TPoseMotion(const MotionSettings& settings)
         : m_pose(posed(settings.body, settings.body.origins[kPelvis] + standingSpot(settings),
                        LocalRotations())) {}
-    BodyPose sample(double /*seconds*/) const override { return m_pose; }
+    BodyPose sample(double seconds) const override {
+        constexpr double kSway = 0.0002;
+        const double angle = 0.2 * kTurn * seconds;
+        BodyPose pose = m_pose;
+        for (model::SegmentPose& segment : pose) {
+            segment.position += kSway * Vector3d(std::cos(angle), std::sin(angle), 0.0);
+        }
+        return pose;
+    }
 
 private:
     BodyPose m_pose;

@@ -13,7 +13,7 @@
 /// them.
 namespace posewire::words {
 
-enum class Kind : std::uint8_t {
+enum class Kind : std::uint16_t {
     Nothing,
     Text,
     Names,
@@ -73,6 +73,12 @@ enum class Kind : std::uint8_t {
     MetadataChanged,
     TagChanged,
     NullPoseChanged,
+    // Content of no use.
+    // clang-format off
+    PoseFrozen, AnnouncedMissing, FingerSegments, OrientationsZero, OrientationsFar, NumbersNotFinite,
+    PositionsAbsurd, NumbersSwapped, PelvisJumped, UnitLooks, IdsFromZero, IdsRepeat, ConventionLooks,
+    ConventionUnknown, QuaternionXyzw, QuaternionInverse, UnityAxes, AllMirrored, PlacesMirrored,
+    // clang-format on
     Overtaken,
     RelayStopped,
     RecordingEnded,
@@ -120,6 +126,7 @@ enum class Kind : std::uint8_t {
     NoOrientations,
     SegmentsSolved,
     SegmentsAssumed,
+    SegmentsBroken,
     TurnsAssumed,
     LongerThanScale,
     ShorterThanScale,
@@ -215,15 +222,10 @@ enum class Kind : std::uint8_t {
     WentSilent,
     Either,
     HostOn,
-    LooksLikeArtNet,
-    LooksLikeHttp,
-    LooksLikeDTrack,
-    LooksLikeJson,
-    LooksLikeXml,
-    LooksLikeOsc,
-    LooksLikeNatNet,
-    LooksLikeVicon,
-    LooksLikeQualisys,
+    // clang-format off
+    LooksLikeArtNet, LooksLikeHttp, LooksLikeDTrack, LooksLikeJson, LooksLikeXml, LooksLikeOsc,
+    LooksLikeNatNet, LooksLikeVicon, LooksLikeQualisys,
+    // clang-format on
     MxtpBehind,
     // Files that were written.
     Exported,

@@ -475,5 +475,12 @@
             <numerusform>All {streams} of the sender&apos;s computer were silent for {lasted} ms.</numerusform>
         </translation>
     </message>
+    <message numerus="yes">
+        <source>{n} finger segments</source>
+        <translation type="unfinished">
+            <numerusform></numerusform>
+            <numerusform></numerusform>
+        </translation>
+    </message>
 </context>
 </TS>

@@ -76,6 +76,8 @@ constexpr ActionInfo kMetadataActions[] = {
     entry<kUnit, LengthUnit::Metre>("unitsMetres", kUnits, QT_TRANSLATE_NOOP("Action", "&Metres")),
     entry<kUnit, LengthUnit::Centimetre>("unitsCentimetres", kUnits,
                                          QT_TRANSLATE_NOOP("Action", "&Centimetres")),
+    entry<kUnit, LengthUnit::Millimetre>("unitsMillimetres", kUnits,
+                                         QT_TRANSLATE_NOOP("Action", "M&illimetres")),
     entry<kUp, kAutomatic>("upAutomatic", kUps, QT_TRANSLATE_NOOP("Action", "&Automatic")),
     entry<kUp, UpAxis::Z>("upZ", kUps, QT_TRANSLATE_NOOP("Action", "&Z-up")),
     entry<kUp, UpAxis::Y>("upY", kUps, QT_TRANSLATE_NOOP("Action", "&Y-up")),
@@ -98,7 +100,8 @@ DetectionBar::DetectionBar(model::SessionView& view, Commands& commands, QWidget
                                    &SenderOverride::positionUnit,
                                    {{tr("automatic"), std::nullopt},
                                     {tr("metres"), LengthUnit::Metre},
-                                    {tr("centimetres"), LengthUnit::Centimetre}})),
+                                    {tr("centimetres"), LengthUnit::Centimetre},
+                                    {tr("millimetres"), LengthUnit::Millimetre}})),
       m_up(addChoice<UpAxis>(
           tr("Axis assumed to be up in types 02, 21 and 22"), &SenderOverride::up,
           {{tr("automatic"), std::nullopt}, {tr("Z-up"), UpAxis::Z}, {tr("Y-up"), UpAxis::Y}})) {

@@ -85,7 +85,10 @@ void BodyMeasure::addUnity(const wire::PoseUnity& message, LengthUnit unit) {
 /// By their IDs, as poses are read; of those with the same the first.
 void BodyMeasure::addPositions(const wire::Header& header, const wire::LinearKinematics& message,
                                LengthUnit unit) {
-    const ItemPlaces items = itemPlaces(header, message.segments.size(), {});
+    if (message.segments.empty()) {
+        return;
+    }
+    const ItemPlaces items = itemPlaces(header, message.segments.size(), message.segments.front().id);
     std::array<std::optional<Vector3d>, kBodySegmentCount> places;
     for (std::size_t i = 0; i < std::min(message.segments.size(), kBodySegments); ++i) {
         const auto position = static_cast<std::size_t>(items.positionOf(i, message.segments[i].id));

@@ -58,7 +58,8 @@ struct Placement {
 template <class Items>
 Placement placementOf(const wire::Header& header, const Items& items) {
     const std::vector<std::uint32_t> ids = idsOf(items);
-    const ItemPlaces places = itemPlaces(header, items.size(), {});
+    const auto firstId = ids.empty() ? std::nullopt : std::optional(ids.front());
+    const ItemPlaces places = itemPlaces(header, items.size(), firstId);
     Placement placement{places.layout, {}, isOfObjects(header, ids)};
     // A body lacks segments: what follows it keeps its place behind the others.
     const int missing =
@@ -81,12 +82,17 @@ bool read(const Items& items, const wire::Header& header, CharacterPose& pose, T
     for (std::size_t i = 0; i < items.size(); ++i) {
         const SegmentPose segment = toPose(items[i]);
         const auto position = static_cast<std::size_t>(placement.positions[i]);
-        if (position >= pose.segments.size() || pose.isPresent(position) || !isPlace(segment.position) ||
-            !segment.orientation.coeffs().allFinite()) {
+        if (position >= pose.segments.size() || pose.isPresent(position)) {
             continue;
         }
-        pose.segments[position] = segment;
-        pose.sources[position] = {Provenance::Sent, isTurned(items[i]) ? Provenance::Sent : Provenance::None};
+        SegmentSource& source = pose.sources[position];
+        source.isBroken = true;
+        if (isPlace(segment.position) && segment.orientation.coeffs().allFinite()) {
+            pose.segments[position] = segment;
+            source.position = Provenance::Sent;
+            source.orientation = isTurned(items[i]) ? Provenance::Sent : Provenance::None;
+            source.isBroken = !isTurned(items[i]);
+        }
     }
     return true;
 }
@@ -212,8 +218,10 @@ bool complete(const BodyOrigins& body, CharacterPose& pose) {
     pose.isPlaceAssumed = solved.isPlaceAssumed;
     for (std::size_t i = 0; i < kBodySegments; ++i) {
         if (!isWhole(pose.sources[i])) {
+            const bool isBroken = pose.sources[i].isBroken;
             pose.segments[i] = solved.segments[i];
             pose.sources[i] = solved.sources[i];
+            pose.sources[i].isBroken = isBroken;
         }
     }
     return true;
@@ -292,12 +300,13 @@ int ItemPlaces::positionOf(std::size_t item, std::optional<std::uint32_t> id) co
     const int place = first ? *first + static_cast<int>(item) : -1;
     const bool isFootOfE = !isCounted && place == segment::kLeftFoot && id == kFootOfE;
     const bool isOfBody = id && *id >= 1 && *id <= static_cast<std::uint32_t>(kBodySegmentCount);
-    return isOfBody && !isFootOfE ? static_cast<int>(*id) - 1 : place;
+    return isOfBody && !isFootOfE && !isFromZero ? static_cast<int>(*id) - 1 : place;
 }
 
 ItemPlaces itemPlaces(const wire::Header& header, std::size_t items, std::optional<std::uint32_t> firstId) {
+    const bool isFromZero = header.datagramIndex() == 0 && firstId == 0U;
     if (header.datagramIndex() == 0 && header.isLast()) {
-        return {segmentLayout(header, items), 0, header.countedSegments() != 0};
+        return {segmentLayout(header, items), 0, header.countedSegments() != 0, isFromZero};
     }
     std::optional<int> first;
     if (header.datagramIndex() == 0) {
@@ -307,7 +316,7 @@ ItemPlaces itemPlaces(const wire::Header& header, std::size_t items, std::option
     }
     const std::size_t seen = static_cast<std::size_t>(first.value_or(0)) + items;
     return {segmentLayout(header, std::max<std::size_t>(seen, header.countedSegments())), first,
-            header.countedSegments() != 0};
+            header.countedSegments() != 0, isFromZero};
 }
 
 bool isOfObjects(const wire::Header& header, std::span<const std::uint32_t> ids) {

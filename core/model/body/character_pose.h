@@ -50,14 +50,16 @@ struct ItemPlaces {
     SegmentLayout layout;       ///< of the whole message, as far as this datagram shows it
     std::optional<int> first{}; ///< place of the first item, the others follow; empty if it is not known
     bool isCounted = false;     ///< the header has counts, as those of newer senders do
+    bool isFromZero = false;    ///< its IDs begin at 0, where they should at 1
 
     /// The one rule for which segment an item is about, as its position in a whole pose: an id of the body
     /// names its segment; props and fingers, and what has no id, go by place. Revision E gives the left foot
-    /// the id of the left toe. -1 if nothing is known.
+    /// the id of the left toe; where ids begin at 0 all go by place. -1 if nothing is known.
     [[nodiscard]] int positionOf(std::size_t item, std::optional<std::uint32_t> id) const;
 };
 /// The first datagram of a sample begins with the pelvis; a later one with what its first item's id names,
-/// since ids count the items of the message from 1. `firstId` is empty where items have no such id.
+/// since ids count the items of the message from 1. `firstId` is empty where items have no such id, or it
+/// plays no part.
 [[nodiscard]] ItemPlaces itemPlaces(const wire::Header& header, std::size_t items,
                                     std::optional<std::uint32_t> firstId);
 

@@ -49,10 +49,18 @@ words::Kind partsKind(const CharacterPose& pose) {
 
 void addMissing(const CharacterPose& pose, PoseRemark& remark) {
     using enum words::Kind;
-    const auto assumed = segmentsWhere(
-        pose, [](const SegmentSource& source) { return source.weaker() == Provenance::Assumed; });
-    const auto solved = segmentsWhere(
-        pose, [](const SegmentSource& source) { return source.weaker() == Provenance::Solved; });
+    const auto are = [&pose](Provenance provenance) {
+        return segmentsWhere(pose, [provenance](const SegmentSource& source) {
+            return source.weaker() == provenance && !source.isBroken;
+        });
+    };
+    const auto assumed = are(Provenance::Assumed);
+    const auto solved = are(Provenance::Solved);
+    const auto broken = segmentsWhere(pose, [](const SegmentSource& source) { return source.isBroken; });
+    if (!broken.empty()) {
+        remark.lines.push_back(ofSegments(SegmentsBroken, pose, broken));
+        remark.reason = remark.lines.back();
+    }
     const bool isWhole = hasWholePoses(pose.type);
     // Type 05 is solved by design, and types in parts have said so.
     if (isWhole && pose.type != wire::PoseUnity::kType && !solved.empty()) {
@@ -62,7 +70,7 @@ void addMissing(const CharacterPose& pose, PoseRemark& remark) {
         remark.lines.push_back(ofSegments(isWhole ? SegmentsAssumed : TurnsAssumed, pose, assumed));
         remark.reason = remark.reason.isNothing() ? remark.lines.back() : remark.reason;
     }
-    remark.isAssumed = !assumed.empty() || pose.isPlaceAssumed;
+    remark.isAssumed = !assumed.empty() || !broken.empty() || pose.isPlaceAssumed;
     if (remark.isAssumed || !solved.empty()) {
         remark.brief = {remark.isAssumed ? PartlyAssumed : PartlySolved};
     }

@@ -19,6 +19,8 @@ struct SegmentSource {
     Provenance orientation = Provenance::None;
     /// The direction of the segment is known, how it is turned about itself is not.
     bool isTwistAssumed = false;
+    /// It was sent, and is of no use: not finite, or a quaternion of no length.
+    bool isBroken = false;
 
     [[nodiscard]] constexpr Provenance weaker() const { return std::min(position, orientation); }
     friend constexpr bool operator==(const SegmentSource&, const SegmentSource&) = default;

@@ -10,19 +10,20 @@ inline constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
 inline constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 inline constexpr double kGravity = 9.81; ///< m/s²
 
-enum class LengthUnit : std::uint8_t { Metre, Centimetre };
+enum class LengthUnit : std::uint8_t { Metre, Centimetre, Millimetre };
 /// Of a right-handed frame.
 enum class UpAxis : std::uint8_t { Z, Y };
 
 /// Metres per wire unit.
 constexpr double metresPer(LengthUnit unit) {
-    return unit == LengthUnit::Metre ? 1.0 : 0.01;
+    return unit == LengthUnit::Metre ? 1.0 : unit == LengthUnit::Centimetre ? 0.01 : 0.001;
 }
 
-/// Metres or centimetres, by a length of about a human's size in wire units, such as the height of a pelvis
-/// or how far the segments reach from it: nobody is five metres tall.
+/// The unit of a length of about a human's size, such as the height of a pelvis or how far the segments reach
+/// from it: nobody is five metres tall.
 constexpr LengthUnit detectLengthUnit(double length) {
-    return length > 5.0 || length < -5.0 ? LengthUnit::Centimetre : LengthUnit::Metre;
+    const double size = length < 0 ? -length : length;
+    return size > 500.0 ? LengthUnit::Millimetre : size > 5.0 ? LengthUnit::Centimetre : LengthUnit::Metre;
 }
 
 } // namespace posewire::model

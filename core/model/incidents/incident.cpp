@@ -95,12 +95,17 @@ IncidentSeverity Incident::severity() const {
     const bool isGrave =
         (isLoss && limit > 0 && value > limit) ||
         (isLoss && std::ranges::any_of(parts, [](const Part& part) { return part.lastMany.has_value(); })) ||
-        (kind == IncidentKind::Outage && value >= kLongSilenceS);
+        (kind == IncidentKind::Outage && value >= kLongSilenceS) ||
+        (kind == IncidentKind::Content && factsOf(what).isGrave);
     return isGrave ? IncidentSeverity::Error : factsOf(kind).severity;
 }
 
 IncidentGroup Incident::group() const {
     return factsOf(kind).group;
+}
+
+bool Incident::lasts() const {
+    return factsOf(kind).lasts && factsOf(what).lasts;
 }
 
 std::string_view nameOf(IncidentKind kind) {

@@ -4,6 +4,7 @@
 #include "core/log/stream_index.h"
 #include "core/log/time.h"
 #include "core/model/accounting/stream_counts.h"
+#include "core/model/incidents/content_fault.h"
 #include "core/model/keys.h"
 #include "core/words/fact.h"
 
@@ -31,6 +32,7 @@ enum class IncidentKind : std::uint8_t {
     Step,
     TimeCode,
     Conflict,
+    Content,
     Scale,
     MetadataChange,
     ScaleChange,
@@ -44,7 +46,7 @@ enum class IncidentKind : std::uint8_t {
     AgeLimit,
     RateLimit,
 };
-inline constexpr std::size_t kIncidentKinds = 24;
+inline constexpr std::size_t kIncidentKinds = 25;
 
 enum class IncidentSeverity : std::uint8_t { Info, Warning, Error };
 enum class IncidentGroup : std::uint8_t { Sender, Loss, Content, Limit };
@@ -59,7 +61,8 @@ enum class IncidentGroup : std::uint8_t { Sender, Loss, Content, Limit };
 /// One thing that happened to one stream, or to a character or sender as a whole.
 struct Occurrence {
     IncidentKind kind = IncidentKind::SourceUp;
-    log::SenderId sender{}; ///< kNoSender where it is of this computer
+    ContentFault what = ContentFault::None; ///< of Content
+    log::SenderId sender{};                 ///< kNoSender where it is of this computer
     std::optional<std::uint8_t> character{};
     std::optional<std::uint8_t> type{}; ///< of the stream, where it is of one
     log::Stamp from{};
@@ -109,6 +112,7 @@ struct Incident {
 
     std::uint64_t number = 0; ///< counted from the beginning of the session
     IncidentKind kind = IncidentKind::SourceUp;
+    ContentFault what = ContentFault::None; ///< of Content
     log::SenderId sender{}; ///< kNoSender if it is of this computer, or of several
     std::optional<LossCause> cause{};
     log::Stamp firstStamp{};
@@ -127,6 +131,8 @@ struct Incident {
 
     [[nodiscard]] IncidentSeverity severity() const;
     [[nodiscard]] IncidentGroup group() const;
+    /// Until it is ended, else until it has been quiet.
+    [[nodiscard]] bool lasts() const;
     /// Nothing unless it is of one alone.
     [[nodiscard]] std::optional<CharacterKey> character() const;
     [[nodiscard]] std::optional<std::uint8_t> type() const;
@@ -181,6 +187,7 @@ inline constexpr std::array<IncidentKindFacts, kIncidentKinds> kIncidentKindTabl
         {K::Step, "rate changed", "step", W::Nothing, S::Warning, G::Sender},
         {K::TimeCode, "time code", "clock", W::Nothing, S::Warning, G::Content},
         {K::Conflict, "two senders", "conflict", W::Nothing, S::Error, G::Sender, false, true},
+        {K::Content, "content", "content", W::Nothing, S::Warning, G::Content, true, true},
         {K::Scale, "contradiction", "scale", W::Nothing, S::Warning, G::Content, true, true},
         {K::MetadataChange, "metadata change", "", W::Nothing, S::Info, G::Content, false, true},
         {K::ScaleChange, "scale change", "", W::NullPoseChanged, S::Info, G::Content, false, true},

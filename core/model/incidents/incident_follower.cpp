@@ -331,17 +331,14 @@ void IncidentFollower::takeChange(IncidentKind kind, const CharacterKey& key, co
     m_incidents.report(one);
 }
 
-void IncidentFollower::takeContradiction(log::SenderId sender, std::optional<std::uint8_t> character,
-                                         log::Stamp stamp, const words::Fact& found) {
-    Occurrence one = Occurrence::at(IncidentKind::Scale, sender, stamp, m_lastPacket);
-    one.character = character;
-    one.detail = found;
+void IncidentFollower::takeCondition(Occurrence one) {
+    one.fromPacket = one.toPacket = m_lastPacket;
     words::clip(one.detail, Incidents::kMostDetailBytes);
     const Incident* known = m_incidents.currentLike(one);
-    if (!found.isNothing() && (known == nullptr || known->detail != one.detail)) {
+    if (!one.detail.isNothing() && (known == nullptr || known->detail != one.detail)) {
         m_incidents.report(one);
-    } else if (found.isNothing() && known != nullptr) {
-        m_incidents.end(known->number, stamp);
+    } else if (one.detail.isNothing() && known != nullptr) {
+        m_incidents.end(known->number, one.to);
     }
 }
 

@@ -54,8 +54,8 @@ public:
     void takeVerdict(Stream& stream, const Verdict& verdict);
     void takeChange(IncidentKind kind, const CharacterKey& key, const log::Packet& packet,
                     words::Fact detail);
-    void takeContradiction(log::SenderId sender, std::optional<std::uint8_t> character, log::Stamp stamp,
-                           const words::Fact& found);
+    /// A condition that lasts for as long as there is something to be said of it, as of `one.to`.
+    void takeCondition(Occurrence one);
 
     std::uint64_t takeLoss(const Loss& loss) override;
     void takeBack(std::uint64_t incident, const log::StreamKey& stream, std::uint64_t samples,

@@ -28,13 +28,15 @@ Incident* hoveringBefore(std::deque<Incident>& incidents, const Occurrence& one)
 } // namespace
 
 Incidents::Episode Incidents::episodeOf(const Occurrence& one) {
-    return {one.sender, one.kind, factsOf(one.kind).isOfCharacter ? one.character : std::nullopt, one.cause};
+    return {one.sender, one.kind, factsOf(one.kind).isOfCharacter ? one.character : std::nullopt, one.cause,
+            one.what};
 }
 
 Incidents::Episode Incidents::episodeOf(const Incident& incident) {
     const auto character = factsOf(incident.kind).isOfCharacter ? incident.character() : std::nullopt;
     return {incident.sender, incident.kind, character ? std::optional(character->character) : std::nullopt,
-            incident.cause};
+            incident.cause,
+            incident.what};
 }
 
 std::deque<Incident>::iterator Incidents::placeOf(std::uint64_t number) {
@@ -82,8 +84,8 @@ std::vector<const Incident*> Incidents::currentOf(log::SenderId sender) const {
 std::vector<const Incident*> Incidents::currentAt(log::Stamp stamp) const {
     std::vector<const Incident*> incidents;
     for (const Incident& incident : m_incidents) {
-        const bool hasLasted = factsOf(incident.kind).lasts ? incident.isCurrent || incident.lastStamp > stamp
-                                                            : incident.lastStamp + kQuiet > stamp;
+        const bool hasLasted = incident.lasts() ? incident.isCurrent || incident.lastStamp > stamp
+                                                : incident.lastStamp + kQuiet > stamp;
         if (incident.firstStamp <= stamp && hasLasted) {
             incidents.push_back(&incident);
         }
@@ -134,6 +136,7 @@ Incident& Incidents::begin(const Occurrence& one) {
     Incident incident;
     incident.number = number;
     incident.kind = one.kind;
+    incident.what = one.what;
     incident.sender = one.sender;
     incident.cause = one.cause;
     incident.firstStamp = one.from;
@@ -376,7 +379,7 @@ void Incidents::retire(log::SenderId sender) {
 void Incidents::advance(log::Stamp stamp) {
     std::erase_if(m_current, [&](const auto& current) {
         Incident& incident = *findOwn(current.second);
-        const bool isOver = !factsOf(incident.kind).lasts && stamp - incident.lastStamp >= kQuiet;
+        const bool isOver = !incident.lasts() && stamp - incident.lastStamp >= kQuiet;
         if (isOver) {
             incident.isCurrent = false;
             changed(incident);

@@ -82,6 +82,7 @@ private:
         IncidentKind kind{};
         std::optional<std::uint8_t> character{};
         std::optional<LossCause> cause{};
+        ContentFault what{};
 
         friend auto operator<=>(const Episode&, const Episode&) = default;
     };

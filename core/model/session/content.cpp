@@ -49,11 +49,23 @@ void Content::take(const Observed& seen) {
     } else if (const auto* part = std::get_if<wire::NullPose>(&seen.datagram->body)) {
         takeNullPose(*part, seen);
     } else if (seen.header->datagramIndex() == 0) {
+        if (hasPoses(seen.header->type()) && seen.character->isConfirmed) {
+            takePose(seen);
+        }
         if (BodyMeasure& body = seen.character->measuredBody;
             !body.isSettled() && hasPoses(seen.header->type()) && seen.character->nullPoses == nullptr) {
             body.add(*seen.datagram, seen.sender->positionUnit(seen.header->type()));
         }
     }
+}
+
+void Content::takePose(const Observed& seen) {
+    Character& character = *seen.character;
+    const NullPose* nullPose =
+        character.isNullPoseUsable ? character.nullPoses->at(seen.packet.number) : nullptr;
+    character.content.take({character.key, seen.packet, *seen.datagram, *seen.stream,
+                            seen.sender->positionUnit(seen.header->type())},
+                           nullPose, m_incidents);
 }
 
 void Content::takeMetadata(const wire::MetaData& message, const Observed& seen) {
@@ -85,8 +97,11 @@ void Content::takeNullPose(const wire::NullPose& part, const Observed& seen) {
     const NullPoseRecord record = history.record(packet.number);
     const bool isWhole = record.pose != nullptr && record.pose->isComplete();
     if (isWhole && record.changed != std::exchange(character.judgedNullPose, record.changed)) {
-        m_incidents.takeContradiction(packet.sender, character.key.character, packet.stamp,
-                                      contradictionOf(record));
+        Occurrence one = Occurrence::at(IncidentKind::Scale, packet.sender, packet.stamp);
+        one.character = character.key.character;
+        one.detail = contradictionOf(record);
+        character.isNullPoseUsable = one.detail.isNothing();
+        m_incidents.takeCondition(std::move(one));
     }
     if (m_nullPoseKeeping.grew(before, history.memoryBytes())) {
         std::vector<NullPoseHistory*> all;
@@ -107,10 +122,12 @@ void Content::lookForContradictions(log::Stamp stamp) {
     for (const Sender& sender : std::as_const(m_roll).senders()) {
         if (sender.isPerforming()) {
             const auto found = m_roll.hasEnded(sender) ? std::vector<words::Fact>() : sender.contradictions();
-            m_incidents.takeContradiction(sender.id, std::nullopt, stamp,
-                                          found.empty() ? words::Fact() : found.front());
+            Occurrence one = Occurrence::at(IncidentKind::Scale, sender.id, stamp);
+            one.detail = found.empty() ? words::Fact() : found.front();
+            m_incidents.takeCondition(std::move(one));
         }
     }
+    m_roll.characters().forEach([&](Character& each) { each.content.rest(each.key, stamp, m_incidents); });
 }
 
 std::size_t Content::metadataBytes() const {

@@ -22,7 +22,7 @@ public:
 
     /// Each datagram that was decoded, of a stream that is followed.
     void take(const Observed& seen);
-    /// Looks whether senders contradict themselves, if it is time again.
+    /// Looks whether senders contradict themselves, and what is not sent any more, if it is time again.
     void lookForContradictions(log::Stamp stamp);
     /// Makes it time.
     void lookAgain() { m_nextContradictions = {}; }
@@ -34,6 +34,7 @@ public:
 private:
     void takeMetadata(const wire::MetaData& message, const Observed& seen);
     void takeNullPose(const wire::NullPose& part, const Observed& seen);
+    void takePose(const Observed& seen);
 
     Roll& m_roll;
     IncidentFollower& m_incidents;

@@ -125,7 +125,9 @@ words::Kind revisionName(Revision revision) {
 }
 
 words::Kind unitName(LengthUnit unit) {
-    return unit == LengthUnit::Metre ? words::Kind::Metres : words::Kind::Centimetres;
+    return unit == LengthUnit::Metre        ? words::Kind::Metres
+           : unit == LengthUnit::Centimetre ? words::Kind::Centimetres
+                                            : words::Kind::Millimetres;
 }
 
 words::Kind upName(UpAxis up) {
@@ -188,7 +190,8 @@ void UnitFinder::add(double height, double reach) {
     const bool hasHeight = height > 0.05;
     const bool hasReach = reach >= 0.1;
     const LengthUnit unit = detectLengthUnit(hasHeight ? height : reach);
-    if ((hasHeight || hasReach) && !(hasHeight && hasReach && detectLengthUnit(reach) != unit)) {
+    const bool isOfBody = hasReach || unit != LengthUnit::Millimetre; // an object may be high up
+    if ((hasHeight || hasReach) && isOfBody && !(hasHeight && hasReach && detectLengthUnit(reach) != unit)) {
         Finder::add(unit,
                     {hasHeight ? words::Kind::PelvisAt : words::Kind::ReachOf,
                      {{"value", words::Number{hasHeight ? height : reach, 2}}}},

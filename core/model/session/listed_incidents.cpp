@@ -128,7 +128,7 @@ bool hasCeased(const SessionView& session, const Incident& incident) {
     }
     const bool isLoss = incident.kind == IncidentKind::Loss || incident.kind == IncidentKind::Local;
     const log::Stamp known = isLoss ? session.accounts().judgedUntil() : session.knownUntil();
-    return !factsOf(incident.kind).lasts &&
+    return !incident.lasts() &&
            known - incident.lastStamp >= std::clamp(kPatience * between, kLeast, Incidents::kQuiet);
 }
 

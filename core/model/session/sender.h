@@ -7,6 +7,7 @@
 #include "core/model/accounting/count_history.h"
 #include "core/model/accounting/stream.h"
 #include "core/model/body/body_measure.h"
+#include "core/model/content/content_watch.h"
 #include "core/model/keys.h"
 #include "core/model/session/detection.h"
 #include "core/model/session/metadata.h"
@@ -83,8 +84,11 @@ struct Character {
     std::size_t ordinal = 0;              ///< for default colours alone; that of `before`, where there is one
     Metadata metadata;
     std::shared_ptr<NullPoseHistory> nullPoses; ///< null until a scale message has come
-    log::Stamp judgedNullPose{}; ///< when the null pose first came that was last looked at for contradictions
-    BodyMeasure measuredBody;    ///< for as long as no scale message has come
+    /// When the null pose first came that was last looked at for contradictions.
+    std::optional<log::Stamp> judgedNullPose{};
+    bool isNullPoseUsable = false; ///< the newest is whole, and does not contradict itself
+    ContentWatch content;
+    BodyMeasure measuredBody; ///< for as long as no scale message has come
     log::Stamp lastStamp{};
     bool isConfirmed = true; ///< else its datagrams are counted, and it is on no list of performers
     std::uint64_t firstPacket = 0;

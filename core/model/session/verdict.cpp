@@ -21,9 +21,11 @@ namespace {
 
 using State = ListedIncident::State;
 
-/// Of errors that go on: whoever sends nothing, or is sent twice, is worse off than one who loses some.
+/// Of errors that go on: whoever sends nothing or what is of no use, or is sent twice, is worse off than one
+/// who loses some.
 int gravityOf(const Incident& incident) {
-    return incident.kind == IncidentKind::Outage ? 2 : incident.kind == IncidentKind::Conflict ? 1 : 0;
+    const bool isUnusable = incident.kind == IncidentKind::Conflict || incident.kind == IncidentKind::Content;
+    return incident.kind == IncidentKind::Outage ? 2 : isUnusable ? 1 : 0;
 }
 
 /// By how bad it is: what goes on before what is over.
@@ -311,20 +313,22 @@ private:
         return grave.empty() ? all : all.of(grave);
     }
 
-    /// With those of others beside an outage or a conflict, that go on as it does, or were at the same time:
-    /// who is silent, or sent twice, is named whole, since the first was and until the last.
+    /// With those of others beside an outage, a conflict or what is of no use, that go on as it does, or were
+    /// at the same time: who is silent, or sent twice, is named whole, since the first was and until the
+    /// last.
     [[nodiscard]] std::vector<ListedIncident> besides(const ListedIncident& worst, bool isOfOne) const {
         std::vector<ListedIncident> together{worst};
         const Incident& own = worst.incident;
-        if (isOfOne || (own.kind != IncidentKind::Outage && own.kind != IncidentKind::Conflict)) {
+        if (isOfOne || (own.kind != IncidentKind::Outage && own.kind != IncidentKind::Conflict &&
+                        own.kind != IncidentKind::Content)) {
             return together;
         }
         for (const ListedIncident& one : m_listed) {
             const Incident& other = one.incident;
             const bool isBeside = worst.state == State::Ongoing ||
                                   (other.firstStamp <= own.lastStamp && other.lastStamp >= own.firstStamp);
-            if (other.kind == own.kind && one.state == worst.state && other.number != own.number &&
-                isBeside) {
+            if (other.kind == own.kind && other.what == own.what && one.state == worst.state &&
+                other.number != own.number && isBeside) {
                 together.push_back(one);
                 Incident& all = together.front().incident;
                 all.firstStamp = std::min(all.firstStamp, other.firstStamp);

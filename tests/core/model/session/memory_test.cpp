@@ -191,7 +191,8 @@ TEST_F(MemoryTest, OfManyStreamsIsThatOfAFewHundred) {
 
 TEST_F(MemoryTest, OfIncompleteSamplesIsBoundedWhereStampsStandStill) {
     for (std::uint32_t sample = 1; sample < 300'000; ++sample) {
-        send(wire::CentreOfMass{}, sample, static_cast<std::uint8_t>(sample % 200), 0);
+        const std::uint8_t counter = sample <= 200 ? 0x80 : 0; // they do mark the last datagram
+        send(wire::CentreOfMass{}, sample, static_cast<std::uint8_t>(sample % 200), counter);
     }
     follow();
     EXPECT_LE(bytesOf("accounting"), std::size_t{200} << 20);

@@ -46,8 +46,11 @@ protected:
 
     void follow() { m_session.follow(m_now); }
 
-    /// A character whose pelvis is at (x, 0, 1), everything else as in the reference null pose.
+    /// A character whose pelvis is at (x, 0, 1), everything else as in the reference null pose; never twice
+    /// the same, as living bodies are.
     static wire::PoseQuaternion standingAt(float x) {
+        static unsigned sway = 0;
+        x += 1e-6F * static_cast<float>(++sway % 4);
         wire::PoseQuaternion pose;
         std::uint32_t id = 0;
         for (const Eigen::Vector3d& origin : referenceOrigins()) {
