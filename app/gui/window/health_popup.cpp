@@ -159,7 +159,7 @@ private:
         const auto troubles = m_session.verdicts().troublesOf(m_key);
         for (std::size_t i = 0; i < std::min(kMostLines, troubles.size()); ++i) {
             const model::Incident& event = *troubles[i];
-            QString text = said(event.of(m_key.character).fact(), words::Form::Sentence);
+            QString text = said(event.of(m_key).fact(), words::Form::Sentence);
             if (const auto type = event.type()) {
                 text.prepend(tr("Type %1: ").arg(*type, 2, 10, QLatin1Char('0')));
             }

@@ -19,8 +19,8 @@ protected:
         gap.number = 7;
         gap.kind = model::IncidentKind::Loss;
         gap.sender = log.senders().intern({"192.168.10.21:52011", log::Transport::Udp, 9763});
-        gap.parts.push_back({1, 2});
-        gap.parts.push_back({3, 21});
+        gap.parts.push_back({gap.sender, 1, 2});
+        gap.parts.push_back({gap.sender, 3, 21});
         gap.firstStamp = log::stampOf(1'700'000'000'000'000'001);
         gap.lastStamp = log::stampOf(1'700'000'003'500'000'000);
         gap.firstPacket = 10;

@@ -52,8 +52,8 @@ protected:
             event.kind = static_cast<model::IncidentKind>(i % model::kIncidentKinds);
             event.sender = static_cast<log::SenderId>(pick(3));
             if (pick(2) == 1) {
-                event.parts.push_back(
-                    {static_cast<std::uint8_t>(pick(256)), static_cast<std::uint8_t>(1 + pick(25))});
+                event.parts.push_back({event.sender, static_cast<std::uint8_t>(pick(256)),
+                                       static_cast<std::uint8_t>(1 + pick(25))});
             }
             event.firstStamp = log::stampOf(static_cast<std::int64_t>(m_random() >> 2));
             event.lastStamp = event.firstStamp + log::Duration(pick(10'000'000'000));

@@ -138,11 +138,11 @@ TEST_F(IncidentModelTest, AGapLeadsToItsPackets) {
 TEST_F(IncidentModelTest, NamesACharacterThatTheSessionDoesNotKnowByItsId) {
     model::Incident event;
     event.sender = log::SenderId{77};
-    event.parts.push_back({3, {}});
+    event.parts.push_back({event.sender, 3, {}});
     EXPECT_EQ(whoseWords(m_stage.session, event), "Character 3");
     event.parts.front().type = 2;
     EXPECT_EQ(whoseWords(m_stage.session, event), "Character 3 · 02");
-    event.parts.push_back({4, 2});
+    event.parts.push_back({event.sender, 4, 2});
     EXPECT_EQ(whoseWords(m_stage.session, event), "2 characters · 02");
 }
 

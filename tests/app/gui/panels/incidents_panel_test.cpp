@@ -139,7 +139,7 @@ TEST_F(IncidentsPanelTest, ListsTheIncidentsOfACharacterEachTimeTheyAreAskedFor)
         loss = one.kind == model::IncidentKind::Loss ? &one : loss;
     }
     ASSERT_NE(loss, nullptr);
-    const model::CharacterKey key{loss->sender, *loss->character()};
+    const model::CharacterKey key = *loss->character();
     for (int time = 0; time < 2; ++time) {
         m_stage.commands.showIncident(loss->number, key);
         m_panel.refresh();
