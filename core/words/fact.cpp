@@ -71,7 +71,7 @@ std::size_t memoryBytes(const Fact& fact) {
 }
 
 Fact sharedFact(std::uint8_t datagrams) {
-    constexpr std::uint8_t kMost = 7;
+    constexpr std::uint8_t kMost = 7; // more are not counted
     const std::string count = std::to_string(datagrams) + (datagrams < kMost ? "" : " or more");
     return {Kind::SharedPacket, {{"n", count}}};
 }

@@ -53,8 +53,6 @@ enum class Kind : std::uint16_t {
     NotMxtp,
     Restarted,
     OtherPort,
-    OtherId,
-    SharedPacket,
     StepChanged,
     StepIrregular,
     RateChanged,
@@ -78,6 +76,7 @@ enum class Kind : std::uint16_t {
     PoseFrozen, AnnouncedMissing, FingerSegments, OrientationsZero, OrientationsFar, NumbersNotFinite,
     PositionsAbsurd, NumbersSwapped, PelvisJumped, UnitLooks, IdsFromZero, IdsRepeat, ConventionLooks,
     ConventionUnknown, QuaternionXyzw, QuaternionInverse, UnityAxes, AllMirrored, PlacesMirrored,
+    LastNeverSet, OtherId, SharedPacket,
     // clang-format on
     Overtaken,
     RelayStopped,
@@ -296,7 +295,6 @@ void clip(Fact& fact, std::size_t most);
 }
 /// "type 02", "types 02, 12 and 20".
 [[nodiscard]] Fact typesFact(const std::vector<std::uint8_t>& types);
-/// "2 datagrams in one packet"; seven or more are "7 or more".
 [[nodiscard]] Fact sharedFact(std::uint8_t datagrams);
 
 } // namespace posewire::words

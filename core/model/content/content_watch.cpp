@@ -145,6 +145,8 @@ void ContentWatch::take(const Sample& sample, const NullPose* nullPose, Incident
     unit.looks = words::Kind::Millimetres;
     unit.value = nullPose != nullptr ? 1 / metresPer(sample.unit) : 0;
     noteOrClear(sample, unit, isInOtherUnit, stamp, incidents);
+    noteOrClear(sample, {ContentFault::Framing, words::Kind::LastNeverSet},
+                sample.stream.accounting.isUnframed(), stamp, incidents);
     if (!checks.isOfObjects && isMostTelling(place, stamp)) {
         checkFrozen(sample, known, checks.isUnusable, incidents);
         const Eigen::Vector3d where =
@@ -169,13 +171,18 @@ void ContentWatch::checkFrozen(const Sample& sample, OfType& known, bool isUnusa
                 incidents);
 }
 
-/// A damaged datagram jumps there and back: one that jumped stays where it is in the next sample.
+/// A damaged datagram jumps there and back: one that jumped was in one place before, and stays where it is in
+/// the next sample.
 void ContentWatch::checkJump(const Sample& sample, OfType& known, const Eigen::Vector3d& place,
                              IncidentFollower& incidents) {
+    const bool isOtherFrame = std::exchange(known.unit, sample.unit) != sample.unit ||
+                              std::exchange(known.up, sample.up) != sample.up;
+    known.first = isOtherFrame ? kNowhere : known.first; // they were recognised, nothing has moved
     const double metres = (place - known.first).norm();
     if (known.jump && (place - known.jumpedTo).norm() < kFar) {
         incidents.report(*known.jump);
-    } else if (isTooFar(metres, sample, sample.datagram.header.sampleCounter - known.sample)) {
+    } else if (known.isSteady &&
+               isTooFar(metres, sample, sample.datagram.header.sampleCounter - known.sample)) {
         ContentFinding finding{ContentFault::Jump, words::Kind::PelvisJumped};
         finding.value = metres;
         known.jump =
@@ -186,6 +193,7 @@ void ContentWatch::checkJump(const Sample& sample, OfType& known, const Eigen::V
         return; // until it is known to which of the two it goes on from
     }
     known.jump.reset();
+    known.isSteady = metres < kFar;
     known.first = place;
 }
 

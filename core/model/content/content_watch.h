@@ -30,6 +30,7 @@ public:
         const wire::Datagram& datagram;
         const Stream& stream;
         LengthUnit unit = LengthUnit::Metre; ///< of its positions
+        UpAxis up = UpAxis::Z;               ///< as it was sent
     };
     /// The first datagram of each sample of a type that holds poses. `nullPose`: the newest that is whole and
     /// does not contradict itself, null if there is none.
@@ -57,6 +58,9 @@ private:
         log::Stamp seen{};                ///< 0: none yet
         log::Stamp changed{};             ///< when this pose came first
         Eigen::Vector3d first = kNowhere; ///< where its first segment was, in metres
+        bool isSteady = false;            ///< so was the sample before
+        LengthUnit unit = LengthUnit::Metre;
+        UpAxis up = UpAxis::Z;
         std::optional<Occurrence> jump{}; ///< from there, unless the next sample is back
         Eigen::Vector3d jumpedTo = kNowhere;
         std::uint8_t mostBodyItems = 0;

@@ -64,7 +64,7 @@ void Content::takePose(const Observed& seen) {
     const NullPose* nullPose =
         character.isNullPoseUsable ? character.nullPoses->at(seen.packet.number) : nullptr;
     character.content.take({character.key, seen.packet, *seen.datagram, *seen.stream,
-                            seen.sender->positionUnit(seen.header->type())},
+                            seen.sender->positionUnit(seen.header->type()), seen.sender->up()},
                            nullPose, m_incidents);
 }
 
