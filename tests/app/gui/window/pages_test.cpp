@@ -54,7 +54,8 @@ protected:
         auto sender = net::DatagramSender::connect(
             {{"127.0.0.1", m_driver.receiving().openPort()}, net::SendTarget::Transport::Udp});
         ASSERT_TRUE(sender);
-        const std::uint64_t end = m_driver.commands().live().end() + last - first;
+        const std::uint64_t end =
+            m_driver.commands().live().end() + wire::countDatagrams(frames(first, last));
         for (std::uint64_t frame = first; frame < last; ++frame) {
             ASSERT_TRUE(sender->send(frames(frame, frame + 1)));
         }
@@ -172,10 +173,11 @@ TEST_F(PagesTest, TheClockAndTheStripTellTheSameMomentOfThePast) {
     QTest::qWait(20);
     auto sender = net::DatagramSender::connect(
         {{"127.0.0.1", m_driver.receiving().openPort()}, net::SendTarget::Transport::Udp});
+    const std::uint64_t before = m_driver.commands().live().end();
     ASSERT_TRUE(sender && sender->send(std::vector(10, std::byte{7})));
     ASSERT_TRUE(QTest::qWaitFor([&] {
         m_driver.tick();
-        return m_driver.commands().live().end() == 5;
+        return m_driver.commands().live().end() == before + 1;
     }));
     m_driver.playback().setPaused(true);
     m_driver.tick();

@@ -16,7 +16,7 @@ protected:
     }
     /// Another character of the same sender.
     void poseOfOther(std::uint32_t sample, std::uint8_t character = 1) {
-        wire::Datagram datagram{{}, standingAt(0), {}};
+        wire::Datagram datagram{{}, swayingAt(0, sample), {}};
         datagram.header.sampleCounter = sample;
         datagram.header.character = character;
         datagram.header.timeCode = static_cast<std::uint32_t>(m_at.time_since_epoch() / 1ms);
@@ -162,7 +162,7 @@ TEST_F(IncidentBounds, ATimeCodeJumpsByMoreThanHalfASecond) {
         const log::SenderId sender = log.senders().intern({"10.0.0.1:1", log::Transport::Udp, 9763});
         for (std::uint32_t i = 0; i < 200; ++i) {
             const log::Stamp stamp = at(100s + i * 10ms);
-            wire::Datagram datagram{{}, standingAt(0), {}};
+            wire::Datagram datagram{{}, swayingAt(0, i), {}};
             datagram.header.sampleCounter = i;
             const log::Duration shown = stamp.time_since_epoch() + (i >= 100 ? off : log::Duration());
             datagram.header.timeCode = static_cast<std::uint32_t>(shown / 1ms);
@@ -220,7 +220,7 @@ TEST_F(IncidentBounds, TwoSendersMaySendDifferentCharactersOrTypes) {
         datagram.header.sampleCounter = sample;
         wire::completeHeader(datagram, wire::HeaderEra::Counted);
         sendBytes(*wire::encode(datagram), m_at, "127.0.0.1:40002");
-        datagram = {{}, standingAt(0), {}};
+        datagram = {{}, swayingAt(0, sample), {}};
         datagram.header.sampleCounter = sample;
         datagram.header.character = 1;
         wire::completeHeader(datagram, wire::HeaderEra::Counted);

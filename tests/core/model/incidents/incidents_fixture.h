@@ -15,7 +15,7 @@ class IncidentsTest : public SessionTest {
 protected:
     void pose(std::uint32_t sample, const std::string& address = "127.0.0.1:40001") {
         wire::Datagram datagram;
-        datagram.body = standingAt(0);
+        datagram.body = swayingAt(0, sample);
         datagram.header.sampleCounter = sample;
         datagram.header.character = m_character;
         datagram.header.timeCode =

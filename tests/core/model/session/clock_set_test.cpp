@@ -21,7 +21,7 @@ protected:
 
     void sendUntil(std::uint32_t end) {
         for (; m_sample < end; ++m_sample) {
-            send(standingAt(0), m_sample, at(kBegin + m_sample * kPeriod));
+            send(swayingAt(0, m_sample), m_sample, at(kBegin + m_sample * kPeriod));
         }
         follow();
     }

@@ -17,7 +17,7 @@ protected:
     /// One sample of a character in types 02 and 20, or in the first alone.
     void sample(std::uint8_t character, std::uint32_t number, bool isWhole,
                 const std::string& address = "127.0.0.1:40001") {
-        one(character, number, standingAt(0), address);
+        one(character, number, swayingAt(0, number), address);
         if (isWhole) {
             one(character, number, wire::JointAngles{}, address);
         }
@@ -36,7 +36,7 @@ protected:
     }
 
     /// The first of several datagrams of a sample of type 02.
-    void part(std::uint32_t number) { one(0, number, standingAt(0), "127.0.0.1:40001", 0x00); }
+    void part(std::uint32_t number) { one(0, number, swayingAt(0, number), "127.0.0.1:40001", 0x00); }
 
 private:
     void one(std::uint8_t character, std::uint32_t number, wire::Body body, const std::string& address,

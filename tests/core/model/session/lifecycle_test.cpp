@@ -139,7 +139,7 @@ TEST_F(LifecycleTest, WhatWasForgottenKeepsItsNameInWhatIsToldOfIt) {
     metadata.text = "name:Jonas\n";
     send(metadata, 0, m_at);
     for (std::uint32_t sample = 1; sample <= 200; ++sample, m_at += 10ms) {
-        send(standingAt(0), sample == 100 ? 90 : sample, m_at);
+        send(swayingAt(0, sample), sample == 100 ? 90 : sample, m_at);
     }
     follow();
     const CharacterKey jonas = key();

@@ -71,7 +71,7 @@ TEST_F(EvidenceTest, IsNothingOfAnUnknownCharacter) {
 
 TEST_F(EvidenceTest, CountsForHowLongPosesHaveCome) {
     for (std::uint32_t i = 0; i <= 1'200; ++i) {
-        send(standingAt(0), i, at(5s) + i * 10ms);
+        send(swayingAt(0, i), i, at(5s) + i * 10ms);
     }
     EXPECT_DOUBLE_EQ(evidence().poseSeconds, 12);
     ASSERT_TRUE(evidence().layout.has_value());
@@ -203,7 +203,7 @@ TEST_F(ScaleFindings, NoteThatTheTypesHaveDifferentNumbersOfSegments) {
 TEST_F(ScaleFindings, SayThatOnlyTheDeprecatedTypeWasSent) {
     send(scaleOf(23), 0, at(1s));
     for (std::uint32_t i = 0; i <= 100; ++i) {
-        send(standingAt(0), i, at(1s) + i * 100ms);
+        send(swayingAt(0, i), i, at(1s) + i * 100ms);
     }
     const auto found = findings();
     ASSERT_EQ(found.size(), 1U);
@@ -216,7 +216,7 @@ TEST_F(EvidenceTest, IsAnIncidentOfItsCharacterWhereItContradictsItself) {
     wrong.segments[17].name = "Pelvis";
     const auto poses = [this](std::uint32_t first, std::uint32_t last) {
         for (std::uint32_t sample = first; sample <= last; ++sample) {
-            sendFrom("127.0.0.1:40001", standingAt(0), sample, at(1s + sample * 10ms));
+            sendFrom("127.0.0.1:40001", swayingAt(0, sample), sample, at(1s + sample * 10ms));
         }
         follow();
     };

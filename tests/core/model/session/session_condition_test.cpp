@@ -27,7 +27,7 @@ protected:
     /// Poses 10 ms apart, as of a sender whose header is of an era.
     void poses(std::uint32_t first, std::uint32_t count, wire::HeaderEra era = wire::HeaderEra::Counted) {
         for (std::uint32_t i = 0; i < count; ++i, m_at += 10ms) {
-            wire::Datagram datagram{{}, standingAt(0), {}};
+            wire::Datagram datagram{{}, swayingAt(0, i), {}};
             datagram.header.sampleCounter = first + i;
             wire::completeHeader(datagram, era);
             sendBytes(*wire::encode(datagram), m_at);

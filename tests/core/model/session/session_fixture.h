@@ -46,11 +46,13 @@ protected:
 
     void follow() { m_session.follow(m_now); }
 
-    /// A character whose pelvis is at (x, 0, 1), everything else as in the reference null pose; never twice
-    /// the same, as living bodies are.
+    /// Never twice the same, as living bodies are.
+    static wire::PoseQuaternion swayingAt(float x, std::uint32_t sample) {
+        return standingAt(x + 1e-6F * static_cast<float>(1 + sample % 1000));
+    }
+
+    /// A character whose pelvis is at (x, 0, 1), everything else as in the reference null pose.
     static wire::PoseQuaternion standingAt(float x) {
-        static unsigned sway = 0;
-        x += 1e-6F * static_cast<float>(++sway % 4);
         wire::PoseQuaternion pose;
         std::uint32_t id = 0;
         for (const Eigen::Vector3d& origin : referenceOrigins()) {

@@ -210,7 +210,7 @@ TEST_F(SessionTest, KeepsWhatIsHiddenWithTheChoices) {
 
 TEST_F(SessionTest, VisitsMessagesOldestFirstUpToTheCursor) {
     for (std::uint32_t sample = 0; sample < 10; ++sample) {
-        send(standingAt(0), sample, at(sample * 1s));
+        send(swayingAt(0, sample), sample, at(sample * 1s));
     }
     follow();
     m_session.setCursor({Cursor::Mode::Paused, 7});
@@ -227,7 +227,7 @@ TEST_F(SessionTest, VisitsMessagesOldestFirstUpToTheCursor) {
 TEST_F(SessionTest, FindsThePacketOfATime) {
     EXPECT_EQ(m_session.packetAt(at(1s)), 0U) << "there is none";
     for (std::uint32_t sample = 0; sample < 100; ++sample) {
-        send(standingAt(0), sample, at(1s + sample * 10ms));
+        send(swayingAt(0, sample), sample, at(1s + sample * 10ms));
     }
     follow();
     EXPECT_EQ(m_session.packetAt(at(0s)), 0U);

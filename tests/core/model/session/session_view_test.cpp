@@ -205,11 +205,11 @@ TEST_F(ViewTest, SumsWhatItsStreamsCount) {
     for (std::uint32_t sample = 1; sample <= 200; ++sample) {
         const log::Stamp stamp = at(10s) + sample * 10ms;
         if (sample % 20 != 0) {
-            send(standingAt(0), sample, stamp);
+            send(swayingAt(0, sample), sample, stamp);
         }
         sendFrom("127.0.0.1:40001", wire::CentreOfMass{}, sample, stamp, 1);
-        sendFrom("10.0.0.7:1", standingAt(0), sample, stamp);
-        sendFrom("10.0.0.7:1", standingAt(0), sample, stamp); // twice
+        sendFrom("10.0.0.7:1", swayingAt(0, sample), sample, stamp);
+        sendFrom("10.0.0.7:1", swayingAt(0, sample), sample, stamp); // twice
     }
     follow();
     const CharacterKey other{sender("10.0.0.7:1"), 0};
@@ -410,8 +410,8 @@ TEST_F(ViewTest, AJumpStopsAtItsPacketAndIsUndoneWithTheMomentThereWas) {
 /// A sample may come in several datagrams.
 TEST_F(ViewTest, StepsFromSampleToSample) {
     for (std::uint32_t sample = 1; sample <= 4; ++sample) { // packets 0 to 7
-        send(standingAt(0), sample, at(sample * 1s), 0);
-        send(standingAt(0), sample, at(sample * 1s), 0x81);
+        send(swayingAt(0, sample), sample, at(sample * 1s), 0);
+        send(swayingAt(0, sample), sample, at(sample * 1s), 0x81);
     }
     follow();
     const log::StreamKey stream{sender(), 0, wire::PoseQuaternion::kType};

@@ -29,7 +29,7 @@ protected:
     }
     /// The same as pose(), of the character with the ID 1.
     void poseOfOther(std::uint32_t sample, const std::string& address = "127.0.0.1:40001") {
-        wire::Datagram datagram{{}, standingAt(0), {}};
+        wire::Datagram datagram{{}, swayingAt(0, sample), {}};
         datagram.header.sampleCounter = sample;
         datagram.header.character = 1;
         datagram.header.timeCode = static_cast<std::uint32_t>(m_at.time_since_epoch() / 1ms);

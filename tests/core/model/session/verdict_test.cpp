@@ -66,22 +66,22 @@ TEST_F(VerdictTest, IsNotGoodWhereOnlyThePoseIsNotSentAnyMore) {
 }
 
 TEST_F(VerdictTest, CallsNoBodyGoodThatIsPartlyAssumed) {
-    wire::PoseQuaternion pose = standingAt(0);
-    pose.segments[segment::kHead].orientation[1] = std::numeric_limits<float>::quiet_NaN();
     for (std::uint32_t sample = 1; sample <= 100; ++sample, m_at += 10ms) {
+        wire::PoseQuaternion pose = swayingAt(0, sample);
+        pose.segments.pop_back();
         send(pose, sample, m_at);
     }
     EXPECT_EQ(verdict().state, State::Warning);
     const words::Fact doubt = partOf(reasonOf(verdict()), "doubt");
     EXPECT_EQ(reason().who, Names{"Character 0"});
     EXPECT_EQ(doubt.kind, Kind::SegmentsAssumed);
-    EXPECT_EQ(namesIn(doubt, "segments"), Names{"Head"});
+    EXPECT_EQ(namesIn(doubt, "segments"), Names{"Left Toe"});
     EXPECT_EQ(partOf(reasonOf(verdict()), "brief").kind, Kind::PartlyAssumed);
     m_session.setCursor({Cursor::Mode::Paused, 3});
     EXPECT_EQ(verdict().state, State::Warning) << "it is of now, whatever the cursor";
     m_session.setCursor({});
     for (std::uint32_t sample = 101; sample <= 110; ++sample, m_at += 10ms) {
-        send(standingAt(0), sample, m_at);
+        send(swayingAt(0, sample), sample, m_at);
     }
     EXPECT_EQ(verdict().state, State::Good);
     m_session.setCursor({Cursor::Mode::Paused, 3});

@@ -274,7 +274,7 @@ TEST_F(VerdictTest, IsBadForWhatACharacterLostAndNotForWhatChanceGaveOneOfItsStr
     const auto lose = [&](std::uint32_t poses, std::uint32_t centres) {
         for (const std::uint32_t end = sample + 2'000; sample < end; ++sample, m_at += 10ms) {
             if (sample % poses != 0) {
-                send(sample, standingAt(0));
+                send(sample, swayingAt(0, sample));
             }
             if (sample % centres != 1) {
                 send(sample, wire::CentreOfMass{});
