@@ -192,7 +192,7 @@ std::string eventsCsv(const EventSheet& sheet) {
             std::string(nameOf(event->severity())),
             std::string(nameOf(event->group())),
             std::string(model::nameOf(event->kind)),
-            model::csvText(sourceOf(sheet.session, *event)),
+            joined(addressesOf(sheet.session, *event), [](const auto& address) { return address.csv(); }),
             joined(event->characters(),
                    [](const model::CharacterKey& one) { return std::to_string(one.character); }),
             joined(event->types(), wire::typeDigits),

@@ -15,7 +15,7 @@ constexpr TypeInfo kRow<PoseEuler>{
 template <>
 constexpr TypeInfo kRow<PoseQuaternion>{"Pose, quaternion", Frame::ZUp, "E–N", "2.5.2",
                                         "Metres on the wire, although the specification says centimetres. It "
-                                        "also allows Y-up; no sender is known to use it."};
+                                        "also allows Y-up: the sender's body shows which."};
 template <>
 constexpr TypeInfo kRow<PointPositions>{
     "Point positions", Frame::YUp, "E–N", "2.5.3",

@@ -477,9 +477,9 @@
     </message>
     <message numerus="yes">
         <source>{n} finger segments</source>
-        <translation type="unfinished">
-            <numerusform></numerusform>
-            <numerusform></numerusform>
+        <translation>
+            <numerusform>{n} finger segment</numerusform>
+            <numerusform>{n} finger segments</numerusform>
         </translation>
     </message>
 </context>

@@ -113,7 +113,7 @@ struct Incident {
     std::uint64_t number = 0; ///< counted from the beginning of the session
     IncidentKind kind = IncidentKind::SourceUp;
     ContentFault what = ContentFault::None; ///< of Content
-    log::SenderId sender{}; ///< kNoSender if it is of this computer, or of several
+    log::SenderId sender{};                 ///< kNoSender if it is of this computer, or of several
     std::optional<LossCause> cause{};
     log::Stamp firstStamp{};
     log::Stamp lastStamp{};

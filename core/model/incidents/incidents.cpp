@@ -35,8 +35,7 @@ Incidents::Episode Incidents::episodeOf(const Occurrence& one) {
 Incidents::Episode Incidents::episodeOf(const Incident& incident) {
     const auto character = factsOf(incident.kind).isOfCharacter ? incident.character() : std::nullopt;
     return {incident.sender, incident.kind, character ? std::optional(character->character) : std::nullopt,
-            incident.cause,
-            incident.what};
+            incident.cause, incident.what};
 }
 
 std::deque<Incident>::iterator Incidents::placeOf(std::uint64_t number) {

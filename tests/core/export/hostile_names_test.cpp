@@ -35,7 +35,7 @@ protected:
         m_history.add(m_part, 0x80, 1, kStart);
         for (std::uint32_t sample = 0; sample < 200; ++sample) {
             if (sample % 20 != 10) {
-                send(standingAt(0), sample, kStart + sample * 4ms);
+                send(swayingAt(0, sample), sample, kStart + sample * 4ms);
             }
         }
         sendBytes(std::as_bytes(std::span("GET /", 5)), kStart + 1s, GetParam());

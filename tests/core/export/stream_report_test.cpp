@@ -55,7 +55,7 @@ protected:
     void stream(std::uint32_t count, std::uint32_t every = 0) {
         for (std::uint32_t sample = 0; sample < count; ++sample) {
             if (every == 0 || sample % every != every / 2) {
-                send(standingAt(0), sample, kStart + after(sample));
+                send(swayingAt(0, sample), sample, kStart + after(sample));
             }
         }
         follow();
@@ -74,7 +74,7 @@ protected:
 TEST_F(StreamReportTest, CountsOneRestartOfAllStreamsOfACharacterOnce) {
     for (std::uint32_t i = 0; i < 500; ++i) {
         const std::uint32_t sample = i < 250 ? 50'000 + i : i;
-        send(standingAt(0), sample, kStart + after(i));
+        send(swayingAt(0, sample), sample, kStart + after(i));
         send(wire::CentreOfMass{}, sample, kStart + after(i));
     }
     follow();
@@ -83,7 +83,7 @@ TEST_F(StreamReportTest, CountsOneRestartOfAllStreamsOfACharacterOnce) {
 
 TEST_F(StreamReportTest, TakesStampsOf1970ForStamps) {
     for (std::uint32_t sample = 0; sample < 10; ++sample) {
-        send(standingAt(0), sample, log::Stamp(after(sample)));
+        send(swayingAt(0, sample), sample, log::Stamp(after(sample)));
     }
     follow();
     EXPECT_THAT(report(), HasSubstr("1970-01-01 00:00:00.000 UTC"));
@@ -114,7 +114,7 @@ TEST_F(StreamReportTest, SaysOfEveryGapWhoseItWas) {
             m_log.writer().append(
                 {}, {kStart + after(sample), sender(), 1, {.skipped = true, .isDropRecord = true}});
         } else if (sample != 200) {
-            send(standingAt(0), sample, kStart + after(sample));
+            send(swayingAt(0, sample), sample, kStart + after(sample));
         }
     }
     follow();

@@ -41,7 +41,7 @@ TEST_F(VerdictLinesTest, TellOfIncidentsThatCameToNothing) {
     for (std::uint32_t sample = 1; sample <= 400; ++sample) {
         const log::Stamp stamp{100s + sample * 10ms};
         if (sample != 300) {
-            send(standingAt(0), sample, stamp);
+            send(swayingAt(0, sample), sample, stamp);
             send(wire::CentreOfMass{}, sample, stamp);
         }
         if (sample == 330) {
