@@ -10,7 +10,7 @@ namespace posewire::system {
 /// Processor time that all threads of this process took so far, in seconds.
 [[nodiscard]] std::optional<double> processCpuSeconds();
 
-/// The same for a running thread; nothing if the system does not report it.
+/// CPU time of a running thread; empty if the system does not report it.
 [[nodiscard]] std::optional<double> threadCpuSeconds(std::thread& thread);
 
 /// Main memory that this process has now, in bytes; nothing if the system does not report it.

@@ -185,10 +185,10 @@ std::string originText(const RecordedOrigin& origin) {
     for (std::size_t i = 0; i < kFlags.size(); ++i) {
         text += said[i] ? kFlags[i] : "";
     }
+    text += origin.flags.stampedByKernel ? "" : kStampedOnReading;
     if (flags.shared != 0) {
         text.append(kShared) += static_cast<char>('0' + flags.shared);
     }
-    text += origin.flags.stampedByKernel ? "" : kStampedOnReading;
     if (origin.setBy != Duration::zero()) {
         text.append(kClockSet).append(secondsText(origin.setBy));
     }
@@ -211,16 +211,15 @@ std::optional<RecordedOrigin> parseOrigin(std::string_view comment) {
     origin.transport = static_cast<Transport>(transport - kTransports.begin());
     std::array<bool, kFlags.size()> said{};
     std::ranges::transform(kFlags, said.begin(), [&](auto words) { return takes(comment, words); });
-    if (takes(comment, kShared) && !comment.empty()) {
-        origin.flags.shared = static_cast<unsigned>(comment.front() - '0') & 7U;
-        comment.remove_prefix(1);
-    }
     origin.flags = {.truncated = said[0],
                     .stampedByKernel = !takes(comment, kStampedOnReading),
                     .skipped = said[1],
                     .isDropRecord = said[2],
-                    .afterClosed = said[3],
-                    .shared = origin.flags.shared};
+                    .afterClosed = said[3]};
+    if (takes(comment, kShared) && !comment.empty()) {
+        origin.flags.shared = static_cast<unsigned>(comment.front() - '0') & PacketFlags::kMostShared;
+        comment.remove_prefix(1);
+    }
     if (takes(comment, kClockSet)) {
         const auto setBy = takeSeconds(comment);
         if (!setBy) {

@@ -4,11 +4,18 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
+#include <string_view>
 
 namespace posewire::wire {
 
 using Bytes = std::span<const std::byte>;
+
+/// Detects equal bytes within one run of the program; not stable across builds.
+[[nodiscard]] inline std::size_t hashOf(Bytes bytes) {
+    return std::hash<std::string_view>{}({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
 
 /// Three 32-bit floats in wire order: x, y, z. The unit is in the layout of the field.
 using Vec3 = std::array<float, 3>;

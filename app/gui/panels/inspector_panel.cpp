@@ -30,7 +30,7 @@ std::shared_ptr<const FieldDocument> documentOf(model::SessionView& view, const 
                                            sender->isYUp(digest->type));
 }
 
-/// What is known of the sender has not changed since.
+/// False once the sender is found to use another unit or axis than the document was read with.
 bool isAsRead(model::SessionView& view, const FieldDocument& document) {
     const model::Sender* sender = view.roster().find(document.sender);
     return sender == nullptr || !document.hasHeader ||

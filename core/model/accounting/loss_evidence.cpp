@@ -20,7 +20,7 @@ constexpr double kPeriodsOfPause = 3.5;
 constexpr log::Duration kPauseAtFirst = std::chrono::milliseconds(250);
 // Hosts fall silent together if they do within this time, and a period of the slower one.
 constexpr log::Duration kTogether = std::chrono::milliseconds(50);
-// Samples further apart than so many periods: the counter stopped during the silence, and none was due in it.
+// If the samples of a gap are further apart than this, the sender's counter stopped during the silence.
 constexpr double kMostPeriodsApart = 3;
 constexpr std::size_t kMostDrops = 4'096;
 constexpr std::size_t kMostDamages = 1'024;

@@ -221,7 +221,7 @@ void SampleSequence::reconsiderStep(CountHistory* history) {
     correctStep(nextStep(differences.all(), newestRun().step), history);
 }
 
-/// What was counted by another step is counted again.
+/// Recounts the newest run with this step.
 void SampleSequence::correctStep(std::uint32_t step, CountHistory* history) {
     if (step == newestRun().step) {
         return;

@@ -73,9 +73,9 @@ public:
     /// How many of the newest samples are remembered. Bursts that this forgets are added to the history.
     void setMost(std::size_t samples, CountHistory* history);
 
-    /// Nothing of it will come any more: a change of step just before is one however few samples followed.
+    /// Ends the sequence. A change of step near its end counts even if only a few samples followed it.
     void conclude(CountHistory* history);
-    /// The same is over: adds the newest bursts to the history and forgets everything.
+    /// Adds the newest bursts to the history and forgets everything.
     void clear(CountHistory* history);
 
 private:

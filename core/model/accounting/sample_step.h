@@ -26,9 +26,8 @@ inline constexpr std::size_t kStepHistory = 128;
 /// once kStepDifferences differences are known; until then every difference decides afresh.
 [[nodiscard]] std::uint32_t nextStep(std::span<const std::uint32_t> differences, std::uint32_t held);
 
-/// Where the spacing changed from one step to another; 0 stands for irregular spacing. The place is the
-/// difference that makes those before it and those behind it the most likely, and itself may belong to
-/// neither.
+/// Index of the difference at which the spacing most likely changed from one step to another; that
+/// difference itself may belong to neither. A step of 0 means irregular spacing.
 [[nodiscard]] std::size_t placeOfChange(std::span<const std::uint32_t> differences, std::uint32_t before,
                                         std::uint32_t after);
 

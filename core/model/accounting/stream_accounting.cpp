@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <functional>
-#include <string_view>
 
 namespace posewire::model {
 namespace {
@@ -98,10 +96,8 @@ std::span<const Verdict> StreamAccounting::add(const log::Packet& packet, const 
     }
     const std::uint64_t incomplete = m_rounds.incomplete();
     const bool isPartial = m_rounds.isPartial();
-    const auto* bytes = reinterpret_cast<const char*>(packet.bytes.data());
     const MessageRounds::Place place =
-        m_rounds.add(packet.stamp, header.datagramIndex(), header.isLast(),
-                     std::hash<std::string_view>{}({bytes, packet.bytes.size()}));
+        m_rounds.add(packet.stamp, header.datagramIndex(), header.isLast(), wire::hashOf(packet.bytes));
     const bool isBegin = place == MessageRounds::Place::Begins;
     change.duplicates = place == MessageRounds::Place::Repeats ? 1 : 0;
     m_repeats += change.duplicates;

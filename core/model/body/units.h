@@ -19,8 +19,7 @@ constexpr double metresPer(LengthUnit unit) {
     return unit == LengthUnit::Metre ? 1.0 : unit == LengthUnit::Centimetre ? 0.01 : 0.001;
 }
 
-/// The unit of a length of about a human's size, such as the height of a pelvis or how far the segments reach
-/// from it: nobody is five metres tall.
+/// Unit of a length on a human body, such as the height of the pelvis: bodies are shorter than five metres.
 constexpr LengthUnit detectLengthUnit(double length) {
     const double size = length < 0 ? -length : length;
     return size > 500.0 ? LengthUnit::Millimetre : size > 5.0 ? LengthUnit::Centimetre : LengthUnit::Metre;

@@ -5,8 +5,6 @@
 #include "core/model/body/pose_remark.h"
 
 #include <algorithm>
-#include <bit>
-#include <cstring>
 #include <utility>
 
 namespace posewire::model {
@@ -17,25 +15,13 @@ constexpr log::Duration kLook = std::chrono::milliseconds(500);
 constexpr log::Duration kGone = std::chrono::seconds(1);
 /// Fewer samples are no fault that goes on.
 constexpr int kLeastFound = 2;
-/// A sample with a fault weighs twice one without; so many without end what has gone on for long.
+/// A sample with a fault weighs twice as much as one without. kMostWeight good samples end the longest fault.
 constexpr int kBad = 2;
 constexpr int kMostWeight = 30;
 
 /// Looked at with each sample; the others have times of their own.
 constexpr std::array kOfEachSample{ContentFault::Missing, ContentFault::Orientation, ContentFault::Number,
                                    ContentFault::ByteOrder, ContentFault::Ids};
-
-std::uint64_t hashOf(wire::Bytes bytes) {
-    std::uint64_t hash = bytes.size();
-    while (!bytes.empty()) {
-        std::uint64_t word = 0;
-        const std::size_t size = std::min(bytes.size(), sizeof word);
-        std::memcpy(&word, bytes.data(), size);
-        hash = std::rotl(hash ^ word, 29) * 0x9e37'79b9'7f4a'7c15U;
-        bytes = bytes.subspan(size);
-    }
-    return hash;
-}
 
 Occurrence occurrenceOf(const CharacterKey& key, std::uint8_t type, ContentFault fault, log::Stamp stamp) {
     const bool isScale = fault == ContentFault::None;
@@ -53,7 +39,7 @@ Occurrence occurrenceOf(const CharacterKey& key, std::uint8_t type, ContentFault
 constexpr double kFar = 1.5;   // metres
 constexpr double kFast = 30.0; // metres a second
 
-/// Whether the first segment moved too far to be true since the sample before; `counters` lie between.
+/// True if the first segment moved impossibly far since the previous sample, `counters` counts earlier.
 bool isTooFar(double metres, const ContentWatch::Sample& sample, std::uint32_t counters) {
     const std::uint32_t step = sample.stream.accounting.step();
     return metres > kFar && step != 0 && counters <= 2 * step &&
@@ -163,7 +149,7 @@ void ContentWatch::take(const Sample& sample, const NullPose* nullPose, Incident
 
 void ContentWatch::checkFrozen(const Sample& sample, OfType& known, bool isUnusable,
                                IncidentFollower& incidents) {
-    const std::uint64_t hash = hashOf(sample.packet.bytes.subspan(wire::kHeaderSize));
+    const std::size_t hash = wire::hashOf(sample.packet.bytes.subspan(wire::kHeaderSize));
     const bool isSame = known.seen != log::Stamp() && hash == known.hash;
     known.changed = isSame ? known.changed : sample.packet.stamp;
     known.hash = hash;
@@ -175,8 +161,8 @@ void ContentWatch::checkFrozen(const Sample& sample, OfType& known, bool isUnusa
 /// the next sample.
 void ContentWatch::checkJump(const Sample& sample, OfType& known, const Eigen::Vector3d& place,
                              IncidentFollower& incidents) {
-    const bool isOtherFrame = std::exchange(known.unit, sample.unit) != sample.unit ||
-                              std::exchange(known.up, sample.up) != sample.up;
+    const std::pair frame(sample.unit, sample.up);
+    const bool isOtherFrame = std::exchange(known.frame, frame) != frame;
     known.first = isOtherFrame ? kNowhere : known.first; // they were recognised, nothing has moved
     const double metres = (place - known.first).norm();
     if (known.jump && (place - known.jumpedTo).norm() < kFar) {

@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <utility>
 
 namespace posewire::model {
 
@@ -51,16 +52,15 @@ private:
     };
     inline static const Eigen::Vector3d kNowhere =
         Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
-    /// What is remembered of one type.
+    /// State of one message type.
     struct OfType {
-        std::uint64_t hash = 0;
+        std::size_t hash = 0; ///< of its newest message
         std::uint32_t sample = 0;
         log::Stamp seen{};                ///< 0: none yet
         log::Stamp changed{};             ///< when this pose came first
         Eigen::Vector3d first = kNowhere; ///< where its first segment was, in metres
         bool isSteady = false;            ///< so was the sample before
-        LengthUnit unit = LengthUnit::Metre;
-        UpAxis up = UpAxis::Z;
+        std::pair<LengthUnit, UpAxis> frame{};
         std::optional<Occurrence> jump{}; ///< from there, unless the next sample is back
         Eigen::Vector3d jumpedTo = kNowhere;
         std::uint8_t mostBodyItems = 0;

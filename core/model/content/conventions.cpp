@@ -63,7 +63,7 @@ constexpr std::array<Reading, ConventionFit::kReadings> kReadingTable{{
      [](const SegmentPose& one) {
          return SegmentPose{zUpFromUnity(one.position), zUpFromUnity(one.orientation)};
      }},
-    // Where the body is even, the same as left and right exchanged.
+    // On a symmetric body this leaves the same residual as swapped sides.
     {K::AllMirrored, inMirror<1>},
     {K::AllMirrored, inMirror<0>},
     {K::AllMirrored, inMirror<2>},

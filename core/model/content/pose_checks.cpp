@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/content/pose_checks.h"
 
+#include "core/model/body/character_pose.h"
 #include "core/model/body/segments.h"
 #include "core/wire/messages.h"
 
@@ -18,8 +19,6 @@ namespace {
 
 /// Beyond this a position is absurd in any unit: 10 km in millimetres.
 constexpr float kAbsurd = 1e7F;
-
-constexpr std::size_t kMostUncountedObjects = 8;
 
 enum class Number : std::uint8_t { Usable, NotFinite, Zero, Off };
 
@@ -48,9 +47,7 @@ Number judge(const std::array<float, 4>& orientation) {
 template <std::size_t N>
 std::array<float, N> swapped(std::array<float, N> values) {
     for (float& value : values) {
-        const auto bits = std::bit_cast<std::uint32_t>(value);
-        value = std::bit_cast<float>(bits >> 24U | (bits >> 8U & 0xff00U) | (bits << 8U & 0xff0000U) |
-                                     bits << 24U);
+        value = std::bit_cast<float>(__builtin_bswap32(std::bit_cast<std::uint32_t>(value)));
     }
     return values;
 }
@@ -160,6 +157,18 @@ void checkIds(const wire::Header& header, const std::vector<Item>& items, PoseCh
     }
 }
 
+/// Not if it lacks segments that the header announces: those are a body's.
+template <class Item>
+bool holdsObjects(const wire::Header& header, const std::vector<Item>& items) {
+    constexpr std::size_t kMostItems = 255;
+    if (items.size() > kMostItems || header.bodySegments > items.size()) {
+        return false;
+    }
+    std::array<std::uint32_t, kMostItems> ids{};
+    std::ranges::transform(items, ids.begin(), &Item::id);
+    return isOfObjects(header, std::span(ids).first(items.size()));
+}
+
 /// Only of types that are known to hold all of them.
 void checkMissing(const wire::Header& header, std::size_t items, std::uint8_t mostBodyItems,
                   PoseChecks& checks) {
@@ -232,10 +241,7 @@ PoseChecks checkPose(const wire::Datagram& datagram, std::uint8_t mostBodyItems)
                 const auto& items = message.segments;
                 const std::size_t body = header.bodySegments != 0 ? header.bodySegments : kBodySegments;
                 checks.bodyItems = static_cast<std::uint8_t>(std::min({items.size(), body, kBodySegments}));
-                checks.isOfObjects =
-                    (header.bodySegments != 0 ? body < kBodySegments
-                                              : items.size() <= kMostUncountedObjects) &&
-                    std::ranges::all_of(items, [&](const auto& item) { return item.id <= items.size(); });
+                checks.isOfObjects = holdsObjects(header, items);
                 if (!items.empty()) {
                     if constexpr (requires { items.front().position; }) {
                         checks.first = items.front().position;

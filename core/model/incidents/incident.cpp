@@ -165,14 +165,6 @@ Incident Incident::of(std::span<const CharacterKey> which) const {
     return own;
 }
 
-std::uint64_t Incident::samplesOf(log::SenderId which) const {
-    std::uint64_t sum = which == sender ? samples : 0;
-    for (const Part& part : parts) {
-        sum += sender == log::kNoSender && part.sender == which ? part.samples : 0;
-    }
-    return sum;
-}
-
 bool Incident::concerns(const CharacterKey& which) const {
     return std::ranges::any_of(parts, [&](const Part& part) {
         return part.whose().value_or(which) == which && (part.isCurrent || !isCurrent);

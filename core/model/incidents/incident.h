@@ -144,8 +144,17 @@ struct Incident {
     /// What of it was to one character, or to some; as a whole where it is of no character.
     [[nodiscard]] Incident of(const CharacterKey& character) const { return of(std::span(&character, 1)); }
     [[nodiscard]] Incident of(std::span<const CharacterKey> characters) const;
-    /// What of its samples one sender lost.
-    [[nodiscard]] std::uint64_t samplesOf(log::SenderId which) const;
+    /// Calls f(sender, samples) with what each sender lost.
+    template <class Function>
+    void forEachShare(Function&& f) const {
+        if (sender != log::kNoSender) {
+            f(sender, samples);
+            return;
+        }
+        for (const Part& part : parts) {
+            f(part.sender, part.samples);
+        }
+    }
     /// Whether a character is touched, or all of its sender; of what lasts, whether it still is.
     [[nodiscard]] bool concerns(const CharacterKey& character) const;
     [[nodiscard]] bool concerns(const log::StreamKey& stream) const;

@@ -25,6 +25,14 @@ Incident* hoveringBefore(std::deque<Incident>& incidents, const Occurrence& one)
     return newest != end && one.from - newest->lastStamp < Incidents::kQuiet ? &*newest : nullptr;
 }
 
+void extend(Incident& incident, log::Stamp from, log::Stamp to, std::uint64_t fromPacket,
+            std::uint64_t toPacket) {
+    incident.firstStamp = std::min(incident.firstStamp, from);
+    incident.firstPacket = std::min(incident.firstPacket, fromPacket);
+    incident.lastStamp = std::max(incident.lastStamp, to);
+    incident.lastPacket = std::max(incident.lastPacket, toPacket);
+}
+
 } // namespace
 
 Incidents::Episode Incidents::episodeOf(const Occurrence& one) {
@@ -146,10 +154,7 @@ Incident& Incidents::begin(const Occurrence& one) {
 
 void Incidents::add(Incident& incident, const Occurrence& one) {
     incident.times += one.from > incident.lastStamp + Incident::kApart && incident.count != 0 ? 1 : 0;
-    incident.firstStamp = std::min(incident.firstStamp, one.from);
-    incident.firstPacket = std::min(incident.firstPacket, one.fromPacket);
-    incident.lastStamp = std::max(incident.lastStamp, one.to);
-    incident.lastPacket = std::max(incident.lastPacket, one.toPacket);
+    extend(incident, one.from, one.to, one.fromPacket, one.toPacket);
     incident.count += one.count;
     incident.samples += one.samples;
     incident.value = factsOf(one.kind).sumsValue ? incident.value + one.value
@@ -327,10 +332,7 @@ void Incidents::join(std::uint64_t to, std::uint64_t from) {
     Incident& all = *findOwn(to);
     const Incident& joining = *find(from);
     all.sender = log::kNoSender;
-    all.firstStamp = std::min(all.firstStamp, joining.firstStamp);
-    all.firstPacket = std::min(all.firstPacket, joining.firstPacket);
-    all.lastStamp = std::max(all.lastStamp, joining.lastStamp);
-    all.lastPacket = std::max(all.lastPacket, joining.lastPacket);
+    extend(all, joining.firstStamp, joining.lastStamp, joining.firstPacket, joining.lastPacket);
     all.count += joining.count;
     all.samples += joining.samples;
     all.value = std::max(all.value, joining.value);

@@ -54,14 +54,13 @@ std::map<log::SenderId, Untold> untoldOf(const SessionView& session) {
         }
     }
     for (const Incident& incident : session.verdicts().incidents().all()) {
-        if (incident.samples == 0) {
-            continue;
-        }
-        for (auto& [sender, own] : rest) {
-            std::uint64_t& sum =
-                own.lost[static_cast<std::size_t>(incident.cause.value_or(LossCause::Unknown))];
-            sum -= std::min(sum, incident.samplesOf(sender));
-        }
+        const auto cause = static_cast<std::size_t>(incident.cause.value_or(LossCause::Unknown));
+        incident.forEachShare([&](log::SenderId sender, std::uint64_t samples) {
+            if (const auto own = rest.find(sender); own != rest.end()) {
+                std::uint64_t& sum = own->second.lost[cause];
+                sum -= std::min(sum, samples);
+            }
+        });
     }
     session.accounts().forEachPending([&](const PendingLoss& loss) {
         if (const auto own = rest.find(loss.stream.sender); own != rest.end() && loss.isUnderWay) {

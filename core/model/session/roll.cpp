@@ -103,8 +103,11 @@ void Roll::findRenumbered(const Observed& seen) {
     Character& one = *seen.character;
     const log::Stamp since = one.streams.front()->accounting.firstStamp();
     const log::Duration age = seen.packet.stamp - since;
+    if (one.before || !one.isConfirmed || age < kEnded || age > kNamed) {
+        return;
+    }
     const ForeignText& name = one.metadata.value("name", seen.packet.number);
-    if (one.before || !one.isConfirmed || name.isEmpty() || age < kEnded || age > kNamed) {
+    if (name.isEmpty()) {
         return;
     }
     for (const Character* each : seen.sender->characters) {
