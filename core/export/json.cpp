@@ -110,7 +110,9 @@ private:
 };
 
 void addHeader(Json& object, wire::Bytes bytes) {
-    if (!wire::startsDatagram(bytes)) {
+    const auto read = wire::decodeHeader(bytes);
+    const bool isCut = !read && read.error().code == wire::ErrorCode::HeaderTruncated;
+    if ((!read && !isCut) || !wire::startsDatagram(bytes)) {
         return;
     }
     wire::Header header;

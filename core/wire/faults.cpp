@@ -90,12 +90,12 @@ constexpr std::array<NoticeRow, kNoticeCodeCount> kNotices{{
     {NoticeCode::TooManyItems, "tooManyItems",
      "{count} segments, exactly 23 are specified for type 05 (byte {offset}; § 2.5.5)"},
     {NoticeCode::TooManyPoints, "tooManyPoints",
-     "{count} points, sets of markers have up to 46 (byte {offset}; § 2.4.1.1)"},
+     "{count} points, marker sets have up to 64 (byte {offset}; § 2.4.1.1)"},
 }};
 static_assert(followTheEnum(kNotices));
 
 void fill(std::string& text, std::string_view name, std::int64_t figure) {
-    if (const std::size_t at = text.find(name); at != std::string::npos) {
+    for (std::size_t at = 0; (at = text.find(name, at)) != std::string::npos;) {
         text.replace(at, name.size(), std::to_string(figure));
     }
 }
@@ -120,8 +120,6 @@ std::string errorText(const WireError& error, FaultLanguage language) {
     fill(text, "{need}",
          error.code == ErrorCode::BadLength ? std::int64_t{static_cast<std::int32_t>(error.need)}
                                             : std::int64_t{error.need});
-    fill(text, "{have}", error.have);
-    fill(text, "{need}", error.need); // a type is there twice
     fill(text, "{have}", error.have);
     return text;
 }

@@ -179,28 +179,31 @@ void writeMessage(std::string& out, const wire::TypeInfo& info) {
     out += "  },\n}\n";
 }
 
-/// A text with three numbers in it as a format for them.
-std::string asFormat(std::string text) {
-    for (const std::string_view number : {"1001", "1002", "1003"}) {
-        if (const std::size_t place = text.find(number); place != std::string::npos) {
-            text.replace(place, number.size(), "%d");
+/// Replaces the numbers from 1001 on with names in braces.
+std::string asTemplate(std::string text, std::initializer_list<const char*> names) {
+    int number = 1001;
+    for (const char* name : names) {
+        const std::string digits = std::to_string(number++);
+        for (std::size_t at = 0; (at = text.find(digits, at)) != std::string::npos;) {
+            text.replace(at, digits.size(), '{' + std::string(name) + '}');
         }
     }
     return text;
 }
 
 void writeTexts(std::string& out) {
-    out += "-- In the order offset, need, have.\nlocal error_texts = {\n";
+    out += "local error_texts = {\n";
     for (std::size_t i = 0; i < wire::kErrorCodeCount; ++i) {
         const auto code = static_cast<wire::ErrorCode>(i);
         out += "  " + std::string(wire::errorName(code)) + " = " +
-               quoted(asFormat(wire::errorText({code, 0, 1001, 1002, 1003}))) + ",\n";
+               quoted(asTemplate(wire::errorText({code, 0, 1001, 1002, 1003}), {"offset", "need", "have"})) +
+               ",\n";
     }
-    out += "}\n-- In the order offset, count.\nlocal notice_texts = {\n";
+    out += "}\nlocal notice_texts = {\n";
     for (std::size_t i = 0; i < wire::kNoticeCodeCount; ++i) {
         const auto code = static_cast<wire::NoticeCode>(i);
         out += "  " + std::string(wire::noticeName(code)) + " = " +
-               quoted(asFormat(wire::noticeText({code, 1001, 1002}))) + ",\n";
+               quoted(asTemplate(wire::noticeText({code, 1001, 1002}), {"offset", "count"})) + ",\n";
     }
     out += "}\n";
 }

@@ -239,7 +239,8 @@ local function tags_of(text)
       stray = stray + 1
     end
     if colon then
-      tags[#tags + 1] = { place = at - 1, size = stop - at + 1, name = line:sub(1, colon - 1), colon = colon }
+      tags[#tags + 1] = { place = at - 1, size = stop - at + 1, name = line:sub(1, colon - 1), colon = colon,
+        value = line:sub(colon + 1) }
     end
     at = stop + 2
   end
@@ -535,12 +536,45 @@ function Checks:check_header(header)
   end
 end
 
+-- 100 or 256 for each segment, and the point; anything else is a tag.
+local function may_be_marker(id)
+  local function is_point(segment, point)
+    return segment >= 1 and segment <= 67 and point >= 1 and point <= 14
+  end
+  return is_point(math.floor(id / 256), id % 256) or is_point(math.floor(id / 100), id % 100)
+end
+
+-- `id_at(place)`: the ID of an item.
+function Checks:check_limits(header, id_at)
+  local function limit(code, offset, count, most)
+    if count > most then self:notice(code, offset, count) end
+  end
+  limit("tooManyProps", 18, header.props, 4)
+  local counted = header.bodySegments + header.props + header.fingerSegments
+  if header.type == 5 then
+    limit("tooManyItems", 11, header.items, 23)
+  elseif header.type == 3 then
+    local markers = 0
+    for place = 0, header.items > 64 and header.items - 1 or -1 do
+      markers = markers + (may_be_marker(id_at(place)) and 1 or 0)
+    end
+    limit("tooManyPoints", 11, markers, 64)
+  elseif messages[header.type] and messages[header.type].has_segments and counted == 0 and header.items < 63 then
+    limit("tooManyProps", 11, math.max(header.items, 23) - 23, 4)
+  end
+end
+
 function Checks:check_tags(text, start)
   local tags, stray, stray_at = tags_of(text)
   for _, tag in ipairs(tags) do
     if not known_tags[tag.name] then self:tally("unknownTag", start + tag.place, 1) end
+    if tag.name == "color" and not tag.value:find("^%x%x%x%x%x%x$") then
+      self:tally("badColour", start + tag.place + tag.colon, 1)
+    end
   end
-  if self.unknownTag then self:notice("unknownTag", self.unknownTag.offset, self.unknownTag.count) end
+  for _, code in ipairs({ "unknownTag", "badColour" }) do
+    if self[code] then self:notice(code, self[code].offset, self[code].count) end
+  end
   if stray > 0 then self:notice("lineWithoutTag", start + stray_at, stray) end
 end
 
@@ -574,7 +608,7 @@ local function starts_with_magic(tvb)
 end
 
 local function starts_datagram(tvb)
-  return tvb:len() >= 6 and tvb(0, 6):raw():find("^MXTP%d%d$") ~= nil
+  return tvb:len() >= 6 and tvb(0, 6):raw():find("^MXTP[%d\0-\9][%d\0-\9]$") ~= nil
 end
 
 local function payload_bytes(tvb)
@@ -633,8 +667,10 @@ local form_of = {
 
 -- The header as far as it goes, and the fault if that is not far enough. Nil where there is nothing to show.
 local function read_header(tvb, tree, checks)
-  if not starts_datagram(tvb) then
-    if tvb:len() >= 6 then
+  if not tvb:raw(0, math.min(6, tvb:len())):find("^MXTP%d%d$") then
+    if starts_datagram(tvb) then
+      return nil, { code = "typeAsNumber", offset = 4, need = tvb(4, 1):uint() % 16, have = tvb(5, 1):uint() % 16 }
+    elseif tvb:len() >= 6 then
       return nil, { code = "badType", offset = 4, need = 2, have = 2 }
     end
     return nil, { code = "headerTruncated", offset = tvb:len(), need = header_size, have = tvb:len() }
@@ -690,6 +726,7 @@ local function read_body(tvb, tree, header, checks)
     tree:add(own.rest, tvb(limit, tvb:len() - limit))
   end
   checks:check_header(header)
+  checks:check_limits(header, function(place) return tvb(header_size + 16 * place, 4):uint() end)
   if header.payloadSize ~= 0 and tvb:len() > announced then
     checks:notice("sizeDisagrees", announced, tvb:len() - announced)
   end
@@ -951,6 +988,7 @@ local function skim(tvb)
   local stop = sheet.check(raw, header_size + 1, limit + 1, header.items, checks.values, checks.shown)
   if stop ~= limit + 1 then return nil end
   checks:check_header(header)
+  checks:check_limits(header, function(place) return (Struct.unpack(">I4", raw, header_size + 16 * place + 1)) end)
   checks:check_body(header.type, form, checks.values)
   if #checks.notices > 0 then return nil end
   return header, checks, sheet
@@ -1017,6 +1055,10 @@ local function dissect_quickly(tvb, root)
   return info_text(header, checks)
 end
 
+local function filled(text, figures)
+  return (text:gsub("{(%a+)}", figures))
+end
+
 local function dissect_datagram(tvb, root)
   local quick = not root.visible and dissect_quickly(tvb, root)
   if quick then return quick end
@@ -1030,11 +1072,11 @@ local function dissect_datagram(tvb, root)
     fault = read_body(tvb, tree, header, checks)
   end
   if fault then
-    local text = string.format(error_texts[fault.code], fault.offset, fault.need, fault.have)
+    local text = filled(error_texts[fault.code], fault)
     add_remark(tree, tvb, own.error, own.error_offset, error_experts, fault.code, fault.offset, text)
   else
     for _, notice in ipairs(checks.notices) do
-      local text = string.format(notice_texts[notice.code], notice.offset, notice.count)
+      local text = filled(notice_texts[notice.code], notice)
       if notice.count == 1 then text = text:gsub(", 1 (%a+)s%)$", ", 1 %1)") end
       add_remark(tree, tvb, own.notice, own.notice_offset, notice_experts, notice.code, notice.offset, text)
     end
@@ -1050,7 +1092,7 @@ end
 -- False where the bytes cannot begin a datagram, whatever follows.
 local function may_start(tvb, offset)
   local front = tvb:len() > offset and tvb(offset, math.min(6, tvb:len() - offset)):raw() or ""
-  return ("MXTP"):sub(1, #front) == front:sub(1, 4) and front:sub(5):find("^%d*$") ~= nil
+  return ("MXTP"):sub(1, #front) == front:sub(1, 4) and front:sub(5):find("^[%d\0-\9]*$") ~= nil
 end
 
 local function known(size)
@@ -1106,6 +1148,7 @@ local function extent_of(tvb)
   if not may_start(tvb, 0) then return nil, "foreign" end
   if tvb:len() < header_size then return nil, "more" end
   local header = header_of(tvb(0, header_size):raw())
+  if not header.type then return nil, "unknown" end -- sent as a number
   if header.payloadSize ~= 0 then
     if header.type == 25 and header.payloadSize == 12 and tvb:len() < header_size + 12 then
       return nil, "more"

@@ -130,14 +130,14 @@ TEST(HostileInput, ReadsMoreThanTheSpecificationAllowsWithANotice) {
     EXPECT_THAT(noticesOf(items(PoseUnity(), 24), 0, HeaderEra::Reserved),
                 testing::ElementsAre(Notice{NoticeCode::TooManyItems, 11, 24}));
     PointPositions points;
-    for (std::uint32_t id = 257; id < 257 + 46; ++id) {
+    for (std::uint32_t id = 257; id < 257 + 64; ++id) {
         points.points.push_back({256 * (1 + id % 23) + 1, {}});
     }
     points.points.push_back({12345678, {}}); // a tag
     EXPECT_THAT(noticesOf(points, 0, HeaderEra::Reserved), testing::IsEmpty());
     points.points.push_back({257, {}});
     EXPECT_THAT(noticesOf(points, 0, HeaderEra::Reserved),
-                testing::ElementsAre(Notice{NoticeCode::TooManyPoints, 11, 47}));
+                testing::ElementsAre(Notice{NoticeCode::TooManyPoints, 11, 65}));
 }
 
 TEST(HostileInput, ReadsABareTextThatBeginsWithAnyCharacter) {
