@@ -35,6 +35,7 @@ constexpr std::array<ErrorRow, kErrorCodeCount> kErrors{{
      "shorter than its header announces (byte {offset}: needs {need} bytes, has {have})"},
     {ErrorCode::ItemsTruncated, "itemsTruncated",
      "the announced items do not fit in the payload (byte {offset}: needs {need} bytes, has {have})"},
+    {ErrorCode::NoItems, "noItems", "the header announces no items (byte {offset}: {have} bytes follow)"},
     {ErrorCode::FieldTruncated, "fieldTruncated",
      "a field runs past the end (byte {offset}: needs {need} bytes, has {have})"},
     {ErrorCode::BadLength, "badLength",

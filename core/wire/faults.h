@@ -19,6 +19,7 @@ enum class ErrorCode : std::uint8_t {
     TypeAsNumber,     ///< two bytes below 10 in place of two digits
     PayloadTruncated, ///< the header announces more bytes than there are
     ItemsTruncated,   ///< the announced items do not fit in the bytes that are there
+    NoItems,          ///< the header announces none, and bytes of items follow
     FieldTruncated,   ///< a field runs past the end
     BadLength,        ///< a string length is negative or runs past the end
     CountTooLarge,    ///< a count exceeds its maximum or what the remaining bytes can hold
@@ -27,7 +28,7 @@ enum class ErrorCode : std::uint8_t {
     TooLong,          ///< longer than any UDP datagram, or a value that its field cannot hold (when encoding)
 };
 
-inline constexpr std::size_t kErrorCodeCount = 12;
+inline constexpr std::size_t kErrorCodeCount = 13;
 
 /// A fault in one datagram. Offsets and sizes are bytes from the datagram's first byte.
 struct WireError {

@@ -145,6 +145,9 @@ bool readItems(Cursor& cursor, const About& about, std::size_t count, std::vecto
     visitor.beginList(about, cursor.offset, count);
     if constexpr (kIsFixed<Item, ItemForm>) {
         constexpr std::size_t size = kWireSize<Item, ItemForm>;
+        if (count == 0 && cursor.left() >= size) {
+            return cursor.fail(ErrorCode::NoItems, 0, cursor.left());
+        }
         const std::size_t whole = std::min(count, cursor.left() / size);
         list.resize(whole);
         for (std::size_t i = 0; i < whole; ++i) {

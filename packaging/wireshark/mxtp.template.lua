@@ -459,6 +459,9 @@ function Reader:read_list(field, tree, count)
 end
 
 function Reader:read_items(field, tree)
+  if self.header.items == 0 and field.size and self:left() >= field.size then
+    return self:fail("noItems", 0, self:left())
+  end
   return self:read_list(field, tree, self.header.items)
 end
 

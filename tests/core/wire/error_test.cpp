@@ -29,6 +29,7 @@ TEST(WireErrorTable, IsInStepWithTheEnum) {
     EXPECT_EQ(errorName(ErrorCode::BadType), "badType");
     EXPECT_EQ(errorName(ErrorCode::PayloadTruncated), "payloadTruncated");
     EXPECT_EQ(errorName(ErrorCode::ItemsTruncated), "itemsTruncated");
+    EXPECT_EQ(errorName(ErrorCode::NoItems), "noItems");
     EXPECT_EQ(errorName(ErrorCode::FieldTruncated), "fieldTruncated");
     EXPECT_EQ(errorName(ErrorCode::BadLength), "badLength");
     EXPECT_EQ(errorName(ErrorCode::CountTooLarge), "countTooLarge");
