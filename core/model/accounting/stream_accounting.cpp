@@ -3,9 +3,13 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <utility>
 
 namespace posewire::model {
 namespace {
+
+/// Bytes at the beginning of a datagram by which two samples differ: the header and the first item.
+constexpr std::size_t kTelling = wire::kHeaderSize + 40;
 
 constexpr TimeRange kEver{log::Stamp::min(), log::Stamp::max()};
 
@@ -37,13 +41,17 @@ Placement carryOut(const Probation::Waiting& datagram, Probation::Outcome outcom
 }
 
 /// With what is in doubt decided as it would be if nothing followed.
-SampleLedger inHindsight(SampleLedger ledger, const Probation& probation) {
+SampleLedger inHindsight(SampleLedger ledger, const Probation& probation,
+                         const std::optional<Probation::Waiting>& repeat) {
     Probation::Decision decision;
     probation.decide(ledger, true, decision);
     bool isMoved = false;
     for (std::size_t i = 0; i < decision.decided; ++i) {
         carryOut(probation.waiting()[i], decision.outcomes[i], isMoved, ledger, nullptr);
         isMoved = isMoved || decision.outcomes[i] == Probation::Outcome::Restarted;
+    }
+    if (repeat) {
+        ledger.place(repeat->datagram, nullptr);
     }
     return ledger;
 }
@@ -86,12 +94,12 @@ std::span<const Verdict> StreamAccounting::add(const log::Packet& packet, const 
     CountHistory::Counters change{.bytes = packet.bytes.size(), .datagrams = 1};
     if (m_countsSamples) {
         m_history.add(packet.stamp, change);
-        noteFraming(packet, header);
-        takeSample(
-            {{packet.stamp, header.sampleCounter, header.datagramIndex(), header.isLast() || isUnframed()},
-             packet.number,
-             header.timeCode,
-             false});
+        const std::size_t begin = std::min(packet.bytes.size(), kTelling);
+        takeCounter({{packet.stamp, header.sampleCounter, header.datagramIndex(), header.isLast()},
+                     packet.number,
+                     header.timeCode,
+                     false},
+                    wire::hashOf(packet.bytes.first(begin)));
         return m_verdicts;
     }
     const std::uint64_t incomplete = m_rounds.incomplete();
@@ -113,31 +121,57 @@ std::span<const Verdict> StreamAccounting::add(const log::Packet& packet, const 
     return m_verdicts;
 }
 
+/// Senders exist whose counter stands. One datagram that repeats the counter of the one before with other
+/// bytes may be a damaged copy and waits; the second in a row shows that both are samples of their own.
+void StreamAccounting::takeCounter(Probation::Waiting datagram, std::size_t digest) {
+    const SampleLedger::Datagram before = std::exchange(m_newest, datagram.datagram);
+    const bool isStanding =
+        m_datagrams > 1 && before.sample == m_newest.sample && before.index == 0 && m_newest.index == 0;
+    const bool isRepeat = std::exchange(m_newestDigest, digest) != digest && isStanding;
+    datagram.datagram.sample += m_added;
+    if (isRepeat && !m_repeat && !m_isUncounted) {
+        m_repeat = datagram;
+        return;
+    }
+    const std::uint32_t step = isRepeat ? std::max(this->step(), 1U) : 0;
+    std::uint32_t added = 0;
+    if (m_repeat) {
+        added = step;
+        m_repeat->datagram.sample += added;
+        takeSample(*std::exchange(m_repeat, std::nullopt));
+    }
+    m_isUncounted = isRepeat || (isStanding && m_isUncounted);
+    added += step;
+    m_added += added;
+    datagram.datagram.sample += added;
+    takeSample(datagram);
+}
+
 /// Senders exist that never mark the last datagram of a sample: where no second one ever comes either, the
 /// first is all there is.
-void StreamAccounting::noteFraming(const log::Packet& packet, const wire::Header& header) {
+void StreamAccounting::noteFraming(const Probation::Waiting& datagram) {
     constexpr std::uint32_t kEnough = 4;
+    const SampleLedger::Datagram& part = datagram.datagram;
     if (m_framing == Framing::Given) {
         return;
     }
-    if (header.isLast() || header.datagramIndex() != 0) {
+    if (part.isLast || part.index != 0) {
         m_framing = Framing::Given;
         return;
     }
-    const bool isOther = m_unframed == 0 || header.sampleCounter != m_unframedSample;
-    m_unframed += isOther ? 1 : 0;
-    m_unframedSample = header.sampleCounter;
+    m_unframed += m_unframed == 0 || part.sample != m_unframedSample ? 1 : 0;
+    m_unframedSample = part.sample;
     if (m_framing == Framing::Unknown && m_unframed >= kEnough) {
         m_framing = Framing::Missing;
         m_ledger.completeAll(&m_history, [&](std::uint32_t sample) {
             m_verdicts.push_back(
-                {.packet = packet.number, .stamp = packet.stamp, .sample = sample, .isCompleting = true});
+                {.packet = datagram.packet, .stamp = part.stamp, .sample = sample, .isCompleting = true});
         });
     }
 }
 
 void StreamAccounting::beginRun(log::Stamp stamp) {
-    if (m_countsSamples && m_probation.empty() && !m_ledger.present().empty()) {
+    if (m_countsSamples && !isInDoubt() && !m_ledger.present().empty()) {
         m_ledger.begin(stamp, &m_history, false);
         m_lastSample.reset();
         m_certainFrom = m_datagrams + kUncertain;
@@ -155,7 +189,9 @@ std::size_t StreamAccounting::memoryBytes() const {
            m_rounds.memoryBytes() + m_verdicts.capacity() * sizeof(Verdict);
 }
 
-void StreamAccounting::takeSample(const Probation::Waiting& datagram) {
+void StreamAccounting::takeSample(Probation::Waiting datagram) {
+    noteFraming(datagram);
+    datagram.datagram.isLast = datagram.datagram.isLast || isUnframed();
     const bool isExplained = isAfterPassedOver(m_passedOver, m_ledger.present(), datagram.datagram.sample);
     m_passedOver = 0;
     if (m_probation.empty() && (isExplained || Probation::isExpected(m_ledger, datagram.datagram))) {
@@ -168,6 +204,9 @@ void StreamAccounting::takeSample(const Probation::Waiting& datagram) {
 
 std::span<const Verdict> StreamAccounting::conclude() {
     m_verdicts.clear();
+    if (m_repeat) {
+        takeSample(*std::exchange(m_repeat, std::nullopt));
+    }
     if (!m_probation.empty()) {
         endDoubt(true);
     }
@@ -236,7 +275,7 @@ StreamCounts StreamAccounting::counts(const Range& range) const {
         return countsBetween(range->from, range->to);
     }
     StreamCounts counts =
-        m_probation.empty() ? m_ledger.counts() : inHindsight(m_ledger, m_probation).counts();
+        isInDoubt() ? inHindsight(m_ledger, m_probation, m_repeat).counts() : m_ledger.counts();
     counts.datagrams = m_datagrams;
     counts.bytes = m_bytes;
     if (!m_countsSamples) {

@@ -162,10 +162,14 @@ public:
     [[nodiscard]] std::uint32_t step() const { return m_ledger.present().step(); }
     /// Its samples have one datagram each, which is not marked as the last.
     [[nodiscard]] bool isUnframed() const { return m_framing == Framing::Missing; }
-    [[nodiscard]] bool isInDoubt() const { return !m_probation.empty(); }
+    /// The sample counter stands while what is sent changes: its datagrams are counted instead.
+    [[nodiscard]] bool isUncounted() const { return m_isUncounted; }
+    [[nodiscard]] bool isInDoubt() const { return !m_probation.empty() || m_repeat; }
     /// The first packet that waits for what comes after it; UINT64_MAX for none.
     [[nodiscard]] std::uint64_t firstInDoubt() const {
-        return m_probation.empty() ? UINT64_MAX : m_probation.waiting()[0].packet;
+        return !m_probation.empty() ? m_probation.waiting()[0].packet
+               : m_repeat           ? m_repeat->packet
+                                    : UINT64_MAX;
     }
     [[nodiscard]] log::Stamp firstStamp() const { return m_firstStamp; }
     [[nodiscard]] log::Stamp lastStamp() const { return m_lastStamp; }
@@ -174,8 +178,9 @@ private:
     static constexpr std::uint64_t kUncertain = 128; ///< datagrams of a run
 
     enum class Framing : std::uint8_t { Unknown, Given, Missing };
-    void noteFraming(const log::Packet& packet, const wire::Header& header);
-    void takeSample(const Probation::Waiting& datagram);
+    void takeCounter(Probation::Waiting datagram, std::size_t digest);
+    void noteFraming(const Probation::Waiting& datagram);
+    void takeSample(Probation::Waiting datagram);
     void endDoubt(bool isEnd);
     void settle(const Probation::Waiting& datagram, Probation::Outcome outcome, bool isMoved);
 
@@ -183,6 +188,11 @@ private:
     Framing m_framing = Framing::Unknown;
     std::uint32_t m_unframed = 0;       ///< samples in a row without a last datagram, or a second one
     std::uint32_t m_unframedSample = 0; ///< the newest of them
+    bool m_isUncounted = false;
+    std::uint32_t m_added = 0;                  ///< to the sender's counter, for samples it did not count
+    std::optional<Probation::Waiting> m_repeat; ///< of the datagram before with other bytes
+    SampleLedger::Datagram m_newest;            ///< as on the wire
+    std::size_t m_newestDigest = 0;
     AccountingDepth m_depth;
     std::uint64_t m_datagrams = 0;
     std::uint64_t m_bytes = 0;

@@ -21,11 +21,15 @@ constexpr log::Stamp at(log::Duration time) {
 /// Datagrams of one stream, 4 ms apart unless said otherwise.
 struct Accounting : testing::Test {
     std::span<const Verdict> send(std::uint32_t sample, std::uint8_t datagramCounter = 0x80) {
+        return sendWith(sample, sample, datagramCounter);
+    }
+    std::span<const Verdict> sendWith(std::uint32_t content, std::uint32_t sample,
+                                      std::uint8_t datagramCounter = 0x80) {
         wire::Header header;
         header.sampleCounter = sample;
         header.datagramCounter = datagramCounter;
         header.timeCode = static_cast<std::uint32_t>(stamp.time_since_epoch() / 1ms);
-        const auto verdicts = addTo(stream, stamp, 760, header);
+        const auto verdicts = addTo(stream, stamp, 760, header, content);
         stamp += 4ms;
         return verdicts;
     }

@@ -134,7 +134,7 @@ TEST_P(RandomStreams, AreCountedAsTheReferenceCountsThem) {
             wire::Header header;
             header.sampleCounter = datagram.sample;
             header.datagramCounter = static_cast<std::uint8_t>(datagram.index | (datagram.isLast ? 0x80 : 0));
-            verdicts += addTo(stream, datagram.stamp, 760, header).size();
+            verdicts += addTo(stream, datagram.stamp, 760, header, header.sampleCounter).size();
         }
         StreamCounts expected = referenceCounts(sender.arrivals, sender.runs);
         StreamCounts counts = stream.counts();

@@ -8,17 +8,22 @@
 
 namespace posewire::model {
 
-/// Adds a datagram of at most 1,500 bytes by its header alone; of equal time codes and indices they are
-/// equal. Packets are numbered from 0.
+/// Adds a datagram of at most 1,500 bytes. Those of equal content and indices are equal. Packets are numbered
+/// from 0.
 inline std::span<const Verdict> addTo(StreamAccounting& stream, log::Stamp stamp, std::size_t bytes,
-                                      const wire::Header& header) {
-    std::array<std::byte, 1500> content{std::byte{header.datagramCounter}};
-    std::memcpy(content.data() + 1, &header.timeCode, sizeof header.timeCode);
+                                      const wire::Header& header, std::uint32_t content) {
+    std::array<std::byte, 1500> all{std::byte{header.datagramCounter}};
+    std::memcpy(all.data() + 1, &content, sizeof content);
     log::Packet packet;
     packet.number = stream.datagrams();
     packet.stamp = stamp;
-    packet.bytes = std::span(content).first(bytes);
+    packet.bytes = std::span(all).first(bytes);
     return stream.add(packet, header);
+}
+/// Its content is its time code.
+inline std::span<const Verdict> addTo(StreamAccounting& stream, log::Stamp stamp, std::size_t bytes,
+                                      const wire::Header& header) {
+    return addTo(stream, stamp, bytes, header, header.timeCode);
 }
 
 } // namespace posewire::model

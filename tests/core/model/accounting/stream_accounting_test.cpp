@@ -500,34 +500,6 @@ TEST_F(Accounting, TakesAFewEvenGapsAtTheEndForLoss) {
     EXPECT_EQ(stream.counts().lost, 4U);
 }
 
-TEST_F(Accounting, TakesSamplesWithoutALastFlagForWholeIfNoSecondDatagramEverComes) {
-    for (std::uint32_t sample = 1; sample <= 3; ++sample) {
-        send(sample, 0);
-    }
-    EXPECT_EQ(stream.counts().incomplete, 3U) << "more of them may come";
-    const auto verdicts = send(4, 0);
-    EXPECT_EQ(std::ranges::count_if(verdicts, &Verdict::isCompleting), 4);
-    EXPECT_TRUE(stream.isUnframed());
-    for (std::uint32_t sample = 5; sample <= 100; ++sample) {
-        send(sample, 0);
-    }
-    for (const StreamCounts& counts : {stream.counts(), stream.countsBetween(at(0s), at(1h))}) {
-        EXPECT_EQ(counts.samples, 100U);
-        EXPECT_EQ(counts.incomplete, 0U);
-        EXPECT_EQ(counts.lost, 0U);
-    }
-}
-
-TEST_F(Accounting, WaitsForTheRestOfSamplesThatHaveEverComeInParts) {
-    send(1, 0);
-    send(1, 0x81);
-    for (std::uint32_t sample = 2; sample <= 40; ++sample) {
-        send(sample, 0);
-    }
-    EXPECT_FALSE(stream.isUnframed());
-    EXPECT_EQ(stream.counts().incomplete, 39U);
-}
-
 TEST_F(Accounting, FindsBurstsAndGapsOfLoss) {
     sendSteady(1, 100);
     sendAll({102, 104, 106}); // a burst of three lost among five
