@@ -250,6 +250,30 @@ constexpr std::array kTable{
     Wording{.kind = K::UnityAxes, .headline = {"axes are those of Unity"}},
     Wording{.kind = K::AllMirrored, .headline = {"poses are mirrored, or left and right are swapped"}},
     Wording{.kind = K::PlacesMirrored, .headline = {"positions are mirrored, orientations are not"}},
+    Wording{.kind = K::InBursts,
+            .headline = {"{who} comes in bursts {value} s apart"},
+            .sentence = {"Data comes in bursts up to {value} s apart, and nothing is lost."},
+            .brief = {"in bursts"},
+            .advice = {"A Wi-Fi adapter that saves power does so: turn that off here and at the sender."}},
+    Wording{
+        .kind = K::CounterStands,
+        .headline = {"{who}: the sample counter does not count"},
+        .sentence = {"Datagrams of other content repeat the sample counter of the one before: each is "
+                     "taken for a sample, and loss cannot be seen."},
+        .brief = {"counter stands"},
+        .advice = {"Tell the maker of the sender: the counter grows with every sample (section 2.4.1.2)."}},
+    Wording{.kind = K::TimeCodeSpeed,
+            .headline = {"{who}: time code runs at {value} × the speed of time"},
+            .sentence = {"The time code runs at {value} × the speed of time. A recording played at another "
+                         "speed does so, too."},
+            .brief = {"time code off"},
+            .advice = {"Time codes are in milliseconds (section 2.4.1.5): check the playback speed, or mend "
+                       "the sender."}},
+    Wording{.kind = K::FloorOff,
+            .headline = {"{who}: the lowest segment is at {value} m"},
+            .sentence = {"The lowest segment stays at {value} m, where the floor is 0."},
+            .brief = {"floor off"},
+            .advice = {"In MVN, reset the origin, or check the level the performer stands on."}},
     Wording{
         .kind = K::LastNeverSet,
         .headline = {"{who}: the last datagram of a sample is never marked"},

@@ -5,6 +5,8 @@
 #include "core/model/body/pose_remark.h"
 
 #include <algorithm>
+#include <cmath>
+#include <ranges>
 #include <utility>
 
 namespace posewire::model {
@@ -38,6 +40,15 @@ Occurrence occurrenceOf(const CharacterKey& key, std::uint8_t type, ContentFault
 /// Farther from one sample to the next is a jump, if it is faster than kFast, too.
 constexpr double kFar = 1.5;   // metres
 constexpr double kFast = 30.0; // metres a second
+
+/// A place that is the one before in another unit.
+bool isInOtherUnit(const Eigen::Vector3d& place, const Eigen::Vector3d& before) {
+    constexpr double kMoved = 0.06; // metres
+    return std::ranges::any_of(std::array{100.0, 1000.0}, [&](double factor) {
+        return (place - factor * before).norm() < factor * kMoved ||
+               (factor * place - before).norm() < factor * kMoved;
+    });
+}
 
 /// True if the first segment moved impossibly far since the previous sample, `counters` counts earlier.
 bool isTooFar(double metres, const ContentWatch::Sample& sample, std::uint32_t counters) {
@@ -116,7 +127,8 @@ void ContentWatch::take(const Sample& sample, const NullPose* nullPose, Incident
     OfType& known = m_types[place];
     const log::Stamp stamp = sample.packet.stamp;
     const auto counters = static_cast<std::int32_t>(sample.datagram.header.sampleCounter - known.sample);
-    if (known.seen != log::Stamp() && counters <= 0 && counters > -100) {
+    const bool isUncounted = sample.stream.accounting.isUncounted();
+    if (known.seen != log::Stamp() && !isUncounted && counters <= 0 && counters > -100) {
         return; // a duplicate, or late
     }
     const PoseChecks checks = checkPose(sample.datagram, known.mostBodyItems);
@@ -125,15 +137,17 @@ void ContentWatch::take(const Sample& sample, const NullPose* nullPose, Incident
         noteOrClear(sample, found != nullptr ? *found : ContentFinding{fault}, found != nullptr, stamp,
                     incidents);
     }
-    const bool isInOtherUnit =
+    const bool isInMillimetres =
         sample.unit == LengthUnit::Millimetre && type != wire::AngularKinematics::kType && !checks.isUnusable;
     ContentFinding unit{ContentFault::Units, words::Kind::UnitLooks};
     unit.looks = words::Kind::Millimetres;
     unit.value = nullPose != nullptr ? 1 / metresPer(sample.unit) : 0;
-    noteOrClear(sample, unit, isInOtherUnit, stamp, incidents);
+    noteOrClear(sample, unit, isInMillimetres, stamp, incidents);
     noteOrClear(sample, {ContentFault::Framing, words::Kind::LastNeverSet},
                 sample.stream.accounting.isUnframed(), stamp, incidents);
+    noteOrClear(sample, {ContentFault::Counter, words::Kind::CounterStands}, isUncounted, stamp, incidents);
     if (!checks.isOfObjects && isMostTelling(place, stamp)) {
+        checkTimeCode(sample, known, incidents);
         checkFrozen(sample, known, checks.isUnusable, incidents);
         const Eigen::Vector3d where =
             Eigen::Vector3f(checks.first.data()).cast<double>() * metresPer(sample.unit);
@@ -157,6 +171,25 @@ void ContentWatch::checkFrozen(const Sample& sample, OfType& known, bool isUnusa
                 incidents);
 }
 
+/// A silence, a jump and what was held up are seen by one look each. One that stands still is of the kind
+/// Clock.
+void ContentWatch::checkTimeCode(const Sample& sample, OfType& known, IncidentFollower& incidents) {
+    constexpr double kSlow = 0.6;
+    constexpr double kFast = 1.7;
+    const log::Stamp stamp = sample.packet.stamp;
+    const std::uint32_t timeCode = sample.datagram.header.timeCode;
+    const std::pair from = known.clock.value_or(std::pair(stamp, timeCode));
+    const std::int32_t ms = timeCodeStep(from.second, timeCode);
+    if (known.clock && (stamp - from.first < kLook || ms == 0)) {
+        return;
+    }
+    known.clock = std::pair(stamp, timeCode);
+    ContentFinding finding{ContentFault::TimeCode, words::Kind::TimeCodeSpeed};
+    finding.value = ms / std::max(log::millisecondsOf(stamp - from.first), 1.0);
+    noteOrClear(sample, finding, ms > 0 && (finding.value < kSlow || finding.value > kFast), from.first,
+                incidents);
+}
+
 /// A damaged datagram jumps there and back: one that jumped was in one place before, and stays where it is in
 /// the next sample.
 void ContentWatch::checkJump(const Sample& sample, OfType& known, const Eigen::Vector3d& place,
@@ -167,7 +200,7 @@ void ContentWatch::checkJump(const Sample& sample, OfType& known, const Eigen::V
     const double metres = (place - known.first).norm();
     if (known.jump && (place - known.jumpedTo).norm() < kFar) {
         incidents.report(*known.jump);
-    } else if (known.isSteady &&
+    } else if (known.isSteady && !isInOtherUnit(place, known.first) &&
                isTooFar(metres, sample, sample.datagram.header.sampleCounter - known.sample)) {
         ContentFinding finding{ContentFault::Jump, words::Kind::PelvisJumped};
         finding.value = metres;
@@ -183,7 +216,20 @@ void ContentWatch::checkJump(const Sample& sample, OfType& known, const Eigen::V
     known.first = place;
 }
 
-/// With the null pose: of types 02 and 01, whose positions and orientations are in the world.
+/// Of somebody who stands or sits.
+void ContentWatch::checkFloor(const Sample& sample, const CharacterPose& pose, IncidentFollower& incidents) {
+    constexpr double kMostFromFloor = 0.5;
+    constexpr double kLeastHeight = 0.8;
+    const auto [lowest, highest] =
+        std::ranges::minmax(pose.segments | std::views::take(kBodySegments) |
+                            std::views::transform([](const auto& one) { return one.position.z(); }));
+    ContentFinding finding{ContentFault::Floor, words::Kind::FloorOff};
+    finding.value = lowest;
+    noteOrClear(sample, finding, std::abs(lowest) > kMostFromFloor && highest - lowest > kLeastHeight,
+                sample.packet.stamp, incidents);
+}
+
+/// With the floor and the null pose: of types 02 and 01, whose positions and orientations are in the world.
 void ContentWatch::compare(const Sample& sample, const NullPose* nullPose, IncidentFollower& incidents) {
     const std::uint8_t type = sample.datagram.header.type();
     if (type != wire::PoseQuaternion::kType && type != wire::PoseEuler::kType) {
@@ -199,10 +245,13 @@ void ContentWatch::compare(const Sample& sample, const NullPose* nullPose, Incid
         }
     }
     CharacterPose pose;
-    const BodyOrigins body = nullPose != nullptr ? bodyOf(*nullPose) : BodyOrigins{};
-    if (body.source != BodySource::NullPose ||
-        !poseFromMessage(sample.datagram, referenceOrigins(), sample.unit, pose) ||
+    if (!poseFromMessage(sample.datagram, referenceOrigins(), sample.unit, pose) ||
         pose.segments.size() < kBodySegments) {
+        return;
+    }
+    checkFloor(sample, pose, incidents);
+    const BodyOrigins body = nullPose != nullptr ? bodyOf(*nullPose) : BodyOrigins{};
+    if (body.source != BodySource::NullPose) {
         return;
     }
     const double scale = scaleInPose(pose, body);

@@ -18,6 +18,7 @@
 
 namespace posewire::model {
 
+struct CharacterPose;
 struct NullPose;
 
 /// Watches what a character is sent as: whether it can be used. What is wrong counts once it has gone on for
@@ -64,6 +65,7 @@ private:
         std::optional<Occurrence> jump{}; ///< from there, unless the next sample is back
         Eigen::Vector3d jumpedTo = kNowhere;
         std::uint8_t mostBodyItems = 0;
+        std::optional<std::pair<log::Stamp, std::uint32_t>> clock{}; ///< time code of an earlier look at it
     };
     Run& runOf(ContentFault fault) { return m_runs[static_cast<std::size_t>(fault)]; }
     void note(const Sample& sample, const ContentFinding& finding, log::Stamp since,
@@ -74,6 +76,8 @@ private:
     void checkFrozen(const Sample& sample, OfType& known, bool isUnusable, IncidentFollower& incidents);
     static void checkJump(const Sample& sample, OfType& known, const Eigen::Vector3d& place,
                           IncidentFollower& incidents);
+    void checkTimeCode(const Sample& sample, OfType& known, IncidentFollower& incidents);
+    void checkFloor(const Sample& sample, const CharacterPose& pose, IncidentFollower& incidents);
     void compare(const Sample& sample, const NullPose* nullPose, IncidentFollower& incidents);
     [[nodiscard]] bool isMostTelling(std::size_t place, log::Stamp stamp) const;
 

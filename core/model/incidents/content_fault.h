@@ -20,13 +20,16 @@ enum class ContentFault : std::uint8_t {
     Orientation,
     Number,
     ByteOrder,
+    Counter,
     Framing,
+    TimeCode,
     Jump,
     Convention,
+    Floor,
     Units,
     Ids,
 };
-inline constexpr std::size_t kContentFaults = 11;
+inline constexpr std::size_t kContentFaults = 14;
 
 /// A row of the table below. Its cause is always the sender; what is said of it, with the remedy in MVN, is
 /// in core/words.
@@ -55,12 +58,18 @@ inline constexpr std::array<ContentFaultFacts, kContentFaults> kContentFaultTabl
         {F::Number, "number", true, 300ms},
         // Most items are unusable as they stand, and usable with their bytes exchanged.
         {F::ByteOrder, "byteOrder", true, 300ms},
+        // Datagrams of other content repeat the sample counter of the one before.
+        {F::Counter, "counter", false, 300ms},
         // No datagram is marked as the last of its sample, and no sample has a second one.
         {F::Framing, "framing", false, 300ms},
+        // The time code runs at less than half or more than twice the speed of time.
+        {F::TimeCode, "timeCode", false, 900ms, true, true},
         // The pelvis moves by 1.5 m and faster than 30 m/s between successive samples.
         {F::Jump, "jump", false, 0s, false},
         // Joints are more than 0.12 m from where parent and null pose put them; real ones 0.03 to 2.6 mm.
         {F::Convention, "convention", true, 900ms, true, true},
+        // The lowest segment is more than 0.5 m from the floor. Who jumps lands within a second.
+        {F::Floor, "convention", false, 1s, true, true},
         // The body is some metres tall in the unit that the specification has.
         {F::Units, "units", false, 300ms},
         // IDs begin at 0, or one occurs twice in a datagram.

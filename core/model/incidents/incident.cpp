@@ -136,6 +136,12 @@ bool Incident::isOfMessages() const {
     });
 }
 
+bool Incident::isInBursts() const {
+    constexpr std::uint64_t kLeast = 3;
+    return kind == IncidentKind::Outage && samples == 0 && value < kLongSilenceS &&
+           std::ranges::any_of(parts, [](const Part& part) { return part.count >= kLeast; });
+}
+
 std::vector<CharacterKey> Incident::characters() const {
     return eachOnce(parts, kCharacterOf);
 }
@@ -185,6 +191,9 @@ words::Fact Incident::fact() const {
     words::Fact fact = isLoss || detail.isNothing() ? words::Fact{says} : detail;
     if (isLoss) {
         addLosses(*this, fact);
+    }
+    if (isInBursts()) {
+        fact = {words::Kind::InBursts, {{"value", words::Number{value, 1}}}};
     }
     addValue(*this, fact);
     fact.values.push_back({"count", words::counted(words::Kind::Datagrams, count)});

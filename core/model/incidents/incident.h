@@ -141,6 +141,8 @@ struct Incident {
     [[nodiscard]] std::vector<std::uint8_t> types() const;
     /// All of it is of types that are sent again and again: what is missing are parts of messages.
     [[nodiscard]] bool isOfMessages() const;
+    /// An outage of several silences, in which nothing was lost.
+    [[nodiscard]] bool isInBursts() const;
     /// What of it was to one character, or to some; as a whole where it is of no character.
     [[nodiscard]] Incident of(const CharacterKey& character) const { return of(std::span(&character, 1)); }
     [[nodiscard]] Incident of(std::span<const CharacterKey> characters) const;

@@ -11,10 +11,12 @@ namespace {
 constexpr std::size_t kMostPartsOfOne = 1'024;
 
 /// The newest, where it is over and was like this: a figure that hovers about its limit is one incident,
-/// however often it comes back under it.
+/// however often it comes back under it, and so are the silences between bursts.
 Incident* hoveringBefore(std::deque<Incident>& incidents, const Occurrence& one) {
     constexpr std::ptrdiff_t kMostLooked = 256;
-    if (factsOf(one.kind).group != IncidentGroup::Limit) {
+    constexpr log::Duration kBurst = std::chrono::milliseconds(150);
+    const bool isSilence = one.kind == IncidentKind::Outage;
+    if (factsOf(one.kind).group != IncidentGroup::Limit && !isSilence) {
         return nullptr;
     }
     const auto end =
@@ -22,7 +24,9 @@ Incident* hoveringBefore(std::deque<Incident>& incidents, const Occurrence& one)
     const auto newest = std::find_if(incidents.rbegin(), end, [&](const Incident& incident) {
         return incident.kind == one.kind && incident.sender == one.sender;
     });
-    return newest != end && one.from - newest->lastStamp < Incidents::kQuiet ? &*newest : nullptr;
+    const bool isLike =
+        newest != end && one.from - newest->lastStamp < (isSilence ? kBurst : Incidents::kQuiet);
+    return isLike && !(isSilence && newest->samples != 0) ? &*newest : nullptr;
 }
 
 void extend(Incident& incident, log::Stamp from, log::Stamp to, std::uint64_t fromPacket,

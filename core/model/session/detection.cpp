@@ -191,7 +191,8 @@ void UnitFinder::add(double height, double reach) {
     const bool hasReach = reach >= 0.1;
     const LengthUnit unit = detectLengthUnit(hasHeight ? height : reach);
     const bool isOfBody = hasReach || unit != LengthUnit::Millimetre; // an object may be high up
-    if ((hasHeight || hasReach) && isOfBody && !(hasHeight && hasReach && detectLengthUnit(reach) != unit)) {
+    const bool isSane = reach < 5'000; // of a body in millimetres, else it is no number of a pose
+    if ((hasHeight || hasReach) && isSane && isOfBody && !(hasHeight && hasReach && detectLengthUnit(reach) != unit)) {
         Finder::add(unit,
                     {hasHeight ? words::Kind::PelvisAt : words::Kind::ReachOf,
                      {{"value", words::Number{hasHeight ? height : reach, 2}}}},
@@ -269,7 +270,7 @@ std::vector<words::Fact> Detector::contradictions(const SenderOverride& declared
         found.push_back(
             {K::ReadInOtherUnit, {looks, evidence, {"read", words::Fact(unitName(*declared.positionUnit))}}});
     }
-    if (!m_zUp.before().isNothing()) {
+    if (!m_zUp.before().isNothing() && m_zUp.unit() != LengthUnit::Millimetre) { // that is a content fault
         found.push_back({K::UnitChanged, {looks, evidence, {"before", m_zUp.before()}}});
     }
     const words::NamedValue looksUp{"looks", words::Fact(upName(up()))};

@@ -202,6 +202,30 @@ TEST_F(ContentTest, AnImpossibleJumpIsToldOnceAndIsOverAtOnce) {
     EXPECT_EQ(verdict().state, State::Good);
 }
 
+TEST_F(ContentTest, ACounterThatStandsIsNoDuplicate) {
+    perform(1, [](wire::Datagram& datagram) { datagram.header.sampleCounter = 4; });
+    EXPECT_EQ(only(ContentFault::Counter).cause, LossCause::Sender);
+    EXPECT_TRUE(of(IncidentKind::Duplicates).empty());
+    EXPECT_EQ(verdict().state, State::Warning);
+    EXPECT_NE(m_session.messages().pose(m_session.roster().listed().front()->key), nullptr);
+}
+
+TEST_F(ContentTest, ATimeCodeOfAnotherSpeedIsToldWithIt) {
+    perform(1.2, [](wire::Datagram& datagram) { datagram.header.timeCode *= 3; });
+    const Incident one = only(ContentFault::TimeCode);
+    EXPECT_NEAR(*numberIn(one.detail, "value"), 3, 0.1);
+    perform(1, [](wire::Datagram& datagram) { datagram.header.timeCode *= 3; });
+    EXPECT_TRUE(only(ContentFault::TimeCode).isCurrent);
+}
+
+TEST_F(ContentTest, AFloorFarFromZeroIsToldWithItsHeight) {
+    perform(2, ofEach([](auto& segment) { segment.position[2] += 1; }));
+    const Incident one = only(ContentFault::Floor);
+    EXPECT_NEAR(*numberIn(one.detail, "value"), 1, 0.15);
+    EXPECT_EQ(verdict().state, State::Warning);
+    EXPECT_EQ(factsOf(ContentFault::Floor).word, "convention");
+}
+
 TEST_F(ContentTest, ANullPoseOfAnotherBodyIsAnIncidentOfItsTime) {
     perform(4);
     const auto larger = [](wire::Datagram& datagram) {

@@ -74,6 +74,22 @@ TEST_F(IncidentBounds, EverySilenceCountsWhoeverLooked) {
     EXPECT_EQ(count, silences);
 }
 
+TEST_F(IncidentBounds, BurstsInWhichNothingIsLostAreOneIncident) {
+    std::uint32_t sample = 1;
+    for (int burst = 0; burst < 20; ++burst, m_at += 300ms) {
+        for (int i = 0; i < 30; ++i, m_at += 100us) {
+            pose(sample++);
+        }
+    }
+    const auto outages = of(IncidentKind::Outage);
+    ASSERT_EQ(outages.size(), 1U);
+    EXPECT_EQ(outages[0].fact().kind, words::Kind::InBursts);
+    EXPECT_EQ(outages[0].samples, 0U);
+    m_at += 5s;
+    pose(sample + 450);
+    EXPECT_EQ(of(IncidentKind::Outage).back().severity(), IncidentSeverity::Error) << "that is none";
+}
+
 TEST_F(IncidentBounds, ASlowSenderHasThreeOfItsSamples) {
     for (std::uint32_t sample = 1; sample <= 20; ++sample, m_at += 500ms) {
         pose(sample);
