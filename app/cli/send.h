@@ -94,8 +94,9 @@ struct SendOptions {
     std::string restart;        ///< S or S:SAMPLE
     std::string pause;          ///< S:S
     std::string reduction;      ///< S:K
-    std::string truth;          ///< file to write what was sent to; empty: none
-    bool replaces = false;      ///< that file, where it exists
+    performer::ContentBreakSettings fault;
+    std::string truth;     ///< file to write what was sent to; empty: none
+    bool replaces = false; ///< that file, where it exists
 
     std::string file; ///< empty: the performer
     double speed = 1.0;

@@ -189,9 +189,9 @@ ExitStatus send(const SendOptions& options, Console& console) {
     return status;
 }
 
-std::string motionList() {
+std::string listOf(std::span<const std::string_view> names) {
     std::string list;
-    for (const std::string_view name : performer::motionNames()) {
+    for (const std::string_view name : names) {
         list.append(list.empty() ? "" : "|").append(name);
     }
     return list;
@@ -225,7 +225,8 @@ void addPerformer(Arguments arguments, SendOptions& options) {
     arguments.add("--seed", settings.seed, "the same seed gives the same bytes and faults")
         .wholeUpTo(UINT64_MAX)
         .showDefault();
-    arguments.add("--motion " + motionList(), settings.motion, "how they move").showDefault();
+    arguments.add("--motion " + listOf(performer::motionNames()), settings.motion, "how they move")
+        .showDefault();
     arguments.add("--props", settings.props, "props of each character").wholeUpTo(4).showDefault();
     arguments.flag("--fingers", settings.fingers, "send the fingers of both hands too (revision N)");
     arguments
@@ -264,6 +265,12 @@ void addFaults(Arguments arguments, SendOptions& options) {
     arguments.add("--restart-at S[:SAMPLE]", options.restart, "restart the sample counter after S seconds");
     arguments.add("--pause-at S:S", options.pause, "pause at S for S seconds; the counter keeps counting");
     arguments.add("--reduce-at S:K", options.reduction, "from S on send every Kth sample");
+    const DeclaredOption fault =
+        arguments.add("--fault " + listOf(performer::contentBreaks()), options.fault.kind,
+                      "fill in headers or poses wrongly, in this way");
+    arguments.add("--fault-at SECONDS", options.fault.fromSeconds, "do so from then on")
+        .seconds()
+        .needs(fault);
 }
 
 DeclaredOption addFile(Arguments arguments, SendOptions& options) {

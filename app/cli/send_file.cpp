@@ -185,9 +185,12 @@ tl::expected<void, std::string> writeTruth(const SendOptions& options, const std
             foreign += sender.truth().sender().foreign;
         }
     }
-    const JsonValue report{{"durationS", options.durationSeconds},
-                           {"foreignDatagrams", foreign},
-                           {"sources", std::move(senders)}};
+    JsonValue report{{"durationS", options.durationSeconds},
+                     {"foreignDatagrams", foreign},
+                     {"sources", std::move(senders)}};
+    if (!options.fault.kind.empty()) {
+        report["content"] = {{"what", options.fault.kind}, {"fromS", options.fault.fromSeconds}};
+    }
     return Output::writeFile(options.truth, {options.replaces}, report.text(2) + "\n");
 }
 

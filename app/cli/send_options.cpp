@@ -159,6 +159,9 @@ tl::expected<performer::FaultSettings, Complaint> faultsOf(const SendOptions& op
     faults.isRecorded = !options.file.empty();
     faults.seed = options.performer.seed;
     faults.rateHz = options.performer.rateHz;
+    if (!options.fault.kind.empty()) {
+        faults.content = options.fault;
+    }
     if (const auto read = readGilbertElliott(options.gilbertElliott, faults); !read) {
         return tl::unexpected(read.error());
     }

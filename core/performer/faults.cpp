@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <iterator>
+#include <ranges>
 #include <utility>
 
 namespace posewire::performer {
@@ -119,6 +120,9 @@ std::optional<std::string> findProblem(const FaultSettings& settings) {
     if (settings.pause && !(settings.pause->atSeconds >= 0.0 && settings.pause->seconds >= 0.0)) {
         return "A pause needs a time after the start and a length.";
     }
+    if (settings.content && !std::ranges::count(contentBreaks(), settings.content->kind)) {
+        return "There is no content fault of this kind.";
+    }
     if (settings.reduction && !(settings.reduction->atSeconds >= 0.0 && settings.reduction->step >= 1 &&
                                 settings.reduction->step <= 100)) {
         return "A rate is reduced at a time after the start to every 1st to 100th sample.";
@@ -131,7 +135,11 @@ Faults::Faults(const FaultSettings& settings)
       m_random(KeyedRandom(settings.seed).fork(0xfa17)),
       m_quiet(quietTimes(settings)),
       m_delivery(log::Duration(static_cast<std::int64_t>(1e9 / settings.rateHz)), m_quiet,
-                 !settings.isRecorded) {}
+                 !settings.isRecorded) {
+    if (settings.content) {
+        m_content.emplace(*settings.content);
+    }
+}
 
 bool Faults::isPaused(log::Duration due) const {
     const auto& pause = m_settings.pause;
@@ -297,16 +305,27 @@ void Faults::sendCopy(const Sending& sending, std::uint64_t key) {
     m_delivery.push(std::move(copy));
 }
 
+void Faults::breakFrom(std::size_t begin, std::vector<Sending>& sendings) {
+    if (m_content) {
+        std::ranges::for_each(sendings | std::views::drop(begin),
+                              [this](Sending& one) { m_content->apply(one); });
+    }
+}
+
 void Faults::takeUntil(log::Duration until, std::vector<Sending>& into) {
+    const std::size_t before = into.size();
     std::ranges::move(m_ready, std::back_inserter(into));
     m_ready.clear();
     m_delivery.take(until, into);
+    breakFrom(before, into);
 }
 
 void Faults::takeRest(std::vector<Sending>& into) {
+    const std::size_t before = into.size();
     std::ranges::move(m_ready, std::back_inserter(into));
     m_ready.clear();
     m_delivery.takeRest(into);
+    breakFrom(before, into);
 }
 
 FaultTally Faults::tally() const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/log/time.h"
+#include "core/performer/content_break.h"
 #include "core/performer/delivery.h"
 #include "core/performer/noise.h"
 #include "core/performer/sending.h"
@@ -54,6 +55,8 @@ struct FaultSettings {
     };
     std::optional<Reduction> reduction; ///< from then on every step-th sample
 
+    std::optional<ContentBreakSettings> content; ///< what is sent is filled in wrongly
+
     /// What is sent was received once, with faults of its own: these stay as they are, so that nothing is
     /// delayed or given up for the sake of what a receiver counts, and no Truth can be told.
     bool isRecorded = false;
@@ -97,6 +100,7 @@ private:
     [[nodiscard]] bool isPaused(log::Duration due) const;
     [[nodiscard]] bool isReduced(std::uint32_t sample, log::Duration due);
     void restartAt(log::Duration due, Sending& sending);
+    void breakFrom(std::size_t begin, std::vector<Sending>& sendings);
     void send(Sending sending);
     void damage(Sending& sending, std::uint64_t key);
     bool loses(std::uint64_t key);
@@ -118,6 +122,7 @@ private:
     int m_leftOfBurst = 0;
     bool m_isBad = false; ///< state of the GilbertElliott model
     FaultTally m_tally;
+    std::optional<ContentBreak> m_content;
 };
 
 } // namespace posewire::performer

@@ -3,9 +3,11 @@
 
 #include "core/log/time.h"
 #include "core/performer/noise.h"
+#include "core/wire/header.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -15,9 +17,10 @@ struct Origin {
     std::uint32_t sample = 0; ///< counter as sent, after restarts
     std::uint8_t type = 0;
     std::uint8_t character = 0;
-    std::uint32_t epoch = 0;  ///< how often the counter has restarted
-    std::uint32_t regime = 0; ///< how often the rate has changed
-    std::uint32_t step = 1;   ///< samples from one that is sent to the next
+    std::uint32_t epoch = 0;              ///< how often the counter has restarted
+    std::uint32_t regime = 0;             ///< how often the rate has changed
+    std::uint32_t step = 1;               ///< samples from one that is sent to the next
+    std::optional<wire::Header> header{}; ///< as it was before its content was broken, if it was
 };
 
 /// From one sample counter to another, by the shorter way around.

@@ -174,7 +174,7 @@ void Truth::add(const Sending& sending) {
         return;
     }
     ++m_sender.datagrams;
-    const wire::Header& header = m_scratch.header;
+    const wire::Header header = sending.origin.header.value_or(m_scratch.header);
     m_streams[{header.character, header.type()}].add(header, sending);
 }
 
