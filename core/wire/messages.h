@@ -169,6 +169,12 @@ struct TimeCode {
     std::int32_t length = 12; ///< as sent; should be 12
     std::array<char, 12> text{'0', '0', ':', '0', '0', ':', '0', '0', '.', '0', '0', '0'};
     [[nodiscard]] std::string_view view() const { return {text.data(), text.size()}; }
+    /// Of the day; of no use if it is not HH:MM:SS.mmm.
+    [[nodiscard]] std::int32_t milliseconds() const {
+        const auto at = [this](std::size_t place) { return text[place] - '0'; };
+        const auto two = [&](std::size_t place) { return 10 * at(place) + at(place + 1); };
+        return ((two(0) * 60 + two(3)) * 60 + two(6)) * 1000 + 10 * two(9) + at(11);
+    }
     friend bool operator==(const TimeCode&, const TimeCode&) = default;
 };
 

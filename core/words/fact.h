@@ -76,7 +76,7 @@ enum class Kind : std::uint16_t {
     PoseFrozen, AnnouncedMissing, FingerSegments, OrientationsZero, OrientationsFar, NumbersNotFinite,
     PositionsAbsurd, NumbersSwapped, PelvisJumped, UnitLooks, IdsFromZero, IdsRepeat, ConventionLooks,
     ConventionUnknown, QuaternionXyzw, QuaternionInverse, UnityAxes, AllMirrored, PlacesMirrored,
-    InBursts, CounterStands, TimeCodeSpeed, FloorOff, LastNeverSet, OtherId, SharedPacket,
+    InBursts, TimeCodesDrift, CounterStands, TimeCodeSpeed, FloorOff, LastNeverSet, OtherId, SharedPacket,
     // clang-format on
     Overtaken,
     RelayStopped,

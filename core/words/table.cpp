@@ -255,6 +255,11 @@ constexpr std::array kTable{
             .sentence = {"Data comes in bursts up to {value} s apart, and nothing is lost."},
             .brief = {"in bursts"},
             .advice = {"A Wi-Fi adapter that saves power does so: turn that off here and at the sender."}},
+    Wording{.kind = K::TimeCodesDrift,
+            .headline = {"{who}: type 25 and the time code of its header drift apart"},
+            .sentence = {"Type 25 and the time code of its header drift apart."},
+            .brief = {"time codes drift"},
+            .advice = {"Two clocks are in use at the sender: in MVN, check where the time code comes from."}},
     Wording{
         .kind = K::CounterStands,
         .headline = {"{who}: the sample counter does not count"},

@@ -190,6 +190,32 @@ void ContentWatch::checkTimeCode(const Sample& sample, OfType& known, IncidentFo
                 incidents);
 }
 
+void ContentWatch::takeTimeCode(const Sample& sample, const wire::TimeCode& message,
+                                IncidentFollower& incidents) {
+    constexpr std::int32_t kDriftedMs = 15;
+    constexpr std::int32_t kJumpedMs = 400;
+    constexpr log::Duration kLasting = std::chrono::milliseconds(300);
+    const std::uint32_t header = sample.datagram.header.timeCode;
+    const log::Stamp stamp = sample.packet.stamp;
+    const std::int32_t apart = message.milliseconds() - static_cast<std::int32_t>(header);
+    const std::int32_t moved = apart - m_drift.apart;
+    const bool isStill = std::exchange(m_drift.header, header) == header;
+    if (isStill || std::abs(moved) > kJumpedMs) { // of the kind Clock by itself
+        m_drift = {header, apart, {}};
+    } else if (std::abs(moved) <= kDriftedMs) {
+        m_drift.since = {};
+    } else if (m_drift.since == log::Stamp()) {
+        m_drift.since = stamp;
+    } else if (stamp - m_drift.since >= kLasting) {
+        m_drift = {header, apart, {}};
+        Occurrence one =
+            Occurrence::at(IncidentKind::TimeCode, sample.key.sender, stamp, sample.packet.number);
+        one.character = sample.key.character;
+        one.detail = {words::Kind::TimeCodesDrift};
+        incidents.report(one);
+    }
+}
+
 /// A damaged datagram jumps there and back: one that jumped was in one place before, and stays where it is in
 /// the next sample.
 void ContentWatch::checkJump(const Sample& sample, OfType& known, const Eigen::Vector3d& place,

@@ -37,6 +37,8 @@ public:
     /// The first datagram of each sample of a type that holds poses. `nullPose`: the newest that is whole and
     /// does not contradict itself, null if there is none.
     void take(const Sample& sample, const NullPose* nullPose, IncidentFollower& incidents);
+    /// Type 25: it runs as the time code in its own header does.
+    void takeTimeCode(const Sample& sample, const wire::TimeCode& message, IncidentFollower& incidents);
     /// Ends what is not sent any more.
     void rest(const CharacterKey& key, log::Stamp stamp, IncidentFollower& incidents);
 
@@ -81,6 +83,11 @@ private:
     void compare(const Sample& sample, const NullPose* nullPose, IncidentFollower& incidents);
     [[nodiscard]] bool isMostTelling(std::size_t place, log::Stamp stamp) const;
 
+    struct {
+        std::uint32_t header = 0;
+        std::int32_t apart = 0; ///< ms, by which type 25 is ahead
+        log::Stamp since{};     ///< it is another time apart; 0: it is not
+    } m_drift;
     std::array<Run, kContentFaults> m_runs{}; ///< that of None is of the kind Scale
     std::array<OfType, kPoseTypes.size()> m_types{};
     ConventionFit m_fit;

@@ -49,6 +49,10 @@ void Content::take(const Observed& seen) {
     } else if (const auto* part = std::get_if<wire::NullPose>(&seen.datagram->body)) {
         takeNullPose(*part, seen);
     } else if (seen.header->datagramIndex() == 0) {
+        if (const auto* timeCode = std::get_if<wire::TimeCode>(&seen.datagram->body)) {
+            seen.character->content.takeTimeCode(
+                {seen.character->key, seen.packet, *seen.datagram, *seen.stream}, *timeCode, m_incidents);
+        }
         if (hasPoses(seen.header->type()) && seen.character->isConfirmed) {
             takePose(seen);
         }

@@ -218,6 +218,18 @@ TEST_F(ContentTest, ATimeCodeOfAnotherSpeedIsToldWithIt) {
     EXPECT_TRUE(only(ContentFault::TimeCode).isCurrent);
 }
 
+TEST_F(ContentTest, ATimeCodeThatDriftsAgainstItsHeaderIsOfTheClock) {
+    m_settings.types = {2, 12, 13, 25};
+    perform(1);
+    EXPECT_TRUE(of(IncidentKind::TimeCode).empty());
+    perform(2, [](wire::Datagram& datagram) {
+        datagram.header.timeCode += (datagram.header.timeCode - 1000) / 100; // by 1 %
+    });
+    ASSERT_EQ(of(IncidentKind::TimeCode).size(), 1U);
+    EXPECT_EQ(of(IncidentKind::TimeCode)[0].detail.kind, words::Kind::TimeCodesDrift);
+    EXPECT_TRUE(told().empty()) << testing::PrintToString(told());
+}
+
 TEST_F(ContentTest, AFloorFarFromZeroIsToldWithItsHeight) {
     perform(2, ofEach([](auto& segment) { segment.position[2] += 1; }));
     const Incident one = only(ContentFault::Floor);
