@@ -151,7 +151,9 @@ void ContentWatch::take(const Sample& sample, const NullPose* nullPose, Incident
         checkFrozen(sample, known, checks.isUnusable, incidents);
         const Eigen::Vector3d where =
             Eigen::Vector3f(checks.first.data()).cast<double>() * metresPer(sample.unit);
-        checkJump(sample, known, checks.isUnusable ? kNowhere : where, incidents);
+        m_newest = checks.isUnusable ? kNowhere : where;
+        m_began = m_began.hasNaN() ? m_newest : m_began;
+        checkJump(sample, known, m_newest, incidents);
         if (!checks.isUnusable && checks.isWhole && stamp >= m_nextLook) {
             compare(sample, nullPose, incidents);
         }
@@ -174,8 +176,8 @@ void ContentWatch::checkFrozen(const Sample& sample, OfType& known, bool isUnusa
 /// A silence, a jump and what was held up are seen by one look each. One that stands still is of the kind
 /// Clock.
 void ContentWatch::checkTimeCode(const Sample& sample, OfType& known, IncidentFollower& incidents) {
-    constexpr double kSlow = 0.6;
-    constexpr double kFast = 1.7;
+    constexpr double kSlow = 0.4;
+    constexpr double kFast = 2.5;
     const log::Stamp stamp = sample.packet.stamp;
     const std::uint32_t timeCode = sample.datagram.header.timeCode;
     const std::pair from = known.clock.value_or(std::pair(stamp, timeCode));

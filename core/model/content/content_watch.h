@@ -39,6 +39,9 @@ public:
     void take(const Sample& sample, const NullPose* nullPose, IncidentFollower& incidents);
     /// Type 25: it runs as the time code in its own header does.
     void takeTimeCode(const Sample& sample, const wire::TimeCode& message, IncidentFollower& incidents);
+    /// Where the first segment was in the first pose and in the newest one, in metres; NaN before there was.
+    [[nodiscard]] const Eigen::Vector3d& began() const { return m_began; }
+    [[nodiscard]] const Eigen::Vector3d& newest() const { return m_newest; }
     /// Ends what is not sent any more.
     void rest(const CharacterKey& key, log::Stamp stamp, IncidentFollower& incidents);
 
@@ -90,6 +93,8 @@ private:
     } m_drift;
     std::array<Run, kContentFaults> m_runs{}; ///< that of None is of the kind Scale
     std::array<OfType, kPoseTypes.size()> m_types{};
+    Eigen::Vector3d m_began = kNowhere;
+    Eigen::Vector3d m_newest = kNowhere;
     ConventionFit m_fit;
     std::uint64_t m_nullPose = 0; ///< one past the packet of the one that was compared with
     log::Stamp m_nextLook{};

@@ -62,7 +62,8 @@ inline constexpr std::array<ContentFaultFacts, kContentFaults> kContentFaultTabl
         {F::Counter, "counter", false, 300ms},
         // No datagram is marked as the last of its sample, and no sample has a second one.
         {F::Framing, "framing", false, 300ms},
-        // The time code runs at less than half or more than twice the speed of time.
+        // The time code runs at less than 0.4 or more than 2.5 × the speed of time: a busy sender or
+        // a recording played at double speed is none.
         {F::TimeCode, "timeCode", false, 900ms, true, true},
         // The pelvis moves by 1.5 m and faster than 30 m/s between successive samples.
         {F::Jump, "jump", false, 0s, false},

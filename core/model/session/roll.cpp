@@ -106,13 +106,15 @@ void Roll::findRenumbered(const Observed& seen) {
     if (one.before || !one.isConfirmed || age < kEnded || age > kNamed) {
         return;
     }
+    constexpr double kSamePlace = 0.2; // metres
     const ForeignText& name = one.metadata.value("name", seen.packet.number);
-    if (name.isEmpty()) {
-        return;
-    }
+    const auto isSame = [&](const Character& other) {
+        return other.metadata.value("name", seen.packet.number) == name &&
+               (!name.isEmpty() || (other.content.newest() - one.content.began()).norm() < kSamePlace);
+    };
     for (const Character* each : seen.sender->characters) {
         const bool hasEnded = each->lastPacket < one.firstPacket && since - each->lastStamp <= kTurn;
-        if (hasEnded && !each->after && each->metadata.value("name", seen.packet.number) == name) {
+        if (hasEnded && !each->after && isSame(*each)) {
             takeOver(*m_characters.find(each->key), one, since);
             return;
         }

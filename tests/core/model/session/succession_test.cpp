@@ -219,5 +219,54 @@ TEST_F(RestartTest, EndsWithItsSenderWhatOnlyThatSenderCanEnd) {
     }));
 }
 
+class RenumberedTest : public IncidentsTest {
+protected:
+    /// Two seconds of a character whose pelvis is near a place; `name`: empty for one without metadata.
+    void perform(std::uint8_t character, float x, const std::string& name = {}) {
+        for (std::uint32_t i = 0; i < 200; ++i, m_at += 10ms) {
+            if (!name.empty() && i % 50 == 0) {
+                sendOf(character, 0, wire::MetaData{true, "name:" + name + "\n"});
+            }
+            sendOf(character, m_sample, swayingAt(x, m_sample));
+            ++m_sample;
+        }
+    }
+    void sendOf(std::uint8_t character, std::uint32_t sample, wire::Body body) {
+        wire::Datagram datagram{{}, std::move(body), {}};
+        datagram.header.sampleCounter = sample;
+        datagram.header.character = character;
+        wire::completeHeader(datagram, wire::HeaderEra::Counted);
+        sendBytes(*wire::encode(datagram), m_at);
+    }
+    /// Rows, and restarts.
+    using Told = std::pair<std::size_t, std::size_t>;
+    Told told() {
+        follow();
+        return {m_session.atNow().roster().listed().size(), of(IncidentKind::Restart).size()};
+    }
+    std::uint32_t m_sample = 1;
+};
+
+TEST_F(RenumberedTest, IsWhoHasTheSameName) {
+    perform(0, 0, "Ana");
+    perform(7, 3, "Ana");
+    EXPECT_EQ(told(), Told(1, 1));
+    EXPECT_EQ(of(IncidentKind::Restart)[0].detail.kind, words::Kind::OtherId);
+}
+
+TEST_F(RenumberedTest, IsNobodyOfAnotherName) {
+    perform(0, 0, "Ana");
+    perform(7, 0, "Mira");
+    EXPECT_EQ(told(), Told(2, 0));
+}
+
+TEST_F(RenumberedTest, WithoutNamesIsWhoGoesOnWhereTheOtherWas) {
+    perform(0, 0);
+    perform(7, 0.1F);
+    EXPECT_EQ(told(), Told(1, 1));
+    perform(9, 0.6F);
+    EXPECT_EQ(told(), Told(2, 1));
+}
+
 } // namespace
 } // namespace posewire::model
