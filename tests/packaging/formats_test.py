@@ -91,7 +91,8 @@ def main(page, cli, source):
         decoded += lines(output(cli, "decode", "--json", str(take)))
         report = json.loads(output(cli, "monitor", str(take), "--json", "--verbose", "--max-loss", "0.1"))
         told = lines(output(cli, "monitor", str(take), "--json-lines"))
-        output(cli, "send", "--to", "127.0.0.1:9", "--duration", "0.1", "--drop", "0.5", "--truth", str(truth))
+        output(cli, "send", "--to", "127.0.0.1:9", "--duration", "0.1", "--drop", "0.5", "--fault", "frozen",
+               "--truth", str(truth))
         sent = json.loads(truth.read_text(encoding="utf-8"))
     compare("decode --json", promised, keys(decoded))
     compare("monitor --json", promised, keys(report))
