@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/wire/byte_order.h"
 #include "core/wire/payload.h"
+#include "core/wire/tags.h"
 #include "core/wire/text.h"
 #include "core/wire/type_table.h"
 #include "core/wire/write.h"
@@ -60,7 +61,7 @@ struct ItemChecks {
     Tally segment;
 
     template <class Item, Form F>
-    void check(const Item& item, std::size_t offset) {
+    void check(const Item& item, std::size_t offset, bool isTag = false) {
         std::uint32_t bad = 0;
         bool isOffUnit = false;
         forEachValue<Item, F>([&]<auto Member>(const Field<Member>& field) {
@@ -72,7 +73,7 @@ struct ItemChecks {
                 bad += nonFinite(item.*Member);
             } else if constexpr (std::is_unsigned_v<Value>) {
                 const bool isOutside =
-                    namesSegment(field.about.refersTo) && item.*Member - 1U >= kMaxSegments;
+                    namesSegment(field.about.refersTo) && item.*Member - 1U >= kMaxSegments && !isTag;
                 segment.add(isOutside ? 1 : 0, offset);
             }
         });
@@ -115,7 +116,8 @@ struct Soundness {
 };
 
 template <Form F, class Item>
-void checkItems(ItemChecks& checks, const std::vector<Item>& items, std::size_t offset) {
+void checkItems(ItemChecks& checks, const Header& header, const std::vector<Item>& items,
+                std::size_t offset) {
     Soundness all;
     for (const Item& item : items) {
         all.look<Item, F>(item);
@@ -123,9 +125,9 @@ void checkItems(ItemChecks& checks, const std::vector<Item>& items, std::size_t 
     if (all.isSound && all.zero == 0.0F) {
         return;
     }
-    for (const Item& item : items) {
-        checks.check<Item, F>(item, offset);
-        offset += writtenSize<Item, F>(item);
+    for (std::size_t i = 0; i < items.size(); ++i) {
+        checks.check<Item, F>(items[i], offset, isTag(header, items, i));
+        offset += writtenSize<Item, F>(items[i]);
     }
 }
 
@@ -206,7 +208,8 @@ void checkMessage(Datagram& datagram, ItemChecks& checks, const T& message) {
     forEachField<T, F>([&]<class FieldType>(const FieldType& field) {
         if constexpr (requires { FieldType::kItemForm; }) {
             const std::size_t countSize = FieldType::kMax != 0 ? sizeof(std::uint32_t) : 0;
-            checkItems<FieldType::kItemForm>(checks, message.*FieldType::kMember, texts.offset + countSize);
+            checkItems<FieldType::kItemForm>(checks, datagram.header, message.*FieldType::kMember,
+                                             texts.offset + countSize);
             texts.offset += detail::putField(ByteCounter{}, field, message).size;
         } else {
             texts(field);

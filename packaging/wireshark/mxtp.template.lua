@@ -335,6 +335,10 @@ function Reader:read_floats(field, tree, values)
     end
     node:set_text(field.name .. ": " .. table.concat(shown, ", ") .. unit)
     if count == 4 and not (math.abs(square - 1) <= 0.02) then values.is_off_unit = true end
+    if field.name == "rotation" or field.name == "orientation" then
+      local real = count == 4 and self.tvb(self.offset, 4):float() or 0
+      values.is_turned = square ~= real or (count == 4 and real ~= 1)
+    end
   end
   self.offset = self.offset + field.size
   return true
@@ -415,6 +419,16 @@ function Reader:read_characters(field, tree, values)
   return true
 end
 
+-- Whether an item is a MotionGrid tag in the place of a prop, in revision E: it is not turned and has the number of no
+-- prop.
+function Reader:is_tag(values)
+  local header, id, place = self.header, values.id, values.place
+  local counted = header.bodySegments + header.props + header.fingerSegments
+  local is_prop = (id >= 24 and id <= 30) or id == place or id == place + 1
+  return place > 23 and header.items < 63 and not is_prop and self.first_id ~= 0 and header.type <= 2 and
+    counted == 0 and header.datagramCounter == 0x80 and not values.is_turned
+end
+
 -- An item and what the checks need to know of it.
 function Reader:read_item(field, list, index)
   local values, item = { place = index }, nil
@@ -424,6 +438,8 @@ function Reader:read_item(field, list, index)
   local from = self.offset
   local is_read = self:read_layout(field.fields, item, values)
   if self.checks then
+    if index == 1 then self.first_id = values.id end
+    if values.is_out_of_range and is_read and self:is_tag(values) then values.is_out_of_range = nil end
     local label = field.places and field.places[index] or values.label
     item:set_len(self.offset - from)
     item:set_text(field.item .. " " .. index .. (label and ": " .. label or ""))

@@ -214,6 +214,16 @@ class Dissector(unittest.TestCase):
         names = self.names_in(pose_of([21, 22, 23, 25, 26, 27, 28], counter=0x81))
         self.assertEqual([["LeftLowerLeg", "LeftFoot", "LeftToe", "Prop1", "Prop2", "Prop3", "Prop4"]], names)
 
+    def test_takes_tags_in_places_of_props_for_tags(self):
+        def pose(digits, last_ids, turn):
+            ids = [*range(1, 24), *last_ids]
+            items = b"".join(struct.pack(f">I3f{len(turn)}f", one, 1, 2, 3, *turn) for one in ids)
+            return b"MXTP" + digits + struct.pack(">IBBI8x", 1, 0x80, len(ids), 0) + items
+        cases = [(b"02", [24, 25, 1234, 0], (1, 0, 0, 0)), (b"02", [24, 1234], (0, 1, 0, 0)),
+                 (b"02", [24, 25, 26, 27, 68], (1, 0, 0, 0)), (b"02", [70, 24, 25], (1, 0, 0, 0)),
+                 (b"01", [24, 99], (0, 0, 0)), (b"01", [24, 99], (0, 0, 1))]
+        self.compare_udp([(str(case), pose(*case)) for case in cases])
+
     def test_names_points_before_tags(self):
         ids = [269, 513, 1025, 5001, 5002]
         body = b"".join(struct.pack(">Ifff", point, 0, 0, 0) for point in ids)

@@ -5,6 +5,7 @@
 #include "app/gui/models/text.h"
 #include "app/gui/theme/words.h"
 #include "core/model/body/character_pose.h"
+#include "core/model/body/item_names.h"
 #include "core/model/body/joint_angles.h"
 
 #include <algorithm>
@@ -164,7 +165,7 @@ void FieldDocument::readContext() {
     }
 }
 
-/// By its two ends. The last rows, of which two have the same, are told apart by their places alone.
+/// By its two ends.
 std::optional<int> FieldDocument::firstJoint(std::int32_t item) const {
     std::vector<std::uint32_t> ends;
     for (const std::int32_t child : children(item)) {
@@ -172,13 +173,7 @@ std::optional<int> FieldDocument::firstJoint(std::int32_t item) const {
             ends.push_back(static_cast<std::uint32_t>(node(child).number));
         }
     }
-    const auto& joints = model::jointDefinitions();
-    const auto found = std::ranges::find_if(joints, [&](const model::JointDefinition& joint) {
-        constexpr auto kCoding = model::PointIdCoding::By256;
-        return ends == std::vector{model::encodePointId(kCoding, joint.parent),
-                                   model::encodePointId(kCoding, joint.child)};
-    });
-    return found != joints.end() ? std::optional(static_cast<int>(found - joints.begin())) : std::nullopt;
+    return ends.size() == 2 ? model::findJoint(ends[0], ends[1]) : std::nullopt;
 }
 
 int FieldDocument::placeOf(std::int32_t item) const {
@@ -258,9 +253,17 @@ std::int32_t FieldDocument::find(const std::string& path) const {
     return kNone;
 }
 
+bool FieldDocument::isTag(std::int32_t item) const {
+    if (node(item).index < model::kBodySegments || type() > wire::PoseQuaternion::kType) {
+        return false;
+    }
+    const auto datagram = wire::decode(bytes);
+    return datagram && model::isTag(*datagram, node(item).index);
+}
+
 int FieldDocument::segmentOf(std::int32_t node) const {
     const std::int32_t item = itemOf(node);
-    if (item < 0) {
+    if (item < 0 || isTag(item)) {
         return -1;
     }
     const int index = placeOf(item);

@@ -391,13 +391,16 @@ QString itemTitle(const FieldDocument& document, std::int32_t item) {
     const FieldNode& node = document.node(item);
     const int segment = document.segmentOf(item);
     const QString id = QString::number(idOf(document, item));
+    if (document.isTag(item)) {
+        return tr("Tag %1").arg(id);
+    }
     switch (node.refersTo) {
     case RefersTo::Joint:
         return jointTitle(document.placeOf(item));
     case RefersTo::Point:
         return tr("Point %1").arg(pointTitle(document, item));
     case RefersTo::Tag:
-        return tr("Point %1").arg(id);
+        return tr("Tag %1").arg(id);
     case RefersTo::Prop:
         return tr("Prop %1").arg(withName(id, textField(document, item)));
     case RefersTo::Tracker:

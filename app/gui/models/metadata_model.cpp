@@ -40,6 +40,9 @@ QString labelOf(const MetadataRow& row) {
     if (row.fact != nullptr) {
         return row.fact->label;
     }
+    if (row.place != nullptr) {
+        return tr("Tag %1").arg(row.place->id);
+    }
     return row.isEarlier ? tr("before") : shown(row.tag->name);
 }
 
@@ -67,6 +70,11 @@ PropertyValue shownValue(const model::SessionView& view, const MetadataRow& row)
         value.toolTip = value.toolTip.isEmpty() ? value.text : value.toolTip;
         return value;
     }
+    if (row.place != nullptr) {
+        const Eigen::Vector3d& at = row.place->position;
+        return {tr("%1, %2, %3 m").arg(fixed(at.x(), 3), fixed(at.y(), 3), fixed(at.z(), 3)), Health::Unknown,
+                tr("MotionGrid tag: its latest place, x, y and z, Z-up")};
+    }
     if (row.value == nullptr) {
         return {tr("not sent yet")};
     }
@@ -79,7 +87,8 @@ MetadataColumn sentColumn(model::SessionView& view) {
         if (row.fact != nullptr) {
             return QString();
         }
-        const double age = log::secondsOf(view.cursorStamp() - row.tag->lastSeen);
+        const log::Stamp sent = row.place != nullptr ? row.place->stamp : row.tag->lastSeen;
+        const double age = log::secondsOf(view.cursorStamp() - sent);
         return row.isEarlier ? timeOfDay(view.wallOf(row.value->stamp)) : duration(std::max(0.0, age));
     };
     const auto toolTip = [&view](const MetadataRow& row) {
@@ -220,8 +229,8 @@ void MetadataModel::refresh() {
     if (key != m_key || std::exchange(m_dropped, dropped) != dropped || count < m_earlier.size()) {
         m_dropped = dropped;
         changeCharacter(key);
-    } else if (m_key && !insertTags()) {
-        fitHistories();
+    } else if (m_key && !insertTags() && !fitHistories()) {
+        fitPlaces();
     }
     announceChange();
 }
@@ -231,14 +240,17 @@ void MetadataModel::changeCharacter(std::optional<model::CharacterKey> key) {
         beginRemoveRows({}, 0, rowCount() - 1);
         m_key.reset();
         m_earlier.clear();
+        m_places.clear();
         endRemoveRows();
     }
     if (!key) {
         return;
     }
     const auto tags = m_view.messages().metadata(*key).tags();
-    beginInsertRows({}, 0, static_cast<int>(tags.size() + m_facts.size()) - 1);
+    auto places = m_view.messages().tags(*key);
+    beginInsertRows({}, 0, static_cast<int>(tags.size() + m_facts.size() + places.size()) - 1);
     m_key = key;
+    m_places = std::move(places);
     for (const model::MetadataTag& tag : tags) {
         m_earlier.push_back(earlierValues(tag));
     }
@@ -259,7 +271,7 @@ bool MetadataModel::insertTags() {
     return true;
 }
 
-void MetadataModel::fitHistories() {
+bool MetadataModel::fitHistories() {
     bool hasInserted = false;
     bool hasRemoved = false;
     for (std::size_t row = 0; row < m_earlier.size(); ++row) {
@@ -275,6 +287,27 @@ void MetadataModel::fitHistories() {
             m_earlier[row] = wanted;
             endRemoveRows();
         }
+    }
+    return hasInserted || hasRemoved;
+}
+
+void MetadataModel::fitPlaces() {
+    auto places = m_view.messages().tags(*m_key);
+    const auto ids = &model::TagPlace::id;
+    const auto same = std::ranges::mismatch(m_places, places, {}, ids, ids).in1 - m_places.begin();
+    const int before = static_cast<int>(m_earlier.size() + m_facts.size());
+    const int first = before + static_cast<int>(same);
+    if (first < rowCount()) {
+        beginRemoveRows({}, first, rowCount() - 1);
+        m_places.resize(static_cast<std::size_t>(same));
+        endRemoveRows();
+    }
+    if (const int end = before + static_cast<int>(places.size()); first < end) {
+        beginInsertRows({}, first, end - 1);
+        m_places = std::move(places);
+        endInsertRows();
+    } else {
+        m_places = std::move(places);
     }
 }
 
@@ -306,7 +339,7 @@ QModelIndex MetadataModel::parent(const QModelIndex& index) const {
 
 int MetadataModel::rowCount(const QModelIndex& parent) const {
     if (!parent.isValid()) {
-        return m_key ? static_cast<int>(m_earlier.size() + m_facts.size()) : 0;
+        return m_key ? static_cast<int>(m_earlier.size() + m_facts.size() + m_places.size()) : 0;
     }
     const bool hasHistory =
         parent.internalId() == kTop && parent.column() == 0 && tag(parent.row()) != nullptr;
@@ -317,9 +350,10 @@ MetadataRow MetadataModel::rowAt(const QModelIndex& index) const {
     const bool isTop = index.internalId() == kTop;
     const model::MetadataTag* found = tag(isTop ? index.row() : static_cast<int>(index.internalId()));
     if (found == nullptr) {
-        return isTop && static_cast<std::size_t>(index.row()) >= m_earlier.size()
-                   ? MetadataRow{.fact = &m_facts[static_cast<std::size_t>(index.row()) - m_earlier.size()]}
-                   : MetadataRow{};
+        const std::size_t below = static_cast<std::size_t>(index.row()) - m_earlier.size();
+        return !isTop || static_cast<std::size_t>(index.row()) < m_earlier.size() ? MetadataRow{}
+               : below < m_facts.size() ? MetadataRow{.fact = &m_facts[below]}
+                                        : MetadataRow{.place = &m_places[below - m_facts.size()]};
     }
     const std::size_t earlier = earlierValues(*found);
     if (isTop) {
@@ -333,7 +367,8 @@ MetadataRow MetadataModel::rowAt(const QModelIndex& index) const {
 
 QVariant MetadataModel::data(const QModelIndex& index, int role) const {
     const MetadataRow row = checkIndex(index, CheckIndexOption::IndexIsValid) ? rowAt(index) : MetadataRow{};
-    return row.tag != nullptr || row.fact != nullptr ? cell(row, index.column(), role) : QVariant();
+    return row.tag != nullptr || row.fact != nullptr || row.place != nullptr ? cell(row, index.column(), role)
+                                                                             : QVariant();
 }
 
 } // namespace posewire::gui

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/gui/models/column.h"
+#include "core/model/body/pose_messages.h"
 #include "core/model/session/metadata.h"
 #include "core/model/session/session_view.h"
 
@@ -10,17 +11,19 @@
 
 namespace posewire::gui {
 
-/// A tag with the value at the cursor (null before it was sent), an earlier value of one, or a fact.
+/// A tag at the cursor (without a value before it was sent), an earlier value, a fact, or a MotionGrid tag.
 struct MetadataRow {
     const model::MetadataTag* tag = nullptr;
     const model::MetadataTag::Value* value = nullptr;
     const Property* fact = nullptr;
-    std::size_t changes = 0; ///< of a tag, up to the cursor
+    const model::TagPlace* place = nullptr; ///< of a MotionGrid tag
+    std::size_t changes = 0;                ///< of a tag, up to the cursor
     bool isEarlier = false;
 };
 
 /// What is known about the shown character: every tag of its metadata with its earlier values as children,
-/// newest first, and below them what was concluded from headers and scale messages. Reads at the cursor.
+/// newest first, below them what was concluded from headers and scale messages, and last its MotionGrid tags.
+/// Reads at the cursor.
 class MetadataModel : public ColumnModel<MetadataRow, QAbstractItemModel> {
 public:
     enum Column : int { kName, kValue, kSent };
@@ -38,7 +41,8 @@ public:
 private:
     void changeCharacter(std::optional<model::CharacterKey> key);
     bool insertTags();
-    void fitHistories();
+    bool fitHistories(); ///< false if all were as they had to be
+    void fitPlaces();
     [[nodiscard]] std::size_t earlierValues(const model::MetadataTag& tag) const;
     [[nodiscard]] const model::MetadataTag* tag(int row) const;
     [[nodiscard]] MetadataRow rowAt(const QModelIndex& index) const;
@@ -48,6 +52,7 @@ private:
     std::vector<std::size_t> m_earlier; ///< rows under each tag
     std::uint64_t m_dropped = 0;        ///< tags of the character that were given up so far
     std::vector<Property> m_facts;
+    std::vector<model::TagPlace> m_places; ///< of MotionGrid tags
 };
 
 } // namespace posewire::gui

@@ -3,7 +3,7 @@
 
 #include "app/gui/models/text.h"
 #include "app/gui/theme/theme.h"
-#include "core/model/body/points.h"
+#include "core/model/body/item_names.h"
 #include "core/model/body/pose_solver.h"
 #include "core/model/session/messages.h"
 
@@ -88,9 +88,7 @@ void drawSegmentNames(const OverlaySubject& subject, SceneFrame& frame) {
     for (std::size_t i = 0; subject.isAlone && i < subject.pose.segments.size(); ++i) {
         if (i < kBody + static_cast<std::size_t>(subject.pose.layout.props) && subject.pose.isPresent(i)) {
             const auto name = model::segmentTitle(subject.pose.layout, static_cast<int>(i));
-            frame.texts.push_back({pointOf(subject.pose.segments[i].position),
-                                   QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size())),
-                                   theme().text});
+            frame.texts.push_back({pointOf(subject.pose.segments[i].position), fromUtf8(name), theme().text});
         }
     }
 }
@@ -112,14 +110,6 @@ constexpr float kOnFloor = 0.004F; ///< metres: above the lines of the grid
 
 glm::vec3 onFloor(const glm::vec3& place) {
     return {place.x, place.y, kOnFloor};
-}
-
-/// "pSacrum", else "1.13".
-QString titleOf(const model::PointReference& reference) {
-    const model::AnatomicalPoint* known = model::findPoint(reference.segmentId - 1, reference.localId);
-    return known != nullptr
-               ? QString::fromUtf8(known->name.data(), static_cast<qsizetype>(known->name.size()))
-               : QStringLiteral("%1.%2").arg(reference.segmentId).arg(reference.localId);
 }
 
 template <class Vector>
@@ -166,19 +156,16 @@ void drawMarkers(const OverlaySubject& subject, SceneFrame& frame) {
     if (sent == nullptr) {
         return;
     }
-    std::vector<std::uint32_t> ids;
-    for (const wire::Point& point : sent->points) {
-        ids.push_back(point.id);
-    }
-    const model::PointIdCoding coding = model::detectPointIdCoding(ids);
+    const wire::Datagram& datagram = freshMessage(subject, wire::PointPositions::kType)->datagram;
     const model::LengthUnit unit = unitOf(subject, wire::PointPositions::kType);
-    for (const wire::Point& point : sent->points) {
+    const std::size_t markers = model::countMarkers(*sent); // the tags behind them are drawn anyway
+    for (std::size_t i = 0; i < markers; ++i) {
+        const wire::Point& point = sent->points[i];
         const glm::vec3 place = pointOf(model::pointFromYUp(point.position, unit) + subject.pose.moved);
         frame.points.push_back({place, inkOf(theme().text, subject.strength), 6.0F});
-        const auto reference = model::decodePointId(coding, point.id);
         if (subject.isAlone) {
-            frame.texts.push_back(
-                {place, reference ? titleOf(*reference) : QString::number(point.id), theme().dim});
+            const QString name = fromUtf8(model::itemName(datagram, i));
+            frame.texts.push_back({place, name.isEmpty() ? QString::number(point.id) : name, theme().dim});
         }
     }
 }

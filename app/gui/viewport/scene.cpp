@@ -7,6 +7,7 @@
 #include "app/gui/viewport/captions.h"
 #include "app/gui/viewport/overlays.h"
 #include "core/model/body/null_pose_measures.h"
+#include "core/model/body/pose_messages.h"
 #include "core/model/body/pose_remark.h"
 #include "core/model/body/reference_body.h"
 #include "core/model/session/messages.h"
@@ -229,6 +230,7 @@ void SceneBuilder::build(AxesMode axes, const Overlays& overlays, SceneFrame& fr
     for (const model::Character* shown : characters) {
         const model::Character& character = *shown;
         const model::CharacterPose* pose = poseOf(character.key);
+        addTags(character.key, pose, frame);
         if (pose == nullptr || isRenumbered(m_session, character.key)) {
             continue;
         }
@@ -334,6 +336,23 @@ render::CharacterLook SceneBuilder::lookOf(const model::CharacterKey& key) const
     look.dim = dimFor(age);
     look.isHatched = age >= kStaleAge;
     return look;
+}
+
+void SceneBuilder::addTags(const model::CharacterKey& key, const model::CharacterPose* pose,
+                           SceneFrame& frame) const {
+    if (m_session.roster().isHidden(key)) {
+        return;
+    }
+    const Eigen::Vector3d moved = pose != nullptr ? pose->moved : Eigen::Vector3d::Zero();
+    for (const model::TagPlace& tag : m_session.messages().tags(key)) {
+        const double age = log::secondsOf(m_session.cursorStamp() - tag.stamp);
+        const QString text = age < kStaleAge
+                                 ? QString::number(tag.id)
+                                 : QStringLiteral("%1 · %2").arg(QString::number(tag.id), duration(age));
+        const glm::vec3 place = pointOf(tag.position + moved);
+        frame.points.push_back({place, glm::vec4(lookOf(key).colour, 1.0F - dimFor(age)), 9.0F});
+        frame.texts.push_back({place, text, theme().dim});
+    }
 }
 
 /// Their axes are all there is of them: they are drawn whatever the choice of axes.

@@ -191,6 +191,8 @@ private:
     void dress(Figure& figure);
     void addProps(const model::CharacterPose& pose, Figure& figure) const;
     void addFigure(const model::Character& character, const model::CharacterPose& pose, SceneFrame& frame);
+    /// MotionGrid tags, older ones fainter and with their age; none of a character that is hidden.
+    void addTags(const model::CharacterKey& key, const model::CharacterPose* pose, SceneFrame& frame) const;
     void addObjects(const model::Character& character, const model::CharacterPose& pose, SceneFrame& frame);
     /// On the floor under the live pelvis, turned as it is; nothing if no null pose was sent.
     void addGhost(const Figure& figure, const model::CharacterPose& pose, SceneFrame& frame);

@@ -4,6 +4,7 @@
 #include "core/model/body/points.h"
 #include "core/model/body/pose_messages.h"
 #include "core/model/body/pose_solver.h"
+#include "core/wire/tags.h"
 
 #include <algorithm>
 
@@ -65,10 +66,16 @@ Placement placementOf(const wire::Header& header, const Items& items) {
     const int missing =
         placement.isObjects ? 0 : kBodySegmentCount - std::min(places.layout.body, kBodySegmentCount);
     placement.layout.body += missing;
+    int next = placement.layout.body;
     for (std::size_t i = 0; i < items.size(); ++i) {
-        const bool isOfBody = static_cast<int>(i) < places.layout.body;
-        placement.positions.push_back(isOfBody ? places.positionOf(i, ids[i])
-                                               : static_cast<int>(i) + missing);
+        if (static_cast<int>(i) < places.layout.body) {
+            placement.positions.push_back(places.positionOf(i, ids[i]));
+        } else if (wire::isTag(header, items, i)) {
+            placement.positions.push_back(-1);
+            --placement.layout.props;
+        } else {
+            placement.positions.push_back(next++);
+        }
     }
     return placement;
 }

@@ -77,20 +77,6 @@ double meanOf(const std::vector<SegmentDifference>& segments, Read read) {
 
 } // namespace
 
-int slotOf(const SegmentPlace& place) {
-    switch (place.kind) {
-    case SegmentKind::Body:
-        return place.index;
-    case SegmentKind::Prop:
-        return kBodySegmentCount + place.index;
-    case SegmentKind::LeftFinger:
-        return kBodySegmentCount + kMaxPropCount + place.index;
-    case SegmentKind::RightFinger:
-        break;
-    }
-    return kBodySegmentCount + kMaxPropCount + kHandSegmentCount + place.index;
-}
-
 const SegmentDifference* PoseDifference::find(int slot) const {
     const auto found = std::ranges::find(segments, slot, &SegmentDifference::slot);
     return found == segments.end() ? nullptr : &*found;

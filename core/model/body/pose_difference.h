@@ -14,11 +14,6 @@ enum class DifferenceFrame : std::uint8_t {
     Pelvis,  ///< the pelvis, place and turn: what is left is the pose alone
 };
 
-/// Every segment that a body can have, in the order in which differences name them.
-inline constexpr SegmentLayout kAllSegments{kBodySegmentCount, kMaxPropCount, kFingerSegmentCount};
-/// Where a segment is in kAllSegments: the same for both bodies, whatever else was sent of them.
-[[nodiscard]] int slotOf(const SegmentPlace& place);
-
 struct SegmentDifference {
     int slot = 0;  ///< see kAllSegments
     int first = 0; ///< position in the pose of the one, and of the other

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/body/pose_messages.h"
 
+#include "core/model/body/item_names.h"
+#include "core/wire/tags.h"
+
 #include <algorithm>
 #include <span>
 
@@ -110,6 +113,42 @@ bool assemble(const PoseMessages& chosen, const std::array<LengthUnit, kPoseType
         standInRow(newest.datagram.header.character, pose);
     }
     return true;
+}
+
+void addTags(const Message& message, LengthUnit unit, std::vector<TagPlace>& tags) {
+    const auto put = [&](std::uint32_t id, const Eigen::Vector3d& position) {
+        auto at = std::ranges::lower_bound(tags, id, {}, &TagPlace::id);
+        const bool isKnown = at != tags.end() && at->id == id;
+        if (!isPlace(position) || (!isKnown && tags.size() == wire::kMaxItems)) {
+            return;
+        }
+        at = isKnown ? at : tags.insert(at, TagPlace{id});
+        if (at->stamp <= message.stamp) {
+            *at = {id, position, message.stamp};
+        }
+    };
+    const auto putInPropPlaces = [&](const auto& items, auto toPose) {
+        for (std::size_t i = kBodySegments; i < items.size(); ++i) {
+            if (wire::isTag(message.datagram.header, items, i)) {
+                put(items[i].id, toPose(items[i], unit).position);
+            }
+        }
+    };
+    const auto putFrom = [&](const std::vector<wire::Point>& points, std::size_t first) {
+        for (std::size_t i = first; i < points.size(); ++i) {
+            put(points[i].id, pointFromYUp(points[i].position, unit));
+        }
+    };
+    const wire::Body& body = message.datagram.body;
+    if (const auto* euler = std::get_if<wire::PoseEuler>(&body)) {
+        putInPropPlaces(euler->segments, poseFromEuler);
+    } else if (const auto* quaternion = std::get_if<wire::PoseQuaternion>(&body)) {
+        putInPropPlaces(quaternion->segments, poseFromQuaternion);
+    } else if (const auto* markers = std::get_if<wire::PointPositions>(&body)) {
+        putFrom(markers->points, countMarkers(*markers));
+    } else if (const auto* free = std::get_if<wire::TagPositions>(&body)) {
+        putFrom(free->points, 0);
+    }
 }
 
 } // namespace posewire::model

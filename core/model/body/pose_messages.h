@@ -51,4 +51,15 @@ using FindPoseMessage =
 bool assemble(const PoseMessages& chosen, const std::array<LengthUnit, kPoseTypes.size()>& units,
               const BodyOrigins& body, CharacterPose& pose);
 
+/// A MotionGrid tag where a message had it last.
+struct TagPlace {
+    std::uint32_t id = 0;
+    Eigen::Vector3d position = Eigen::Vector3d::Zero(); ///< metres, Z-up
+    log::Stamp stamp{};
+};
+
+/// Brings the tags of a message of type 01 to 04 in, which is not older than what they hold: in the order of
+/// their ids, at most as many as a message has items.
+void addTags(const Message& message, LengthUnit unit, std::vector<TagPlace>& tags);
+
 } // namespace posewire::model

@@ -86,8 +86,6 @@ std::string_view named(const Naming& naming, const SegmentLayout& layout, int po
     return {};
 }
 
-constexpr SegmentLayout kAll{kBodySegmentCount, kMaxPropCount, kFingerSegmentCount};
-
 // Table "Unity3D" of the specification: legs, spine, left arm, right arm, head.
 constexpr std::array<int, kBodySegmentCount> kUnityOrder{{
     kPelvis,
@@ -167,6 +165,20 @@ std::optional<SegmentPlace> placeOf(const SegmentLayout& layout, int position) {
     return std::nullopt;
 }
 
+int slotOf(const SegmentPlace& place) {
+    switch (place.kind) {
+    case SegmentKind::Body:
+        return place.index;
+    case SegmentKind::Prop:
+        return kBodySegmentCount + place.index;
+    case SegmentKind::LeftFinger:
+        return kBodySegmentCount + kMaxPropCount + place.index;
+    case SegmentKind::RightFinger:
+        break;
+    }
+    return kBodySegmentCount + kMaxPropCount + kHandSegmentCount + place.index;
+}
+
 std::string_view segmentName(const SegmentLayout& layout, int position) {
     static const Naming names{&Segment::name, handNames("Left", false), handNames("Right", false)};
     return named(names, layout, position);
@@ -178,9 +190,9 @@ std::string_view segmentTitle(const SegmentLayout& layout, int position) {
 }
 
 std::string_view segmentTitle(std::string_view sentName) {
-    for (int position = 0; position < kAll.count(); ++position) {
-        if (segmentName(kAll, position) == sentName) {
-            return segmentTitle(kAll, position);
+    for (int position = 0; position < kAllSegments.count(); ++position) {
+        if (segmentName(kAllSegments, position) == sentName) {
+            return segmentTitle(kAllSegments, position);
         }
     }
     return {};

@@ -85,12 +85,18 @@ struct SegmentLayout {
     friend constexpr bool operator==(const SegmentLayout&, const SegmentLayout&) = default;
 };
 
+/// Every segment that a body can have.
+inline constexpr SegmentLayout kAllSegments{kBodySegmentCount, kMaxPropCount, kFingerSegmentCount};
+
 enum class SegmentKind : std::uint8_t { Body, Prop, LeftFinger, RightFinger };
 
 struct SegmentPlace {
     SegmentKind kind = SegmentKind::Body;
     int index = 0; ///< within the kind: body segment, prop number, or place in the hand
 };
+
+/// Where a segment is in kAllSegments: the same for all bodies, whatever else was sent of them.
+[[nodiscard]] int slotOf(const SegmentPlace& place);
 
 /// Judged by position, since the numbering of props differs between revisions. Empty outside the layout.
 std::optional<SegmentPlace> placeOf(const SegmentLayout& layout, int position);

@@ -4,6 +4,7 @@
 #include "core/model/body/character_pose.h"
 #include "core/model/body/segments.h"
 #include "core/wire/messages.h"
+#include "core/wire/tags.h"
 
 #include <algorithm>
 #include <bit>
@@ -142,12 +143,12 @@ void checkIds(const wire::Header& header, const std::vector<Item>& items, PoseCh
     constexpr std::size_t kUnknown = 255;
     std::bitset<kUnknown + 1> seen;
     std::uint16_t twice = 0;
-    for (const Item& item : items) {
-        const std::size_t id = std::min<std::size_t>(item.id, kUnknown);
-        if (id != kUnknown && seen.test(id)) {
+    for (std::size_t i = 0; i < items.size(); ++i) {
+        const std::size_t id = wire::isTag(header, items, i) ? kUnknown : items[i].id;
+        if (id < kUnknown && seen.test(id)) {
             ++twice;
         }
-        seen.set(id);
+        seen.set(std::min(id, kUnknown));
     }
     const bool isFromZero = items.size() >= kBodySegments && items.front().id == 0 && items[1].id == 1;
     if (isFromZero) {

@@ -27,6 +27,11 @@ struct Messages::Decoded {
         bool isLifted = false;
         friend bool operator==(const PoseOrigin&, const PoseOrigin&) = default;
     };
+    struct OfTags {
+        LengthUnit unit = LengthUnit::Centimetre;
+        log::Stamp newest{}; ///< of the datagrams that were looked at
+        std::vector<TagPlace> places{};
+    };
     struct OfCharacter {
         PoseOrigin poseOrigin;
         bool isValid = false;
@@ -36,6 +41,7 @@ struct Messages::Decoded {
         /// with the highest bit.
         std::uint64_t bodyOrigin = UINT64_MAX;
         std::optional<BodyOrigins> origins;
+        OfTags tags; ///< from type 04
     };
     std::unordered_map<log::StreamKey, OfStream> messages;
     std::map<CharacterKey, OfCharacter> characters;

@@ -11,6 +11,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace posewire::model {
 
@@ -21,6 +22,7 @@ struct NullPoseEvidence;
 struct PoseRemark;
 struct RangePart;
 struct RangeParts;
+struct TagPlace;
 
 /// Messages, bodies and poses at a moment. Reading changes only its memory of what was decoded. What it
 /// returns is valid until the session follows the log again, or the same is read of another moment.
@@ -69,6 +71,9 @@ public:
     [[nodiscard]] PoseRemark poseRemark(const CharacterKey& key) const;
     /// From the scale message; null if none was received.
     [[nodiscard]] const NullPose* nullPose(const CharacterKey& key) const;
+    /// MotionGrid tags, each at its latest place, in the order of their ids: those in the newest messages of
+    /// types 01 to 03, and of the newest 8,192 datagrams of type 04, which has updated ones alone.
+    [[nodiscard]] std::vector<TagPlace> tags(const CharacterKey& key) const;
     /// What the scale messages of a character are judged by, or those of its predecessor if it has sent none
     /// itself.
     [[nodiscard]] NullPoseEvidence nullPoseEvidence(const CharacterKey& key) const;

@@ -79,6 +79,36 @@ const CharacterPose* Messages::pose(const CharacterKey& key) const {
     return read.isValid ? &read.pose : nullptr;
 }
 
+std::vector<TagPlace> Messages::tags(const CharacterKey& key) const {
+    constexpr std::size_t kMost = 8192;
+    const Sender* sender = m_roster.find(key.sender);
+    if (sender == nullptr) {
+        return {};
+    }
+    const log::StreamKey stream{key.sender, key.character, wire::TagPositions::kType};
+    const log::StreamEntries* entries = m_moment.entriesOf(stream);
+    const std::size_t count = entries != nullptr ? m_moment.countOf(*entries) : 0;
+    const log::Stamp from = count > kMost ? (*entries)[count - kMost].stamp : log::Stamp();
+    const LengthUnit unit = sender->positionUnit(wire::TagPositions::kType);
+    Decoded::OfTags& known = decoded().characters[key].tags;
+    if (count == 0 || (*entries)[count - 1].stamp < known.newest || unit != known.unit) {
+        known = {unit};
+    }
+    visit(stream, std::max(from, known.newest), kMost, [&](const Message& message) {
+        addTags(message, unit, known.places);
+        known.newest = message.stamp;
+    });
+    std::erase_if(known.places, [from](const TagPlace& tag) { return tag.stamp < from; });
+    std::vector<TagPlace> tags = known.places;
+    for (const std::uint8_t type :
+         {wire::PoseEuler::kType, wire::PoseQuaternion::kType, wire::PointPositions::kType}) {
+        if (const Message* newest = message(key, type)) {
+            addTags(*newest, sender->positionUnit(type), tags);
+        }
+    }
+    return tags;
+}
+
 PoseRemark Messages::poseRemark(const CharacterKey& key) const {
     const CharacterPose* shown = pose(key);
     return shown != nullptr ? remarkOn(*shown, bodyOrigins(key)) : PoseRemark{};
@@ -92,12 +122,11 @@ const BodyOrigins& Messages::bodyOrigins(const CharacterKey& key) const {
                                  : measure != nullptr ? kMeasured | measure->version()
                                                       : UINT64_MAX;
     Decoded::OfCharacter& read = decoded().characters[key];
-    if (read.origins && read.bodyOrigin == origin) {
-        return *read.origins;
+    if (!read.origins || read.bodyOrigin != origin) {
+        read.bodyOrigin = origin;
+        const auto measured = measure != nullptr ? measure->body() : std::nullopt;
+        read.origins = pose != nullptr ? bodyOf(*pose) : measured.value_or(BodyOrigins{referenceOrigins()});
     }
-    read.bodyOrigin = origin;
-    const auto measured = measure != nullptr ? measure->body() : std::nullopt;
-    read.origins = pose != nullptr ? bodyOf(*pose) : measured.value_or(BodyOrigins{referenceOrigins()});
     return *read.origins;
 }
 

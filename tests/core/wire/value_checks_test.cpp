@@ -109,6 +109,33 @@ TEST(ValueChecks, LeaveTheNumbersOfPointsTagsJointsAndPropsAlone) {
     EXPECT_TRUE(noticesOf(PropInformation{{{0, "x"}, {999, "y"}}}).empty());
 }
 
+/// As revision E has it where no props are counted.
+std::vector<Notice> noticesOf(const Body& body, std::uint8_t props) {
+    Datagram datagram;
+    datagram.header.bodySegments = 23;
+    datagram.header.props = props;
+    datagram.body = body;
+    completeHeader(datagram, props == 0 ? HeaderEra::Reserved : HeaderEra::Counted);
+    return decode(encode(datagram).value()).value().notices;
+}
+
+TEST(ValueChecks, TakeTagsInThePlacesOfPropsForTags) {
+    PoseQuaternion quaternions;
+    PoseEuler angles;
+    for (std::uint32_t i = 0; i < 27; ++i) {
+        const std::uint32_t id = i < 25 ? i + 1 : 1209 + i;
+        quaternions.segments.push_back({id, {1, 2, 3}, {1, 0, 0, 0}});
+        angles.segments.push_back({id, {1, 2, 3}, {}});
+    }
+    EXPECT_TRUE(noticesOf(quaternions, 0).empty());
+    EXPECT_TRUE(noticesOf(angles, 0).empty());
+    EXPECT_EQ(noticesOf(quaternions, 4), (Notices{{NoticeCode::SegmentOutOfRange, 24 + 25 * 32, 2}}));
+    quaternions.segments[26].orientation = {0, 1, 0, 0};
+    EXPECT_EQ(noticesOf(quaternions, 0), (Notices{{NoticeCode::SegmentOutOfRange, 24 + 26 * 32, 1}}));
+    angles.segments[25].position[0] = kNaN;
+    EXPECT_EQ(noticesOf(angles, 0), (Notices{{NoticeCode::NotFinite, 24 + 25 * 28, 1}}));
+}
+
 TEST(ValueChecks, FindWhatIsNotFiniteInEveryType) {
     const auto oddAt = [](std::uint32_t offset, std::uint32_t count) {
         return Notices{{NoticeCode::NotFinite, offset, count}};

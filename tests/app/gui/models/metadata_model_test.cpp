@@ -115,6 +115,24 @@ TEST_F(MetadataModelTest, SaysThatTheReferenceBodyStandsIn) {
     EXPECT_EQ(value("Null pose"), QStringLiteral("not received · reference body"));
 }
 
+TEST_F(MetadataModelTest, ListsMotionGridTagsByTheirIdsWithTheirAges) {
+    m_stage.send(wire::TagPositions{{{901, {100, 120, 50}}}}, 1, 0, Stage::kStart);
+    m_stage.send(wire::TagPositions{{{900, {0, 110, 20}}}}, 2, 0, Stage::kStart + 3s);
+    refresh();
+    const int count = m_model.rowCount();
+    ASSERT_GE(count, 2);
+    EXPECT_EQ(m_model.index(count - 2, 0).data().toString(), QStringLiteral("Tag 900"));
+    EXPECT_EQ(value("Tag 901"), QStringLiteral("0.500, 1.000, 1.200 m"));
+    EXPECT_EQ(row("Tag 901").siblingAtColumn(MetadataModel::kSent).data().toString(), "3.0 s");
+    m_stage.session.setCursor({model::Cursor::Mode::Paused, 0});
+    refresh();
+    EXPECT_EQ(m_model.rowCount(), count - 1);
+    EXPECT_FALSE(row("Tag 900").isValid());
+    m_stage.session.setCursor({});
+    refresh();
+    EXPECT_EQ(m_model.index(count - 2, 0).data().toString(), QStringLiteral("Tag 900"));
+}
+
 TEST_F(MetadataModelTest, AnnouncesAtMostOneOfEachInARefresh) {
     m_stage.sendMetadata("name:Ana\ncolor:112233\n", Stage::kStart);
     refresh();

@@ -254,6 +254,22 @@ TEST_F(SceneBuilderTest, PropsOfRevisionEAreNamedByTheirOwnMessage) {
     EXPECT_EQ(props[0].shape, render::PropShape::Sword);
 }
 
+TEST_F(SceneBuilderTest, MotionGridTagsArePointsThatFadeWithTheirAge) {
+    stage.send(wire::TagPositions{{{900, {0, 100, 50}}, {901, {10, 0, 0}}}}, 1, 0, Stage::kStart);
+    stage.send(wire::TagPositions{{{901, {20, 0, 0}}}}, 2, 0, Stage::kStart + 12s);
+    stage.follow();
+    SceneFrame frame = build();
+    ASSERT_EQ(frame.points.size(), 2U) << "a sender without a pose has them as well";
+    EXPECT_EQ(frame.points[0].position, glm::vec3(0.5F, 0, 1));
+    EXPECT_EQ(frame.points[1].position, glm::vec3(0, 0.2F, 0));
+    EXPECT_LT(frame.points[0].colour.a, frame.points[1].colour.a);
+    ASSERT_EQ(frame.texts.size(), 2U);
+    EXPECT_EQ(frame.texts[0].text, QStringLiteral("900 · 12 s"));
+    EXPECT_EQ(frame.texts[1].text, QStringLiteral("901"));
+    stage.session.setHidden(stage.key(), true);
+    EXPECT_TRUE(build().points.empty());
+}
+
 TEST_F(SceneBuilderTest, FingersOfThePoseMoveTheMesh) {
     performer::PerformerSettings settings = sending(1, {2, 12, 13});
     settings.fingers = true;

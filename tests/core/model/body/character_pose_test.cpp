@@ -181,6 +181,22 @@ TEST(CharacterPoses, AreReadInTheUnitOfTheSender) {
     EXPECT_DOUBLE_EQ(pose.segments[10].position.z(), 0.01);
 }
 
+TEST(CharacterPoses, HaveNoPropsWhereTagsAre) {
+    wire::Datagram datagram = poseWith(27);
+    auto& items = std::get<wire::PoseQuaternion>(datagram.body).segments;
+    wire::completeHeader(datagram, wire::HeaderEra::Reserved);
+    CharacterPose pose;
+    ASSERT_TRUE(poseFromMessage(datagram, {}, LengthUnit::Metre, pose));
+    EXPECT_EQ(pose.layout, (SegmentLayout{23, 4, 0}));
+    items[24].id = 900;
+    items[25].id = 28; // a prop that is not turned
+    items[26].id = 901;
+    ASSERT_TRUE(poseFromMessage(datagram, {}, LengthUnit::Metre, pose));
+    EXPECT_EQ(pose.layout, (SegmentLayout{23, 2, 0}));
+    ASSERT_EQ(pose.segments.size(), 25U);
+    EXPECT_EQ(pose.segments[24].position.x(), 25);
+}
+
 TEST(CharacterPoses, CarryWhatTheHeaderSays) {
     wire::Datagram datagram = poseWith(23);
     datagram.header.sampleCounter = 0xfffffffeU;

@@ -3,6 +3,7 @@
 
 #include "core/model/accounting/attribution.h"
 #include "core/model/accounting/stream_figures.h"
+#include "core/model/body/pose_messages.h"
 #include "core/model/incidents/thresholds.h"
 #include "core/model/session/accounts.h"
 #include "core/model/session/messages.h"
@@ -10,6 +11,7 @@
 #include "core/model/session/verdict.h"
 
 #include <algorithm>
+#include <map>
 #include <random>
 #include <string>
 #include <vector>
@@ -146,6 +148,61 @@ TEST_F(ViewTest, KnowsTheStateOfATypeThatIsSentRarely) {
     pauseAt(51);
     EXPECT_EQ(m_session.roster().displayName(key()), "Berta");
     EXPECT_EQ(m_session.roster().colour(key()), (Colour{1, 0, 0}));
+}
+
+TEST_F(ViewTest, HasEachTagWhereItWasLastAtAnyMoment) {
+    const auto seen = [&] {
+        std::map<std::uint32_t, std::pair<double, log::Stamp>> all; // x, and when
+        for (const TagPlace& tag : m_session.messages().tags(key())) {
+            all[tag.id] = {tag.position.x(), tag.stamp};
+        }
+        return all;
+    };
+    using Places = decltype(seen());
+    send(wire::TagPositions{{{900, {0, 0, 10}}, {901, {0, 0, 20}}}}, 1, at(1s)); // cm, Y-up: x is z
+    send(wire::TagPositions{{{900, {0, 0, 30}}}}, 2, at(2s));
+    send(wire::TagPositions{{{902, {0, 0, 40}}, {900, {0, 0, 50}}}}, 3, at(3s));
+    follow();
+    const Places newest{{900, {0.5, at(3s)}}, {901, {0.2, at(1s)}}, {902, {0.4, at(3s)}}};
+    EXPECT_EQ(seen(), newest);
+    pauseAt(1);
+    EXPECT_EQ(seen(), (Places{{900, {0.3, at(2s)}}, {901, {0.2, at(1s)}}}));
+    pauseAt(0);
+    EXPECT_EQ(seen(), (Places{{900, {0.1, at(1s)}}, {901, {0.2, at(1s)}}}));
+    goOn();
+    EXPECT_EQ(seen(), newest);
+}
+
+TEST_F(ViewTest, HasTheTagsInPlacesOfPropsAndBehindMarkers) {
+    wire::PoseQuaternion pose = standingAt(0);
+    pose.segments.push_back({24, {1, 0, 1}, {1, 0, 0, 0}});
+    pose.segments.push_back({1234, {2, 0, 1}, {1, 0, 0, 0}});
+    wire::Datagram datagram{{}, pose, {}};
+    wire::completeHeader(datagram, wire::HeaderEra::Reserved);
+    sendBytes(wire::encode(datagram).value(), at(1s));
+    follow();
+    EXPECT_EQ(m_session.messages().pose(key())->layout.props, 1);
+    send(wire::PointPositions{{{113, {0, 0, 1}}, {208, {0, 0, 2}}, {4321, {0, 0, 300}}}}, 1, at(2s));
+    follow();
+    const auto tags = m_session.messages().tags(key());
+    ASSERT_EQ(tags.size(), 2U);
+    EXPECT_EQ(tags[0].id, 1234U);
+    EXPECT_EQ(tags[0].position, Eigen::Vector3d(2, 0, 1));
+    EXPECT_EQ(tags[0].stamp, at(1s));
+    EXPECT_EQ(tags[1].id, 4321U);
+    EXPECT_EQ(tags[1].position, Eigen::Vector3d(3, 0, 0));
+}
+
+TEST_F(ViewTest, ForgetsTagsThatManyDatagramsHaveLeftOut) {
+    send(wire::TagPositions{{{1, {}}}}, 1, at(1s));
+    for (std::uint32_t i = 2; i <= 8192; ++i) {
+        send(wire::TagPositions{{{2, {}}}}, i, at(1s + i * 1ms));
+    }
+    follow();
+    EXPECT_EQ(m_session.messages().tags(key()).size(), 2U);
+    send(wire::TagPositions{{{2, {}}}}, 8193, at(20s));
+    follow();
+    EXPECT_EQ(m_session.messages().tags(key()).size(), 1U);
 }
 
 TEST_F(ViewTest, MeasuresAgeAtTheCursorFromWhatHadComeByThen) {
