@@ -7,6 +7,8 @@
 #include <QLabel>
 #include <QMenu>
 
+#include <algorithm>
+
 namespace posewire::gui {
 namespace {
 
@@ -31,6 +33,12 @@ protected:
         }
         ADD_FAILURE() << button.toStdString() << " has no " << text.toStdString();
     }
+    QToolButton* button(const QString& begin) const {
+        const auto buttons = m_bar.findChildren<QToolButton*>();
+        const auto found = std::ranges::find_if(
+            buttons, [&](const QToolButton* one) { return one->text().startsWith(begin); });
+        return found != buttons.end() ? *found : nullptr;
+    }
     QString contradictions() const { return m_bar.findChild<QLabel*>()->text(); }
     const model::Sender& sender() const { return m_stage.session.roster().senders().front(); }
 
@@ -46,6 +54,34 @@ TEST_F(DetectionBarTest, DeclaresRevisionAndUnitOfTheSender) {
     choose("Revision", "automatic");
     EXPECT_FALSE(sender().overrides.revision);
     EXPECT_EQ(sender().overrides.positionUnit, model::LengthUnit::Centimetre);
+}
+
+TEST_F(DetectionBarTest, DeclaresTheAxisThatIsUp) {
+    choose("Up", "Y-up");
+    EXPECT_EQ(sender().overrides.up, model::UpAxis::Y);
+    EXPECT_EQ(sender().up(), model::UpAxis::Y);
+    EXPECT_NE(button("Up: Y-up"), nullptr);
+    choose("Up", "Z-up");
+    EXPECT_EQ(sender().overrides.up, model::UpAxis::Z);
+    EXPECT_EQ(sender().overrides.revision, std::nullopt);
+    choose("Up", "automatic");
+    EXPECT_EQ(sender().overrides.up, std::nullopt);
+    EXPECT_NE(button("Up: auto"), nullptr);
+}
+
+TEST_F(DetectionBarTest, IsDeclaredFromTheMenuOfTheSenderAsWell) {
+    MetadataPanel panel{m_stage.session, m_stage.commands, nullptr};
+    panel.refresh();
+    using Declared = std::optional<model::UpAxis>;
+    for (const auto& [id, up] : std::initializer_list<std::pair<std::string_view, Declared>>{
+             {"upY", model::UpAxis::Y}, {"upZ", model::UpAxis::Z}, {"upAutomatic", std::nullopt}}) {
+        const auto entries = MetadataPanel::actionTable();
+        const auto entry = std::ranges::find(entries, id, &ActionInfo::id);
+        ASSERT_NE(entry, entries.end());
+        entry->run(panel);
+        EXPECT_EQ(sender().overrides.up, up) << id;
+        EXPECT_TRUE(entry->isOn(panel)) << id;
+    }
 }
 
 TEST_F(DetectionBarTest, SaysWhatContradictsTheDeclaration) {
