@@ -131,12 +131,10 @@ enum class Kind : std::uint16_t {
     ShorterThanScale,
     BonesMeasured,
     ReferenceBody,
-    PlacedOnFloor,
-    SentBelowFloor,
-    TrackedObjects,
-    Objects,
-    PartlyAssumed,
-    PartlySolved,
+    MeshScale,
+    // clang-format off
+    PlacedOnFloor, SentBelowFloor, TrackedObjects, Objects, PartlyAssumed, PartlySolved,
+    // clang-format on
     WrongScale,
     AssumedBody,
     // What a sender follows, and how that is known.

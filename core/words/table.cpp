@@ -404,9 +404,11 @@ constexpr std::array kTable{
             .headline = {"The scale message is of another body: its arms and legs are shorter than in the "
                          "poses, in whose size it is drawn"}},
     Wording{.kind = K::BonesMeasured,
-            .headline = {"No scale message yet: bone lengths are measured on poses"}},
+            .headline = {"[{scale}|No scale message yet]: bone lengths are measured on poses"}},
     Wording{.kind = K::ReferenceBody,
-            .headline = {"No scale message yet: the reference body of 1.75 m is drawn"}},
+            .headline = {"[{scale}|No scale message yet]: the reference body of 1.75 m is drawn"}},
+    Wording{.kind = K::MeshScale,
+            .headline = {"Type 10 came, which scales an unpublished mesh and is not used"}},
     Wording{.kind = K::PlacedOnFloor, .headline = {"Placed on the floor, since it was sent below it"}},
     Wording{.kind = K::SentBelowFloor, .headline = {"It was sent below the floor"}},
     Wording{.kind = K::TrackedObjects, .headline = {"Tracked objects, no body: {objects}"}},

@@ -203,7 +203,7 @@ void findAboutScale(const NullPoseEvidence& evidence, Findings& findings) {
             compareWithNullPose(*evidence.scale, *pose, findings);
         }
     }
-    if (pose == nullptr && evidence.poseSeconds >= kScaleMessageDue) {
+    if (pose == nullptr && (evidence.scale != nullptr || evidence.poseSeconds >= kScaleMessageDue)) {
         findings.push_back({{evidence.scale != nullptr ? K::DeprecatedScaleAlone : K::NoScaleMessage,
                              {{"lasted", words::Number{evidence.poseSeconds}},
                               {"height", words::Number{kReferenceStature, 2}}}}});

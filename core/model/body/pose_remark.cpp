@@ -120,7 +120,11 @@ void addBody(const CharacterPose& pose, const BodyOrigins& body, PoseRemark& rem
         return;
     }
     const bool isMeasured = body.source == BodySource::Poses;
-    remark.lines.push_back({isMeasured ? words::Kind::BonesMeasured : words::Kind::ReferenceBody});
+    words::Fact line{isMeasured ? words::Kind::BonesMeasured : words::Kind::ReferenceBody};
+    if (body.hasMeshScale) {
+        words::set(line, "scale", words::Fact{words::Kind::MeshScale});
+    }
+    remark.lines.push_back(std::move(line));
     // Where positions are sent, the reference body is only what the skin hangs on. Markers are fitted to it.
     const bool isOfMarkers = holds(pose, wire::PointPositions::kType) &&
                              !holds(pose, wire::LinearKinematics::kType) && !hasWholePoses(pose.type);

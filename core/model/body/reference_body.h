@@ -59,6 +59,7 @@ struct BodyOrigins {
     std::array<Eigen::Vector3d, kBodySegmentCount> places; ///< origins of the body segments
     double floor = 0;                                      ///< z of the soles
     BodySource source = BodySource::Reference;
+    bool hasMeshScale = false;   ///< a scale of type 10 came, which tells no lengths
     std::vector<Point> points{}; ///< as sent; see pointOf() for those that were not
 
     /// The pelvis above the soles, against the reference body.

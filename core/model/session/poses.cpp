@@ -127,6 +127,7 @@ const BodyOrigins& Messages::bodyOrigins(const CharacterKey& key) const {
         const auto measured = measure != nullptr ? measure->body() : std::nullopt;
         read.origins = pose != nullptr ? bodyOf(*pose) : measured.value_or(BodyOrigins{referenceOrigins()});
     }
+    read.origins->hasMeshScale = message(key, wire::ScaleInformation::kType) != nullptr;
     return *read.origins;
 }
 

@@ -95,6 +95,7 @@ std::vector<NamedValue> valuesOf(std::uint64_t number) {
         {isOne ? "pause" : "no pause", Fact{Kind::PauseLeftOut}},
         {isOne ? "written" : "unwritten", std::string("Y-up")},
         {"doubt", Fact{Kind::ReferenceBody}},
+        {isOne ? "scale" : "no scale", Fact{Kind::MeshScale}},
         {"brief", Fact{Kind::AssumedBody}},
     };
 }

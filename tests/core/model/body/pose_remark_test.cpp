@@ -91,6 +91,9 @@ TEST(PoseRemarks, TellWhoseBodyIsDrawn) {
     EXPECT_FALSE(remarkOn(standingFrom({21, 3}), body).isAssumed) << "its joints were sent";
     body.source = BodySource::Poses;
     EXPECT_EQ(remarkOn(standingFrom({5}), body).lines, (Lines{{Kind::BonesMeasured}}));
+    body.hasMeshScale = true;
+    EXPECT_EQ(remarkOn(standingFrom({5}), body).lines,
+              (Lines{{Kind::BonesMeasured, {{"scale", words::Fact{Kind::MeshScale}}}}}));
     EXPECT_FALSE(remarkOn(standingFrom({5}), body).isAssumed);
 }
 
