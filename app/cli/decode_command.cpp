@@ -118,13 +118,15 @@ std::string markedError(std::string_view text, const filter::FilterError& error)
 struct DecodeOptions {
     std::vector<std::string> files;
     bool asJson = false;
+    bool hasNames = false;
     std::string filter;
 };
 
 class RecordWriter {
 public:
     /// Without a filter everything is written.
-    RecordWriter(Output& out, bool asJson, const filter::Filter& filter) : m_out(out), m_asJson(asJson) {
+    RecordWriter(Output& out, const DecodeOptions& options, const filter::Filter& filter)
+        : m_out(out), m_asJson(options.asJson || options.hasNames), m_hasNames(options.hasNames) {
         if (!filter.matchesEverything()) {
             m_filter.emplace(filter);
         }
@@ -147,7 +149,8 @@ public:
             m_firstFault = m_faults == 0 ? record.offset : m_firstFault;
             ++m_faults;
         }
-        m_out.write(m_asJson ? exporting::datagramJson(place, record.bytes) + '\n' : listed(place, record));
+        m_out.write(m_asJson ? exporting::datagramJson(place, record.bytes, m_hasNames) + '\n'
+                             : listed(place, record));
     }
 
     /// Call after the last record.
@@ -213,6 +216,7 @@ private:
 
     Output& m_out;
     bool m_asJson;
+    bool m_hasNames;
     std::optional<RecordFilter> m_filter;
     std::vector<std::byte>
         m_firstSkipped; ///< the part of skipped bytes that a filter sees: at most one packet's worth
@@ -231,7 +235,7 @@ ExitStatus decodeFile(const std::string& path, const DecodeOptions& options, con
     if (!file) {
         return console.unusable(file.error().text);
     }
-    RecordWriter writer(console.out, options.asJson, filter);
+    RecordWriter writer(console.out, options, filter);
     log::FileContents contents;
     WatchedInput input(**file, contents, console.complain);
     const auto result = log::readFile(input, std::ref(writer), {}, &contents);
@@ -253,7 +257,7 @@ ExitStatus decode(const DecodeOptions& options, Console& console) {
     }
     ExitStatus status = ExitStatus::Fine;
     for (const std::string& path : options.files) {
-        if (!options.asJson && options.files.size() > 1) {
+        if (!options.asJson && !options.hasNames && options.files.size() > 1) {
             console.out.write(path + "\n\n");
         }
         status = worse(status, decodeFile(path, options, *filter, console));
@@ -270,6 +274,8 @@ Command addDecodeCommand(CommandLine& program) {
     arguments.add("FILE", options->files, "datagrams back to back, or pcap or pcapng; - for standard input")
         .required();
     arguments.flag("--json", options->asJson, "one JSON object a line for each datagram");
+    arguments.flag("--names", options->hasNames,
+                   "the same, with the names of segments, points and joints beside their ids");
     arguments.add("--filter", options->filter,
                   "only packets that this matches, such as \"type == 02 && position.z > 2\"; "
                   "reference --filter has the language");

@@ -2,6 +2,7 @@
 #include "core/export/json.h"
 
 #include "core/export/json_fields.h"
+#include "core/model/body/item_names.h"
 #include "core/wire/codec.h"
 #include "core/wire/form.h"
 #include "core/wire/text.h"
@@ -156,9 +157,18 @@ bool givesBack(const Json& object, wire::Bytes bytes) {
     return again && std::equal(again->begin(), again->end(), bytes.begin(), bytes.end());
 }
 
+void addNames(const wire::Datagram& datagram, Json& body) {
+    Json& items = body.front();
+    for (std::size_t i = 0; items.is_array() && i < items.size(); ++i) {
+        if (const std::string_view name = model::itemName(datagram, i); !name.empty()) {
+            items[i]["name"] = name;
+        }
+    }
+}
+
 } // namespace
 
-std::string datagramJson(const DatagramPlace& place, wire::Bytes bytes) {
+std::string datagramJson(const DatagramPlace& place, wire::Bytes bytes, bool hasNames) {
     Json object = placed(place, bytes.size());
     object["stampNs"] = place.time ? Json(log::nanosecondsOf(*place.time)) : Json();
     object["source"] = place.sender ? jsonOf(*place.sender) : Json();
@@ -176,6 +186,9 @@ std::string datagramJson(const DatagramPlace& place, wire::Bytes bytes) {
     }
     if (!givesBack(object, bytes)) {
         object["bytes"] = wire::hexadecimal(bytes);
+    }
+    if (hasNames) {
+        addNames(*datagram, object["body"]);
     }
     return object.dump();
 }

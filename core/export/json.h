@@ -27,7 +27,8 @@ struct DatagramPlace {
 /// One object without a newline. A datagram with a fault has the header fields that could be read and
 /// "error" instead of "body". Where the values alone would not give back the same bytes (reserved bytes in
 /// use, trailing bytes …), "bytes" holds the whole datagram in hexadecimal.
-[[nodiscard]] std::string datagramJson(const DatagramPlace& place, wire::Bytes bytes);
+/// With names, items that have one in the tables of segments, points and joints say it beside their ids.
+[[nodiscard]] std::string datagramJson(const DatagramPlace& place, wire::Bytes bytes, bool hasNames = false);
 
 /// The object for `size` bytes that belong to no datagram.
 [[nodiscard]] std::string skippedJson(const DatagramPlace& place, std::uint64_t size);

@@ -263,13 +263,15 @@ std::string typesText(const FieldInfo& field) {
 }
 
 KindWords kindWords(Kind kind) {
-    constexpr std::array<KindWords, 8> kWords{{
+    constexpr std::array<KindWords, 10> kWords{{
         {"number", "a number"},
         {"text", "text"},
         {"vector", "a number"},
         {"true or false", "true or false"},
         {"message type", "a message type such as 02"},
         {"segment", "a segment such as LeftHand or 15"},
+        {"point", "a point such as pSacrum or 269"},
+        {"joint", "a joint such as jRightKnee or 16"},
         {"word", "one of udp, tcp, file and performer"},
         {"UTC time", "a UTC time such as \"2026-01-31T12:00:00\""},
     }};

@@ -61,6 +61,8 @@ enum class Kind : std::uint8_t {
     Flag,      ///< true or false
     Type,      ///< a message type: a number that also has a name
     Segment,   ///< a number that also has a name
+    Point,     ///< the same
+    Joint,     ///< the same
     Transport, ///< a word
     Time,      ///< seconds since 1970 UTC, or a date and time
 };
@@ -138,7 +140,7 @@ struct FieldInfo {
     std::vector<std::uint8_t> types{};     ///< message types that have it, in order; empty for packet fields
     ReadPacket readPacket = nullptr;       ///< of a packet field
     Places places{};                       ///< of a field of the payload
-    std::optional<Places> named{};         ///< for segments: reads the number that a name means
+    std::optional<Places> named{};         ///< of what has names: reads the number that a name means
 
     [[nodiscard]] bool isOfItems() const { return readPacket == nullptr; }
     /// What is compared may be another number than what was sent.
@@ -156,11 +158,11 @@ inline constexpr std::string_view kAsSent = "wire.";
 /// Those that the layouts of core/wire declare, found by walking them.
 [[nodiscard]] std::vector<FieldInfo> wireFields();
 
-/// The number that a segment's name means: its body id, from 1, or the number of a prop or finger;
-/// empty if it is not a name. Ignores case and spaces.
-[[nodiscard]] std::optional<double> segmentNumber(std::string_view name);
-/// All names, in the order of their numbers, from 1.
-[[nodiscard]] std::span<const std::string_view> segmentNames();
+/// The number that a name of a segment, point or joint means: a segment's body id, from 1, or the number of a
+/// prop or finger; empty if it is not a name. Ignores case and spaces.
+[[nodiscard]] std::optional<double> numberNamed(Kind kind, std::string_view name);
+/// All names, in the order of their numbers, from 1; none for kinds that have no names.
+[[nodiscard]] std::span<const std::string_view> namesOf(Kind kind);
 
 /// What a name in a filter may mean: fields of that name, and one of their components.
 struct FieldMatch {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/field/field.h"
 #include "core/model/body/character_pose.h"
+#include "core/model/body/item_names.h"
+#include "core/model/body/joint_angles.h"
 #include "core/model/body/points.h"
 #include "core/model/body/segments.h"
 #include "core/wire/form.h"
@@ -69,114 +71,64 @@ Value readListed(const Datagram& datagram, std::size_t item, std::size_t compone
     return valueOf((bodyOf<T>(datagram).*List)[item].*Member, component);
 }
 
-constexpr model::SegmentLayout kAll{model::kBodySegmentCount, model::kMaxPropCount,
-                                    model::kFingerSegmentCount};
-
-int numberAt(const model::SegmentPlace& place) {
-    constexpr std::array<int, 4> kBefore{0, kAll.body, kAll.body + kAll.props,
-                                         kAll.body + kAll.props + model::kHandSegmentCount};
-    return kBefore[static_cast<std::size_t>(place.kind)] + place.index + 1;
+/// See numberNamed; 0 if it has no name.
+double numberOf(const model::PointReference& reference) {
+    const model::AnatomicalPoint* point = model::findPoint(reference.segmentId - 1, reference.localId);
+    return point != nullptr ? *numberNamed(Kind::Point, point->name) : 0;
 }
 
-/// The numbers of an item that have to do with segments.
-struct ItemIds {
-    std::optional<std::uint32_t> segment{}; ///< as on the wire; of a joint that of its child
-    std::optional<std::uint32_t> point{};
-    std::optional<std::string_view> name{}; ///< of an item without a number
-    bool isUnityOrder = false;
-    bool isJoint = false;
-};
-
-template <Form F, class Item>
-ItemIds idsOf(const Item& item) {
-    ItemIds ids;
-    wire::forEachField<Item, F>([&]<class FieldType>(const FieldType& field) {
-        using enum wire::RefersTo;
-        using Member = wire::MemberValue<FieldType::kMember>;
-        if constexpr (std::is_unsigned_v<Member>) {
-            const std::uint32_t id = item.*FieldType::kMember;
-            switch (field.about.refersTo) {
-            case UnitySegment:
-                ids.isUnityOrder = true;
-                [[fallthrough]];
-            case Segment:
-            case Tracker:
-            case Prop:
-                ids.segment = id;
-                break;
-            case JointEnd:
-                ids.segment = id >> 8;
-                ids.isJoint = true;
-                break;
-            case Point:
-                ids.point = id;
-                break;
-            default:
-                break;
-            }
-        } else if constexpr (std::is_same_v<Member, std::string>) {
-            ids.name = item.*FieldType::kMember;
-        }
-    });
-    return ids;
-}
-
-/// Points are numbered 256 × segment + point, in revision E 100 × segment + point. The few ids that could be
-/// either are taken as the first point of the datagram is.
-double pointSegment(std::uint32_t id, std::uint32_t firstId) {
-    using enum model::PointIdCoding;
-    const auto by256 = model::knownPoint(By256, id);
-    const auto by100 = model::knownPoint(By100, id);
-    const bool isOld = by256 && by100 ? !model::knownPoint(By256, firstId) : by100.has_value();
-    return isOld ? by100->segmentId : id >> 8;
-}
-
-/// The number that a name means (see segmentNumber), since the ids of props and fingers differ between
-/// revisions; 0 if the item has no name. `item`: its place in the datagram.
-double namedSegment(const ItemIds& ids, const model::ItemPlaces& places, std::size_t item) {
-    if (!ids.segment) {
-        return ids.name ? segmentNumber(*ids.name).value_or(0) : 0;
-    }
-    const std::uint32_t id = *ids.segment;
-    const bool isOfBody = id >= 1 && id <= model::kBodySegmentCount;
-    if (ids.isUnityOrder) {
-        return isOfBody ? model::unityOrder()[id - 1] + 1 : 0;
-    }
-    if (ids.isJoint) {
-        return isOfBody ? id : 0;
-    }
-    const int position = places.positionOf(item, id);
-    const auto at = model::placeOf(isOfBody ? model::SegmentLayout() : places.layout, position);
-    return at ? numberAt(*at) : 0;
-}
-
-/// The wire's own number; items without one count from 1.
-template <Form F, class Item>
-double segmentNumberOf(const std::vector<Item>& items, std::size_t item) {
-    const ItemIds ids = idsOf<F>(items[item]);
-    if (ids.point) {
-        return pointSegment(*ids.point, *idsOf<F>(items.front()).point);
-    }
-    return ids.segment ? *ids.segment : static_cast<double>(item + 1);
-}
-
-template <Form F, class Item>
-double namedSegment(const wire::Header& header, const std::vector<Item>& items, std::size_t item) {
-    const ItemIds ids = idsOf<F>(items[item]);
-    if (ids.point) {
-        return segmentNumberOf<F>(items, item);
-    }
-    const auto places = model::itemPlaces(header, items.size(), idsOf<F>(items.front()).segment);
-    return namedSegment(ids, places, item);
-}
-
+/// The wire's own number, of a joint that of its child; items without one count from 1.
 template <class T, Form ItemForm, auto List>
 Value readSegment(const Datagram& datagram, std::size_t item, std::size_t) {
-    return {segmentNumberOf<ItemForm>(bodyOf<T>(datagram).*List, item), {}};
+    const auto& items = bodyOf<T>(datagram).*List;
+    double number = static_cast<double>(item + 1);
+    wire::forEachField<std::decay_t<decltype(items[0])>, ItemForm>(
+        [&]<class FieldType>(const FieldType& field) {
+            using enum wire::RefersTo;
+            constexpr auto kMember = FieldType::kMember;
+            if constexpr (std::is_unsigned_v<wire::MemberValue<kMember>>) {
+                const std::uint32_t id = items[item].*kMember;
+                const wire::RefersTo what = field.about.refersTo;
+                if (what == Point) {
+                    number = model::pointReference(id, items.front().*kMember).segmentId;
+                } else if (what == JointEnd) {
+                    number = id >> 8;
+                } else if (what == Segment || what == UnitySegment || what == Tracker || what == Prop) {
+                    number = id;
+                }
+            }
+        });
+    return {number, {}};
 }
-template <class T, Form ItemForm, auto List>
+template <class T, auto List>
 Value readNamedSegment(const Datagram& datagram, std::size_t item, std::size_t) {
-    return {namedSegment<ItemForm>(datagram.header, bodyOf<T>(datagram).*List, item), {}};
+    const auto& one = (bodyOf<T>(datagram).*List)[item];
+    if constexpr (requires { one.name; }) {
+        return {numberNamed(Kind::Segment, one.name).value_or(0), {}};
+    }
+    return {static_cast<double>(model::segmentOfItem(datagram, item)), {}};
+}
+template <class T, auto List>
+Value readNamedPoint(const Datagram& datagram, std::size_t item, std::size_t) {
+    const auto& items = bodyOf<T>(datagram).*List;
+    if constexpr (requires { items[item].id; }) {
+        return {numberOf(model::pointReference(items[item].id, items.front().id)), {}};
+    } else if constexpr (requires { items[item].name; }) {
+        return {numberNamed(Kind::Point, items[item].name).value_or(0), {}};
+    }
+    return {};
+}
+template <class T, auto List, auto Member>
+Value readNamedEnd(const Datagram& datagram, std::size_t item, std::size_t) {
+    return {numberOf(*model::decodePointId(model::PointIdCoding::By256,
+                                           (bodyOf<T>(datagram).*List)[item].*Member)),
+            {}};
+}
+Value readPlace(const Datagram&, std::size_t item, std::size_t) {
+    return {static_cast<double>(item + 1), {}};
+}
+Value readNamedJoint(const Datagram& datagram, std::size_t item, std::size_t) {
+    return {numberNamed(Kind::Joint, model::itemName(datagram, item)).value_or(0), {}};
 }
 template <auto Member>
 std::optional<Value> readHeader(Subject& subject, std::size_t index) {
@@ -270,23 +222,39 @@ constexpr bool namesItsSegment() {
 
 /// The fields of the items in a list of T, and the segment that each is about.
 template <class T, class List>
-void addItems(Found& found, const Spot& spot) {
+void addItems(Found& found, const Spot& spot, const List& list) {
     found.counts[spot.shape][spot.list] = [](const Datagram& datagram) {
         return (bodyOf<T>(datagram).*List::kMember).size();
     };
     wire::forEachField<typename List::Item, List::kItemForm>([&]<class FieldType>(const FieldType& field) {
         constexpr ReadItem read = &readListed<T, List::kMember, FieldType::kMember>;
-        const bool isSegment = field.about.refersTo == wire::RefersTo::Carrier;
-        add(found, spot, field.about,
-            isSegment ? Reading{Kind::Segment, 1, read, read}
-                      : readingOf<wire::MemberValue<FieldType::kMember>>(read));
+        Reading reading = readingOf<wire::MemberValue<FieldType::kMember>>(read);
+        if (field.about.refersTo == wire::RefersTo::Carrier) {
+            reading = {Kind::Segment, 1, read, read};
+        } else if (field.about.refersTo == wire::RefersTo::LocalPoint) {
+            reading = {Kind::Point, 1, read, &readNamedPoint<T, List::kMember>};
+        }
+        if constexpr (std::is_unsigned_v<wire::MemberValue<FieldType::kMember>>) {
+            if (field.about.refersTo == wire::RefersTo::JointEnd) {
+                reading = {Kind::Point, 1, read, &readNamedEnd<T, List::kMember, FieldType::kMember>};
+            } else if (field.about.refersTo == wire::RefersTo::Point) {
+                add(found, spot, {"point", wire::Unit::Identifier, "the marker, by id or name", ""},
+                    {Kind::Point, 1, read, &readNamedPoint<T, List::kMember>});
+            }
+        }
+        add(found, spot, field.about, reading);
     });
+    if (list.about.refersTo == wire::RefersTo::Joint) {
+        add(found, spot, {"joint", wire::Unit::Identifier, "the joint, by place or name", ""},
+            {Kind::Joint, 1, &readPlace, &readNamedJoint});
+    }
     if (!namesItsSegment<List>()) {
+        constexpr bool isFurther = T::kType > wire::TimeCode::kType; // only the wire knows its items
+        constexpr ReadItem read = &readSegment<T, List::kItemForm, List::kMember>;
         constexpr wire::About segment{"segment", wire::Unit::Identifier,
                                       "the segment that the item is about, by id or name", ""};
         add(found, spot, segment,
-            {Kind::Segment, 1, &readSegment<T, List::kItemForm, List::kMember>,
-             &readNamedSegment<T, List::kItemForm, List::kMember>});
+            {Kind::Segment, 1, read, isFurther ? read : &readNamedSegment<T, List::kMember>});
     }
 }
 
@@ -303,7 +271,7 @@ void walkForm(Found& found) {
             spot.qualifier = field.about.name;
             add(found, spot, {"count", wire::Unit::Count, "number of items in the list", ""}, count);
             spot.list = ++lists;
-            addItems<T, FieldType>(found, spot);
+            addItems<T>(found, spot, field);
         } else {
             add(found, own, field.about,
                 readingOf<wire::MemberValue<FieldType::kMember>>(&readOwn<T, FieldType::kMember>));
@@ -412,19 +380,38 @@ std::vector<FieldInfo> wireFields() {
     return fields;
 }
 
-std::span<const std::string_view> segmentNames() {
-    static const auto names = [] {
-        std::array<std::string_view, model::kMaxSegmentCount> all;
-        for (std::size_t i = 0; i < all.size(); ++i) {
-            all[i] = model::segmentName(kAll, static_cast<int>(i));
+std::span<const std::string_view> namesOf(Kind kind) {
+    static const auto segments = [] {
+        std::vector<std::string_view> all;
+        for (int i = 0; i < model::kAllSegments.count(); ++i) {
+            all.push_back(model::segmentName(model::kAllSegments, i));
         }
         return all;
     }();
-    return names;
+    static const auto points = [] {
+        std::vector<std::string_view> all; // several segments have one of the same name
+        for (const model::AnatomicalPoint& point : model::anatomicalPoints()) {
+            if (std::ranges::find(all, point.name) == all.end()) {
+                all.push_back(point.name);
+            }
+        }
+        return all;
+    }();
+    static const auto joints = [] {
+        std::vector<std::string_view> all;
+        for (const model::JointDefinition& joint : model::jointDefinitions()) {
+            all.push_back(joint.name);
+        }
+        return all;
+    }();
+    return kind == Kind::Segment ? std::span(segments)
+           : kind == Kind::Point ? std::span(points)
+           : kind == Kind::Joint ? std::span(joints)
+                                 : std::span<const std::string_view>();
 }
 
-std::optional<double> segmentNumber(std::string_view name) {
-    const auto names = segmentNames();
+std::optional<double> numberNamed(Kind kind, std::string_view name) {
+    const auto names = namesOf(kind);
     const auto found =
         std::ranges::find_if(names, [&](std::string_view known) { return isSpelled(known, name); });
     return found == names.end() ? std::nullopt

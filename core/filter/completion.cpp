@@ -191,10 +191,9 @@ void offerValues(std::string_view asked, Collector& into) {
             into.offer(wire::typeDigits(info.type), std::string(info.name));
         }
     }
-    if (field.kind == Kind::Segment) {
-        for (const std::string_view name : segmentNames()) {
-            into.offer(name, std::string(model::segmentTitle(name)));
-        }
+    for (const std::string_view name : namesOf(field.kind)) {
+        into.offer(name, std::string(field.kind == Kind::Segment ? model::segmentTitle(name)
+                                                                 : kindWords(field.kind).name));
     }
     if (field.kind == Kind::Vector && !match.hasComponent) {
         into.offer("NaN", "one of its components is not a number");
@@ -236,9 +235,9 @@ std::string segmentExpression(std::string_view name, std::string_view value) {
     constexpr double kBodySegments = 23;
     const auto id = numberOf(value);
     if (id && *id >= 1 && *id <= kBodySegments) {
-        return compared(name, std::string(segmentNames()[static_cast<std::size_t>(*id) - 1]));
+        return compared(name, std::string(namesOf(Kind::Segment)[static_cast<std::size_t>(*id) - 1]));
     }
-    return compared(name, segmentNumber(value) ? std::string(value) : numeral(value));
+    return compared(name, numberNamed(Kind::Segment, value) ? std::string(value) : numeral(value));
 }
 
 const FieldInfo* findField(std::string_view qualifier, std::string_view name) {
@@ -276,6 +275,8 @@ std::string expressionOf(const FieldInfo& field, bool hasComponent, std::string_
     case Kind::Time:
         return compared(name, numberOf(value) ? std::string(value) : quoted(value));
     case Kind::Number:
+    case Kind::Point:
+    case Kind::Joint:
         break;
     }
     return compared(name, numeral(value));

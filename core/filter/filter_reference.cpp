@@ -68,7 +68,7 @@ constexpr std::string_view kRules = R"(
 * A name that several messages have means each of them; `points.position.x` and `header.sample` say which.
   Where the header has a field of the same name, the constant decides by its kind.
 * Segments are named in any case, in one word or in quotes (`LeftHand`, `"Left Hand"`, `Prop1`, `LeftFirstPP`), or
-  numbered as on the wire.
+  numbered as on the wire. So are points (`point == pSacrum`, `child == jRightKnee`) and joints (`joint == jRightKnee`).
 * `tag` means the names of the metadata tags, `tag.color` for the value of the tag `color`.
 )";
 

@@ -151,8 +151,10 @@ std::optional<double> numberFor(const Asked& asked, const Constant& constant) {
                                           : numberOf(constant.text);
     case Kind::Type:
         return typeNumber(constant);
-    case Kind::Segment: {
-        const auto named = segmentNumber(constant.text);
+    case Kind::Segment:
+    case Kind::Point:
+    case Kind::Joint: {
+        const auto named = numberNamed(field.kind, constant.text);
         return named ? named : numberOf(constant.text);
     }
     case Kind::Time: {
@@ -223,7 +225,7 @@ FilterError constantComplaint(const Asked& asked, const std::string& name, const
         return *std::move(complaint);
     }
     const Kind kind = asked.field.kind;
-    const std::string near = kind == Kind::Segment ? nearestOf(constant.text, segmentNames()) : std::string();
+    const std::string near = nearestOf(constant.text, namesOf(kind));
     return errorAt(constant.token, "`" + name + "` is compared with " + std::string(kindWords(kind).value) +
                                        (near.empty() ? "." : "; did you mean `" + near + "`?"));
 }
@@ -319,8 +321,8 @@ bool isNumber(const WrittenCondition& written) {
 }
 
 bool isName(const FieldInfo& field, const WrittenCondition& written) {
-    return field.kind == Kind::Segment && !written.constants.empty() &&
-           segmentNumber(written.constants.front().first.text).has_value();
+    return !written.constants.empty() &&
+           numberNamed(field.kind, written.constants.front().first.text).has_value();
 }
 
 void setPlaces(const FieldMatch& match, const WrittenCondition& written, const FieldInfo& first,

@@ -69,6 +69,23 @@ TEST(DatagramJson, KeepsTheWholeDatagramWhereTheValuesWouldNotGiveItBack) {
     }
 }
 
+TEST(DatagramJson, HasNamesBesideIdsWhereTheyAreAskedFor) {
+    const auto named = [](const std::string& name) {
+        const auto& bytes = posewire::test::golden(name).bytes;
+        const std::string json = datagramJson({}, bytes, true);
+        EXPECT_EQ(*datagramFromJson(json), bytes) << "names change no bytes";
+        return json;
+    };
+    EXPECT_THAT(named("02_quaternion_counted"), HasSubstr(R"(],"name":"RightUpperArm"})"));
+    EXPECT_THAT(named("01_euler_counted"), HasSubstr(R"("name":"Pelvis"})"));
+    EXPECT_THAT(named("05_unity_counted"), HasSubstr(R"("name":"Pelvis"})"));
+    EXPECT_THAT(named("03_points_counted"), HasSubstr(R"("name":"p)"));
+    EXPECT_THAT(named("20_joints_counted"), HasSubstr(R"("name":"j)"));
+    EXPECT_THAT(named("23_trackers_68_counted"), HasSubstr(R"("name":"Pelvis"})"));
+    EXPECT_THAT(named("04_tags_counted"), Not(HasSubstr("\"name\"")));
+    EXPECT_EQ(named("13_null_pose_points"), jsonOf(posewire::test::golden("13_null_pose_points").bytes));
+}
+
 TEST(DatagramJson, HasAnErrorInsteadOfABody) {
     const auto& whole = posewire::test::golden("24_centre_12_counted").bytes;
     const std::vector<std::byte> cut(whole.begin(), whole.end() - 2);

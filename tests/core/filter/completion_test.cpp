@@ -64,6 +64,9 @@ TEST(Completion, OffersOperatorsThatSuitTheField) {
 
 TEST(Completion, OffersValues) {
     EXPECT_THAT(texts(at("segment == Left|")), AllOf(Contains("LeftHand"), Not(Contains("RightHand"))));
+    EXPECT_THAT(texts(at("point == pSac|")), Contains("pSacrum"));
+    EXPECT_THAT(texts(at("child == jRight|")), Contains("jRightKnee"));
+    EXPECT_THAT(texts(at("joint == jLeft|")), AllOf(Contains("jLeftKnee"), Not(Contains("jRightKnee"))));
     EXPECT_EQ(at("type == 1|3").front().length, 2U);
     EXPECT_EQ(texts(at("type == null|")), std::vector<std::string>{"13"});
     EXPECT_THAT(texts(at("type in |")), IsSupersetOf({"{", "02"}));

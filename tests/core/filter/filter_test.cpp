@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tests/core/filter/filter_fixture.h"
 
+#include "core/model/body/joint_angles.h"
+
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -185,6 +187,42 @@ TEST(Filter, ReadsPointNumbersOfBothRevisions) {
     EXPECT_TRUE(matches(points({101, 513}), "segment == 5 && id == 513"));
     EXPECT_FALSE(matches(points({101, 513}), "segment == 2"));
     EXPECT_TRUE(matches(points({101, 1502}), "segment == LeftHand"));
+}
+
+TEST(Filter, NamesPointsJointsAndTrackers) {
+    const auto points = [](std::uint32_t first, std::uint32_t second) {
+        wire::Datagram datagram{{}, wire::PointPositions{{{first, {}}, {second, {}}}}, {}};
+        wire::completeHeader(datagram, wire::HeaderEra::Counted);
+        return Case(datagram);
+    };
+    EXPECT_TRUE(matches(points(257, 269), "point == pSacrum && point == 269 && segment == Pelvis"));
+    EXPECT_TRUE(matches(points(101, 113), "point == psacrum"));
+    EXPECT_FALSE(matches(points(257, 258), "point == pSacrum"));
+    EXPECT_FALSE(matches(points(257, 99'999), "point == pSacrum")) << "a tag";
+    EXPECT_TRUE(matches(golden("13_null_pose_points"), "point == pSacrum or point == pHipOrigin"));
+
+    wire::JointAngles angles;
+    for (const model::JointDefinition& joint : model::jointDefinitions()) {
+        const auto numberOf = [](const model::PointReference& end) {
+            return model::encodePointId(model::PointIdCoding::By256, end);
+        };
+        angles.joints.push_back({numberOf(joint.parent), numberOf(joint.child), {1, 2, 3}});
+    }
+    wire::Datagram datagram{{}, angles, {}};
+    wire::completeHeader(datagram, wire::HeaderEra::Counted);
+    const Case whole(datagram);
+    EXPECT_TRUE(
+        matches(whole, "joint == jRightKnee && joint == 16 && child == jRightKnee && rotation.z == 3"));
+    EXPECT_TRUE(matches(whole, "joint == jRightKnee && segment == RightLowerLeg"));
+    EXPECT_FALSE(matches(whole, "joint == jRightKnee && child == jLeftKnee"));
+    auto& joints = std::get<wire::JointAngles>(datagram.body).joints;
+    joints.erase(joints.begin(), joints.begin() + 10);
+    datagram.header.datagramCounter = 0x81;
+    wire::completeHeader(datagram, wire::HeaderEra::Counted);
+    EXPECT_TRUE(matches(Case(datagram), "joint == jRightKnee && child == jRightKnee")) << "a later part";
+
+    EXPECT_TRUE(matches(golden("23_trackers_68_counted"), "segment == Pelvis"));
+    EXPECT_TRUE(Filter::compile("point == pSacrun").error().text.ends_with("did you mean `pSacrum`?"));
 }
 
 TEST(Filter, CountsTheItemsOfEachList) {
