@@ -2,6 +2,7 @@
 #include "app/cli/command.h"
 
 #include "app/usage/usage.h"
+#include "core/model/accounting/other_formats.h"
 
 #include <QtGlobal>
 
@@ -28,10 +29,11 @@ ExitStatus readingStatus(const tl::expected<void, log::FileError>& result, const
 
 ExitStatus readingStatus(const tl::expected<void, log::FileError>& result, const log::FileContents& contents,
                          const std::string& name, const Console& console) {
-    const ExitStatus status = readingStatus(result, console);
+    ExitStatus status = readingStatus(result, console);
     const bool isRead = result || result.error().leavesABeginning();
-    if (const std::string other = log::otherContents(contents); isRead && !other.empty()) {
+    if (const std::string other = model::otherContents(contents, name); isRead && !other.empty()) {
         console.complain(name + ": " + other);
+        status = worse(status, contents.skipped > contents.bytes ? ExitStatus::Faults : ExitStatus::Fine);
     }
     return status;
 }

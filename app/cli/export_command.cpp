@@ -10,6 +10,7 @@
 #include "core/log/file_names.h"
 #include "core/log/packet_log.h"
 #include "core/log/pcapng_writer.h"
+#include "core/model/accounting/other_formats.h"
 #include "core/model/accounting/stream_figures.h"
 #include "core/model/session/origin.h"
 #include "core/model/session/roster.h"
@@ -309,7 +310,7 @@ tl::expected<std::vector<model::CharacterKey>, std::string> chosen(const ExportO
 std::string nothingText(const ExportOptions& options, const feed::PoseSource& source,
                         const log::FileContents& contents) {
     if (source.characters.empty()) {
-        const std::string other = log::otherContents(contents);
+        const std::string other = model::otherContents(contents, options.input);
         return options.input + ": has no characters, so there is nothing to export" +
                (other.empty() ? "; is it a recording of MXTP?" : ": it " + other);
     }

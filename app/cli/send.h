@@ -84,6 +84,7 @@ struct SendOptions {
     bool overTcp = false;
     std::string types = "all";
     std::string revision = "N";
+    std::string forms = "real";
     std::string up = "z";
     double durationSeconds = 0.0; ///< 0: without end
     performer::PerformerSettings performer;

@@ -221,6 +221,9 @@ void addPerformer(Arguments arguments, SendOptions& options) {
         .showDefault();
     arguments.add("--revision E|J|K|N", options.revision, "of the specification that they follow")
         .showDefault();
+    arguments.choice("--forms real|paper", options.forms,
+                     "types 12 and 25 of revisions J and K as MVN sends them, or as these print them; real "
+                     "by default");
     arguments.choice("--up y|z", options.up, "axis that is up in types 02, 21 and 22; z by default");
     arguments.add("--seed", settings.seed, "the same seed gives the same bytes and faults")
         .wholeUpTo(UINT64_MAX)

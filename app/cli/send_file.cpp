@@ -3,6 +3,7 @@
 #include "app/cli/send.h"
 #include "core/export/json_value.h"
 #include "core/log/recording_file.h"
+#include "core/model/accounting/other_formats.h"
 #include "core/model/accounting/stream_figures.h"
 #include "core/wire/type_table.h"
 
@@ -287,7 +288,7 @@ ExitStatus concludeFile(const std::string& path, const RecordSender& sender,
         return console.unusable(sender.failure());
     }
     if (sender.datagrams() == 0) {
-        const std::string other = log::otherContents(contents);
+        const std::string other = model::otherContents(contents, path);
         console.complain(path + ": no datagrams found" +
                          (other.empty() ? "; is it a recording of MXTP?" : ": it " + other));
         return ExitStatus::Faults;

@@ -148,6 +148,7 @@ tl::expected<performer::PerformerSettings, Complaint> performerOf(const SendOpti
     settings.types = std::move(*types);
     settings.revision = *revision;
     settings.isYUp = options.up == "y";
+    settings.asOnPaper = options.forms == "paper";
     if (auto problem = performer::findProblem(settings)) {
         return tl::unexpected(withoutStop(*problem));
     }

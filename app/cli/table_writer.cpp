@@ -111,6 +111,11 @@ std::size_t widthOf(std::string_view text) {
 
 std::vector<std::string> liveTable(const model::SessionView& session, const exporting::MonitorFacts& facts) {
     std::vector<std::string> lines{summaryLine(session, facts)};
+    for (const model::Sender& sender : session.roster().senders()) {
+        if (sender.foreign != 0) {
+            lines.push_back(say(sender.foreignFact(), words::Form::Sentence));
+        }
+    }
     if (session.roster().streams().empty()) {
         lines.emplace_back("No MXTP datagram so far.");
         return lines;

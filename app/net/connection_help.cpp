@@ -2,72 +2,17 @@
 #include "app/net/connection_help.h"
 
 #include "core/log/ip_packet.h"
-#include "core/wire/text.h"
 
 #include <QHostAddress>
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <fstream>
-#include <string_view>
 #include <system_error>
+#include <utility>
 
 namespace posewire::net {
 namespace {
-
-using Bytes = std::span<const std::byte>;
-
-unsigned at(Bytes bytes, std::size_t index) {
-    return index < bytes.size() ? std::to_integer<unsigned>(bytes[index]) : 0U;
-}
-
-unsigned littleEndian16(Bytes bytes, std::size_t index) {
-    return at(bytes, index) | at(bytes, index + 1) << 8;
-}
-
-std::string_view charactersOf(Bytes bytes) {
-    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
-/// An address such as "/body/hip" that ends with a zero, padded to four bytes.
-bool isOsc(Bytes bytes) {
-    const std::string_view text = charactersOf(bytes);
-    return text.starts_with("#bundle") ||
-           (text.starts_with('/') && bytes.size() >= 4 && std::ranges::all_of(text.substr(1, 3), [](char c) {
-                return c == '\0' || (c >= ' ' && c <= '~');
-            }));
-}
-
-/// A message number and the size of what follows, both little-endian; frames are 7, descriptions 5.
-bool isNatNet(Bytes bytes) {
-    const unsigned message = littleEndian16(bytes, 0);
-    return bytes.size() >= 4 && (message == 5 || message == 7) && littleEndian16(bytes, 2) != 0;
-}
-
-/// Frame number, count of items, then the first item: number 0 and 72 bytes.
-bool isVicon(Bytes bytes) {
-    return bytes.size() >= 8 && at(bytes, 4) != 0 && at(bytes, 5) == 0 && littleEndian16(bytes, 6) == 72;
-}
-
-/// A packet's size, big-endian, and its kind, one of a few.
-bool isQualisys(Bytes bytes) {
-    return bytes.size() >= 8 && at(bytes, 0) == 0 && at(bytes, 1) == 0 && at(bytes, 4) == 0 &&
-           at(bytes, 5) == 0 && at(bytes, 6) == 0 && at(bytes, 7) <= 9 && at(bytes, 2) + at(bytes, 3) != 0;
-}
-
-/// "4d 58 54 50  MXTP", at most 16 bytes, with dots for unprintable ones.
-std::string shownBytes(Bytes bytes) {
-    constexpr std::size_t kShown = 16;
-    std::string hexadecimal;
-    std::string readable;
-    for (const std::byte& byte : bytes.first(std::min(bytes.size(), kShown))) {
-        const auto value = std::to_integer<unsigned char>(byte);
-        hexadecimal += wire::hexadecimal({&byte, 1}) + ' ';
-        readable += value >= ' ' && value <= '~' ? static_cast<char>(value) : '.';
-    }
-    return hexadecimal + ' ' + readable;
-}
 
 namespace fs = std::filesystem;
 
@@ -152,44 +97,33 @@ void findLeftOut(const ConnectionFacts& facts, Findings& findings) {
     }
 }
 
-/// All that one program sends, even if it uses a new port for each datagram.
-struct ForeignHost {
-    std::string host;
-    Fact guess;
-    ForeignSender sender; ///< the newest one, with the total count
-    std::size_t ports = 1;
-};
-
-std::vector<ForeignHost> foreignHosts(const std::vector<ForeignSender>& senders) {
-    std::vector<ForeignHost> hosts;
-    for (const ForeignSender& sender : senders) {
-        const std::string host(log::hostOf(sender.address));
-        const Fact guess = protocolThatBegins(sender.firstBytes);
-        const auto known = std::ranges::find_if(
-            hosts, [&](const ForeignHost& other) { return other.host == host && other.guess == guess; });
-        if (known == hosts.end()) {
-            hosts.push_back({host, guess, sender});
-        } else {
-            const std::uint64_t before = known->sender.count;
-            known->sender = sender;
-            known->sender.count += before;
-            ++known->ports;
-        }
-    }
-    return hosts;
-}
-
+/// All that one program sends is one finding, even if it uses a new port for each datagram: its newest, with
+/// the total count.
 void findForeign(const ConnectionFacts& facts, Findings& findings) {
-    for (const auto& [host, guess, sender, ports] : foreignHosts(facts.foreign)) {
-        Fact fact{Kind::ForeignDatagrams,
-                  {{"n", sender.count},
-                   {"address", ports == 1 ? sender.address : host},
-                   {"value", shownBytes(sender.firstBytes)},
-                   {"looks", guess}}};
-        if (ports > 1) {
-            words::set(fact, "ports", std::uint64_t{ports});
+    struct Host {
+        std::string host;
+        Fact fact;
+        std::uint64_t count = 0;
+        std::uint64_t ports = 0;
+    };
+    std::vector<Host> hosts;
+    for (const Fact& fact : facts.foreign) {
+        const std::string host(log::hostOf(std::get<std::string>(*find(fact, "address"))));
+        auto known = std::ranges::find_if(hosts, [&](const Host& other) {
+            return other.host == host && *find(other.fact, "looks") == *find(fact, "looks");
+        });
+        known = known == hosts.end() ? hosts.insert(known, Host{host, fact}) : known;
+        known->fact = fact;
+        known->count += std::get<std::uint64_t>(*find(fact, "n"));
+        ++known->ports;
+    }
+    for (Host& host : hosts) {
+        if (host.ports > 1) {
+            set(host.fact, "n", host.count);
+            set(host.fact, "address", host.host);
+            set(host.fact, "ports", host.ports);
         }
-        findings.push_back(std::move(fact));
+        findings.push_back(std::move(host.fact));
     }
 }
 
@@ -262,31 +196,6 @@ void findBlocked(const ConnectionFacts& facts, Findings& findings) {
 }
 
 } // namespace
-
-Fact protocolThatBegins(Bytes bytes) {
-    struct Beginning {
-        std::string_view text;
-        Kind kind;
-    };
-    constexpr std::array kBeginnings{
-        Beginning{"Art-Net", Kind::LooksLikeArtNet}, Beginning{"GET ", Kind::LooksLikeHttp},
-        Beginning{"POST ", Kind::LooksLikeHttp},     Beginning{"fr ", Kind::LooksLikeDTrack},
-        Beginning{"{", Kind::LooksLikeJson},         Beginning{"<", Kind::LooksLikeXml}};
-    const std::string_view text = charactersOf(bytes);
-    if (const auto mark = text.find("MXTP"); mark != std::string_view::npos && mark != 0) {
-        return words::counted(Kind::MxtpBehind, mark);
-    }
-    for (const Beginning& beginning : kBeginnings) {
-        if (text.starts_with(beginning.text)) {
-            return beginning.kind;
-        }
-    }
-    return isOsc(bytes)        ? Kind::LooksLikeOsc
-           : isNatNet(bytes)   ? Kind::LooksLikeNatNet
-           : isVicon(bytes)    ? Kind::LooksLikeVicon
-           : isQualisys(bytes) ? Kind::LooksLikeQualisys
-                               : Kind::Nothing;
-}
 
 std::optional<Firewall> findFirewall(const std::string& root) {
     const fs::path base(root);

@@ -296,9 +296,13 @@ std::string monitorReport(const model::SessionView& session, const MonitorFacts&
             senders.push_back(senderJson(session, sender, verdicts));
         }
         if (sender.foreign != 0) {
+            const words::Fact format = sender.foreignFormat();
+            const std::string name = say(format, words::Form::Headline);
             foreignSenders.push_back({{"address", sender.info.address},
                                       {"datagrams", sender.foreign},
-                                      {"firstBytes", sender.foreignText()}});
+                                      {"firstBytes", sender.foreignText()},
+                                      {"looksLike", name.empty() ? JsonValue() : JsonValue(name)},
+                                      {"advice", say(sender.foreignFact(), words::Form::Advice)}});
         }
     }
     JsonValue report{{"durationS", rounded(facts.durationS, 3)},

@@ -205,9 +205,11 @@ void addSenders(std::vector<Finding>& findings, const model::SessionView& sessio
         const std::string from = " from " + sender.address().shown();
         addCounted(findings, sender.malformed, "datagram", "datagrams", from + " could not be decoded.");
         addCounted(findings, sender.skippedBytes, "byte", "bytes", from + " belonged to no datagram.");
-        addCounted(findings, sender.foreign, "datagram", "datagrams",
-                   from + (sender.foreign == 1 ? " was" : " were") + " not MXTP; the newest begins with " +
-                       sender.foreignText() + '.');
+        if (sender.foreign != 0) {
+            findings.push_back(
+                {IncidentSeverity::Warning, say(sender.foreignFact(), words::Form::Sentence) + ' ' +
+                                                say(sender.foreignFact(), words::Form::Advice)});
+        }
     }
 }
 

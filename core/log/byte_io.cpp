@@ -2,11 +2,11 @@
 #include "core/log/byte_io.h"
 
 #include "core/log/system_files.h"
+#include "core/wire/header.h"
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <vector>
 
 namespace posewire::log {
 namespace {
@@ -111,29 +111,6 @@ tl::unexpected<FileError> unreadable(const std::string& path, int error) {
     }
 }
 
-void append(std::string& list, std::uint64_t count, const std::string& what) {
-    if (count != 0) {
-        list += (list.empty() ? "" : ", ") + std::to_string(count) + ' ' + what;
-    }
-}
-
-std::string ofCapture(const FileContents& contents) {
-    if (contents.packets == 0) {
-        return "is a capture without packets; record again while the sender streams";
-    }
-    std::string list;
-    append(list, contents.udp, "UDP");
-    append(list, contents.tcp, "TCP");
-    append(list, contents.withoutIp, "neither");
-    append(list, contents.ofOtherLinks,
-           "of link type " + std::to_string(contents.otherLink) + ", which is not looked through");
-    const bool isAllUnknown = contents.ofOtherLinks == contents.packets;
-    return "has no MXTP datagram in " + std::to_string(contents.packets) +
-           (contents.packets == 1 ? " packet (" : " packets (") + list + "); " +
-           (isAllUnknown ? "capture at an Ethernet or a loopback interface"
-                         : "capture where the sender sends to, while it streams");
-}
-
 } // namespace
 
 tl::expected<std::unique_ptr<ByteSource>, FileError> openFile(const std::string& path,
@@ -166,20 +143,17 @@ std::unique_ptr<ByteSource> openStandardInput(IsCancelled isCancelled) {
                                               std::move(isCancelled));
 }
 
-std::string otherContents(const FileContents& contents) {
-    using Format = FileContents::Format;
-    if (contents.datagrams != 0) {
-        return {};
+void FileContents::count(std::span<const std::byte> record, bool isSkipped) {
+    if (!isSkipped) {
+        datagrams += wire::startsWithMagic(record) ? 1 : 0;
+        bytes += record.size();
+        return;
     }
-    if (contents.isEmpty) {
-        return "is empty; was it copied whole?";
+    if (skipped == head.size() && bytes == 0) {
+        const auto more = record.first(std::min(record.size(), kLookedAt - head.size()));
+        head.insert(head.end(), more.begin(), more.end());
     }
-    if (contents.format == Format::Capture) {
-        return ofCapture(contents);
-    }
-    return contents.format == Format::Compressed
-               ? "is compressed; unpack it first"
-               : "has no MXTP datagram and is no capture (pcap, pcapng); is it a recording of MXTP?";
+    skipped += record.size();
 }
 
 } // namespace posewire::log

@@ -7,8 +7,10 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace posewire::log {
 
@@ -82,14 +84,8 @@ public:
     virtual tl::expected<void, FileError> finish() { return sync(); }
 };
 
-/// What a file holds, counted while it is read: for what is said where it holds nothing of ours.
-struct FileContents {
-    enum class Format : std::uint8_t { Raw, Compressed, Capture };
-    Format format = Format::Raw;
-    bool isEmpty = true;
-    std::uint64_t datagrams = 0; ///< that begin with "MXTP"
-
-    // Of captures, in packets.
+/// What a capture holds, in packets.
+struct CaptureContents {
     std::uint64_t packets = 0;
     std::uint64_t withoutIp = 0;    ///< or damaged, or carrying neither UDP nor TCP
     std::uint64_t ofOtherLinks = 0; ///< of a link type that is not looked through
@@ -98,7 +94,20 @@ struct FileContents {
     std::uint64_t tcp = 0;
 };
 
-/// What it holds instead of MXTP and what to do, as it follows the name of the file; empty if it has MXTP.
-[[nodiscard]] std::string otherContents(const FileContents& contents);
+/// So many of the first bytes tell which format something is of that is not MXTP.
+inline constexpr std::size_t kLookedAt = 192;
+
+/// What a file holds, counted while it is read: for what is said where it holds little or nothing of ours.
+struct FileContents {
+    bool isEmpty = true;
+    std::uint64_t datagrams = 0;              ///< that begin with "MXTP"
+    std::uint64_t bytes = 0;                  ///< of datagrams, whatever they begin with
+    std::uint64_t skipped = 0;                ///< bytes that belong to none
+    std::vector<std::byte> head;              ///< of a file that begins with these: its first kLookedAt ones
+    std::optional<CaptureContents> capture{}; ///< if it is one
+
+    void count(std::span<const std::byte> record, bool isSkipped);
+    [[nodiscard]] bool isMostlyOther() const { return datagrams == 0 || skipped > bytes; }
+};
 
 } // namespace posewire::log

@@ -125,7 +125,7 @@ public:
     void finish();
 
     /// The packets that were added.
-    [[nodiscard]] const FileContents& contents() const { return m_contents; }
+    [[nodiscard]] const CaptureContents& contents() const { return m_contents; }
 
 private:
     static constexpr std::uint16_t kDefaultPort = 9763;
@@ -152,7 +152,7 @@ private:
     std::map<Direction, Followed> m_streams;
     std::set<std::uint16_t> m_ports{kDefaultPort}; ///< UDP ports where other datagrams are foreign
     std::uint64_t m_uses = 0;
-    FileContents m_contents;
+    CaptureContents m_contents;
 };
 
 } // namespace posewire::log

@@ -402,7 +402,7 @@ private:
 };
 
 tl::expected<void, FileError> readCapture(ByteSource& source, std::uint32_t magic, const FileVisitor& visit,
-                                          const NotesVisitor& visitNotes, FileContents& contents) {
+                                          const NotesVisitor& visitNotes, FileContents& held) {
     FrameNotes notes;
     const FileVisitor noted = [&](const FileRecord& record) {
         FileRecord complete = record;
@@ -425,14 +425,8 @@ tl::expected<void, FileError> readCapture(ByteSource& source, std::uint32_t magi
     }
     notes.setComments({});
     reassembly.finish();
-    contents = reassembly.contents();
+    held.capture = reassembly.contents();
     return reader.result();
-}
-
-/// By the first four bytes: gzip, zip, xz, zstd, bzip2.
-bool isCompressed(std::uint32_t magic) {
-    return magic >> 16U == 0x1f8bU || magic == 0x504b0304U || magic == 0xfd377a58U || magic == 0x28b52ffdU ||
-           magic >> 8U == 0x425a68U;
 }
 
 /// `front` has been read to find out the format.
@@ -464,27 +458,17 @@ tl::expected<void, FileError> readFile(ByteSource& source, const FileVisitor& vi
         return tl::unexpected(count.error());
     }
     FileContents unasked;
-    std::uint64_t& datagrams = (contents != nullptr ? *contents : unasked).datagrams;
-    datagrams = 0;
+    FileContents& held = contents != nullptr ? *contents : unasked;
+    held = {};
     const FileVisitor counted = [&](const FileRecord& record) {
-        datagrams += wire::startsWithMagic(record.bytes) ? 1 : 0;
+        held.count(record.bytes, record.flags.skipped);
         visit(record);
     };
     const std::uint32_t magic = *count == first.size() ? wire::load32(first.data()) : 0;
     const bool isPcap = std::ranges::find(kPcapMagics, magic) != kPcapMagics.end();
-    const bool isCapture = isPcap || magic == kSectionHeader;
-    FileContents found;
-    auto result = isCapture ? readCapture(source, magic, counted, visitNotes, found)
-                            : readRaw(source, std::span(first).first(*count), counted);
-    if (contents != nullptr) {
-        found.format = isCapture             ? FileContents::Format::Capture
-                       : isCompressed(magic) ? FileContents::Format::Compressed
-                                             : FileContents::Format::Raw;
-        found.isEmpty = *count == 0;
-        found.datagrams = datagrams;
-        *contents = found;
-    }
-    return result;
+    held.isEmpty = *count == 0;
+    return isPcap || magic == kSectionHeader ? readCapture(source, magic, counted, visitNotes, held)
+                                             : readRaw(source, std::span(first).first(*count), counted);
 }
 
 } // namespace posewire::log

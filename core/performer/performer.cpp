@@ -30,19 +30,20 @@ bool isAllowed(Revision revision, std::uint8_t type) {
     return info != nullptr && (revision != Revision::E || isOfE(*info));
 }
 
-MessageDialect dialectOf(Revision revision) {
+MessageDialect dialectOf(const PerformerSettings& settings) {
     MessageDialect dialect;
-    switch (revision) {
+    switch (settings.revision) {
     case Revision::E:
         dialect.pointIds = model::PointIdCoding::By100;
         dialect.prefixesMetaData = false;
+        dialect.sendsRealTags = false;
         [[fallthrough]];
     case Revision::J:
     case Revision::K:
         dialect.firstPropId = 25;
-        dialect.prefixesTimeCode = false;
+        dialect.prefixesTimeCode = !settings.asOnPaper;
         dialect.sendsMassDerivatives = false;
-        dialect.sendsRealTags = false;
+        dialect.sendsRealTags = dialect.sendsRealTags && !settings.asOnPaper;
         break;
     case Revision::N:
         break;
@@ -72,10 +73,11 @@ std::uint64_t timeOfDayMs(const PerformerSettings& settings, std::uint64_t index
 
 void fillHeader(const Character& character, Revision revision, wire::Datagram& datagram) {
     const model::SegmentLayout& layout = character.layout();
+    const bool isBodyAlone = std::holds_alternative<wire::PoseUnity>(datagram.body);
     datagram.header.character = static_cast<std::uint8_t>(character.id());
     datagram.header.bodySegments = static_cast<std::uint8_t>(layout.body);
-    datagram.header.props = static_cast<std::uint8_t>(layout.props);
-    datagram.header.fingerSegments = static_cast<std::uint8_t>(layout.fingers);
+    datagram.header.props = static_cast<std::uint8_t>(isBodyAlone ? 0 : layout.props);
+    datagram.header.fingerSegments = static_cast<std::uint8_t>(isBodyAlone ? 0 : layout.fingers);
     completeHeader(datagram, revision == Revision::N ? wire::HeaderEra::Counted : wire::HeaderEra::Reserved);
 }
 
@@ -136,7 +138,7 @@ void Performer::add(const Character& character, wire::Body body, std::vector<wir
 
 void Performer::addInformation(const Character& character, std::vector<wire::Datagram>& into,
                                bool withScale) const {
-    const MessageDialect dialect = dialectOf(m_settings.revision);
+    const MessageDialect dialect = dialectOf(m_settings);
     if (withScale && sends(10)) {
         add(character, scaleInformation(character), into);
     }
@@ -159,7 +161,7 @@ void Performer::addInformation(const Character& character, std::vector<wire::Dat
 
 void Performer::addFrameTypes(Character& character, std::uint64_t index,
                               std::vector<wire::Datagram>& into) const {
-    const MessageDialect dialect = dialectOf(m_settings.revision);
+    const MessageDialect dialect = dialectOf(m_settings);
     const Subject subject{character, character.at(index), dialect,
                           static_cast<double>(index) / m_settings.rateHz, timeOfDayMs(m_settings, index)};
     wire::Messages::forEach([&]<class T>() {

@@ -14,8 +14,7 @@ namespace posewire::performer {
 /// The revision of the specification that the sender follows.
 ///
 /// E: no types 05, 13, 20–25; 10, 11 and 12 without a length; points as 100 · segment + point; header bytes
-/// 17–23 zero. J, K: header bytes 17–23 zero; type 24 of 12 bytes, type 25 without a length. N: as real
-/// senders since 2019.
+/// 17–23 zero. J, K: header bytes 17–23 zero; type 24 of 12 bytes. N: as real senders since 2019.
 enum class Revision : std::uint8_t { E, J, K, N };
 
 struct PerformerSettings {
@@ -27,6 +26,9 @@ struct PerformerSettings {
     std::string motion = "walk";                 ///< one of motionNames()
     int props = 0;                               ///< 0 to 4 for each character
     bool isYUp = false;                          ///< types 02, 21 and 22
+    /// Of revisions J and K type 25 without a length, and 12 with the tags of the text alone; MVN never sent
+    /// these.
+    bool asOnPaper = false;
     bool fingers = false;                        ///< both hands of each character; revision N only
     std::uint32_t firstSample = 1;               ///< sample counter of frame 0
     std::uint32_t startTimeOfDayMs = 36'000'000; ///< time code of frame 0: 10:00:00

@@ -87,6 +87,7 @@ enum class Kind : std::uint16_t {
     GapLimit,
     AgeLimit,
     RateLimit,
+    FragmentsLost,
     NotYetHere,
     TypesMissing,
     // What a loss rests on.
@@ -203,39 +204,20 @@ enum class Kind : std::uint16_t {
     Centimetres,
     Millimetres,
     Inches,
-    // Connections.
-    NoInput,
-    CannotOpen,
-    AddressGone,
-    NotJoined,
-    NotListenedTo,
-    ForeignDatagrams,
-    NotReachable,
-    SilentPeer,
-    GarbledPeer,
-    NothingArrives,
-    OtherTransport,
-    FirewallOn,
-    WentSilent,
-    Either,
-    HostOn,
     // clang-format off
-    LooksLikeArtNet, LooksLikeHttp, LooksLikeDTrack, LooksLikeJson, LooksLikeXml, LooksLikeOsc,
-    LooksLikeNatNet, LooksLikeVicon, LooksLikeQualisys,
-    // clang-format on
-    MxtpBehind,
+    // Connections.
+    NoInput, CannotOpen, AddressGone, NotJoined, NotListenedTo, ForeignDatagrams, NotReachable, SilentPeer,
+    GarbledPeer, NothingArrives, ListensOnly, NoListener, TcpRefused, OtherTransport, FirewallOn, WentSilent,
+    Either, HostOn,
+    // Formats of others.
+    LooksLikeArtNet, LooksLikeHttp, LooksLikeDTrack, LooksLikeTransport, LooksLikeJson, LooksLikeRemote,
+    LooksLikeTrigger, LooksLikeMvnx, LooksLikeXml, LooksLikeVmc, LooksLikeOsc, LooksLikeXtlp, LooksLikeNatNet,
+    LooksLikeVicon, LooksLikeQualisys, LooksLikeMvn, LooksLikeFbx, LooksLikeCompressed, LooksLikeText,
+    MxtpBehind, HoldsNoMxtp, HoldsLittleMxtp,
     // Files that were written.
-    Exported,
-    MarkerSamples,
-    SamplesMissing,
-    RestartedTimes,
-    PauseLeftOut,
-    GapsWithoutValues,
-    GapsNull,
-    GapsRepeat,
-    GapsBridged,
-    GapsUnmeasured,
-    GapsLeftOut,
+    Exported, MarkerSamples, SamplesMissing, RestartedTimes, PauseLeftOut, GapsWithoutValues, GapsNull,
+    GapsRepeat, GapsBridged, GapsUnmeasured, GapsLeftOut,
+    // clang-format on
 };
 inline constexpr std::size_t kKinds = static_cast<std::size_t>(Kind::GapsLeftOut) + 1;
 

@@ -10,6 +10,10 @@ namespace {
 
 using K = Kind;
 
+constexpr Text kElsewhere{"Another program sends to this port: stop it, or have MVN send to another port and "
+                          "listen there."};
+constexpr Text kNoFile{"Posewire reads recordings of MXTP: pcap, pcapng, or datagrams back to back."};
+
 constexpr std::array kFindings{
     // Null poses. The headline of an error is a clause after a colon.
     Wording{.kind = K::NameTwice,
@@ -203,8 +207,8 @@ constexpr std::array kFindings{
                      "{value}[, which looks like {looks}].",
                      "{n} datagram from {address} is not MXTP; it begins with {value}[, which looks like "
                      "{looks}]."},
-        .advice = {"Another program sends to this port: stop it, or have MVN send to another port and "
-                   "listen there."}},
+        .advice = {"[{looks}|Another program sends to this port: stop it, or have MVN send to another port "
+                   "and listen there.]"}},
     Wording{.kind = K::NotReachable,
             .sentence = {"{problem}."},
             .advice = {"Check host and port, and that the sender listens; MVN itself does not listen but "
@@ -220,6 +224,20 @@ constexpr std::array kFindings{
             .sentence = {"Nothing has arrived on {protocol} port {port}."},
             .advice = {"In MVN: Options > Preferences > Network Streamer, host [{host}|the address of this "
                        "computer], port {port}, protocol {protocol}."}},
+    Wording{.kind = K::ListensOnly,
+            .sentence = {"Listening only on {host}; this computer also has {others}, where it does not "
+                         "listen."},
+            .advice = {"Have MVN send to {host}, or listen on all addresses."}},
+    Wording{.kind = K::NoListener,
+            .sentence = {"{n} datagrams have come to ports of this computer where no program listens.",
+                         "{n} datagram has come to a port of this computer where no program listens."},
+            .advice = {"If it is MVN: set its port to {port}, or listen on its port here; its Isaac Teleop "
+                       "preset sends to 9764."}},
+    Wording{.kind = K::TcpRefused,
+            .sentence = {"This computer has refused {n} TCP connections: no program listens at their port.",
+                         "This computer has refused {n} TCP connection: no program listens at its port."},
+            .advice = {"If it is MVN: set Protocol to {protocol} in its Network Streamer, or add a TCP "
+                       "listener here."}},
     Wording{.kind = K::OtherTransport,
             .sentence = {"Only {protocol} inputs are open; a sender that uses {other} would go unnoticed."},
             .advice = {"Check Protocol in MVN's Network Streamer, or listen for {other} as well."}},
@@ -234,18 +252,58 @@ constexpr std::array kFindings{
                        "on."}},
     Wording{.kind = K::Either, .headline = {"{first} or {second}"}},
     Wording{.kind = K::HostOn, .headline = {"{address} ({name})"}},
-    Wording{.kind = K::LooksLikeArtNet, .headline = {"Art-Net (lighting)"}},
-    Wording{.kind = K::LooksLikeHttp, .headline = {"HTTP (a web browser)"}},
-    Wording{.kind = K::LooksLikeDTrack, .headline = {"ART DTrack"}},
-    Wording{.kind = K::LooksLikeJson, .headline = {"JSON text (Rokoko, or MVN's own remote control)"}},
-    Wording{.kind = K::LooksLikeXml, .headline = {"XML text (MVN's own remote control, or a web page)"}},
-    Wording{.kind = K::LooksLikeOsc, .headline = {"OSC"}},
-    Wording{.kind = K::LooksLikeNatNet, .headline = {"NatNet (OptiTrack Motive)"}},
-    Wording{.kind = K::LooksLikeVicon, .headline = {"Vicon's object stream"}},
-    Wording{.kind = K::LooksLikeQualisys, .headline = {"Qualisys QTM's real-time protocol"}},
+    Wording{.kind = K::LooksLikeArtNet, .headline = {"Art-Net (lighting)"}, .advice = kElsewhere},
+    Wording{.kind = K::LooksLikeHttp, .headline = {"HTTP (a web browser)"}, .advice = kElsewhere},
+    Wording{.kind = K::LooksLikeDTrack, .headline = {"ART DTrack"}, .advice = kElsewhere},
+    Wording{.kind = K::LooksLikeTransport,
+            .headline = {"MVN's transport messages (JSON)"},
+            .advice = {"They tell of play and record and hold no pose. In MVN: Options > Preferences > "
+                       "Network Streamer, switch on datagrams to send."}},
+    Wording{.kind = K::LooksLikeJson,
+            .headline = {"JSON text (Rokoko or another program)"},
+            .advice = kElsewhere},
+    Wording{.kind = K::LooksLikeRemote,
+            .headline = {"MVN's remote control (XML)"},
+            .advice = {"Have the program that controls MVN send to MVN's computer, usually to port 6004."}},
+    Wording{.kind = K::LooksLikeTrigger,
+            .headline = {"capture triggers (XML, of Vicon, Qualisys or Motive)"},
+            .advice = {"Have the triggers sent to the computer that records, usually to port 30 or 1512."}},
+    Wording{.kind = K::LooksLikeMvnx,
+            .headline = {"MVNX (MVN's export in XML)"},
+            .advice = {"MVNX holds no datagrams: open the recording in MVN and play it with the Network "
+                       "Streamer on."}},
+    Wording{.kind = K::LooksLikeXml, .headline = {"XML text"}, .advice = kElsewhere},
+    Wording{.kind = K::LooksLikeVmc, .headline = {"VMC (OSC of avatar programs)"}, .advice = kElsewhere},
+    Wording{.kind = K::LooksLikeOsc, .headline = {"OSC"}, .advice = kElsewhere},
+    Wording{.kind = K::LooksLikeXtlp,
+            .headline = {"XTLP (MVN's Isaac Teleop preset)"},
+            .advice = {"In MVN: Options > Preferences > Network Streamer, choose Position + Orientation "
+                       "(Quaternion) instead of Isaac Teleop."}},
+    Wording{.kind = K::LooksLikeNatNet, .headline = {"NatNet (OptiTrack Motive)"}, .advice = kElsewhere},
+    Wording{.kind = K::LooksLikeVicon, .headline = {"Vicon's object stream"}, .advice = kElsewhere},
+    Wording{.kind = K::LooksLikeQualisys,
+            .headline = {"Qualisys QTM's real-time protocol"},
+            .advice = kElsewhere},
+    Wording{.kind = K::LooksLikeMvn,
+            .headline = {"a recording of MVN"},
+            .advice = {"Only MVN reads it: open it there and play it with the Network Streamer on."}},
+    Wording{.kind = K::LooksLikeFbx, .headline = {"FBX (a 3D file)"}, .advice = kNoFile},
+    Wording{
+        .kind = K::LooksLikeCompressed, .headline = {"a compressed file"}, .advice = {"Unpack it first."}},
+    Wording{.kind = K::LooksLikeText, .headline = {"plain text"}, .advice = kNoFile},
     Wording{.kind = K::MxtpBehind,
             .headline = {"MXTP behind {n} other bytes (a tunnel, or a length prefix)",
-                         "MXTP behind {n} other byte (a tunnel, or a length prefix)"}},
+                         "MXTP behind {n} other byte (a tunnel, or a length prefix)"},
+            .advice = {"Have it sent without what comes before it."}},
+    Wording{.kind = K::HoldsNoMxtp,
+            .sentence = {"has no MXTP datagram and is no capture (pcap, pcapng)[; it looks like {looks}]."},
+            .advice = {"[{looks}|Is it a recording of MXTP?]"}},
+    Wording{.kind = K::HoldsLittleMxtp,
+            .sentence = {"has {n} MXTP datagrams, but {value} of its {all} bytes belong to none[; it looks "
+                         "like {looks}].",
+                         "has {n} MXTP datagram, but {value} of its {all} bytes belong to none[; it looks "
+                         "like {looks}]."},
+            .advice = {"[{looks}|Record the network itself: pcap, pcapng, or datagrams back to back.]"}},
     // Files that were written.
     Wording{.kind = K::Exported, .headline = {"{name}: {samples} to {path}[; {missing}][; {restarts}]"}},
     Wording{.kind = K::MarkerSamples, .headline = {"{n} samples of markers", "{n} sample of markers"}},

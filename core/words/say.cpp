@@ -86,9 +86,10 @@ struct Phrase {
     std::string operator()(std::uint64_t count) const { return model::grouped(count); }
     std::string operator()(const Number& number) const { return numberText(number); }
     std::string operator()(const std::vector<std::string>& names) const;
-    /// Only whole facts have advice.
+    /// Advice on a part that has some, else what it is.
     std::string operator()(const Fact& part) const {
-        return say(part, form == Form::Advice ? Form::Headline : form, language);
+        const bool isBare = form == Form::Advice && rowOf(part.kind).advice.text == nullptr;
+        return say(part, isBare ? Form::Headline : form, language);
     }
     std::string operator()(const std::vector<Fact>& parts) const {
         std::vector<std::string> names;

@@ -2,6 +2,7 @@
 #include "app/gui/driver/opened_file.h"
 
 #include "core/log/raw_pace.h"
+#include "core/model/accounting/other_formats.h"
 
 #include <QFile>
 #include <QFileInfo>
@@ -76,13 +77,14 @@ ImportResult importRawFile(const QString& path, const PacketTaker& take, log::St
     if (!measured && !hasTimes) {
         return measured;
     }
+    const QString name = QFileInfo(path).fileName();
+    const QString other = QString::fromStdString(model::otherContents(contents, name.toStdString()));
+    const QString remark =
+        hasTimes || other.isEmpty() ? QString() : QStringLiteral("%1: %2").arg(path, other);
     if (count == 0) {
-        return tl::unexpected(
-            measured->isEmpty()
-                ? QStringLiteral("%1: %2").arg(path, QString::fromStdString(log::otherContents(contents)))
-                : *measured);
+        return tl::unexpected(measured->isEmpty() ? remark : *measured);
     }
-    const log::SenderInfo file{QFileInfo(path).fileName().toStdString(), log::Transport::File, 0};
+    const log::SenderInfo file{name.toStdString(), log::Transport::File, 0};
     RawTime places;
     log::RecordedClock clock(timeline);
     std::optional<log::Stamp> last; // of those that say their time: the others came with them
@@ -96,7 +98,7 @@ ImportResult importRawFile(const QString& path, const PacketTaker& take, log::St
         },
         isCancelled, visitNotes);
     clock.end();
-    return result;
+    return result && result->isEmpty() ? ImportResult(remark) : result;
 }
 
 FileImport::FileImport(log::PacketLog& log, QString path, log::Stamp end)

@@ -70,7 +70,7 @@ net::ConnectionFacts connectionFacts(const model::SessionView& session, const Re
             newest = std::max(newest, sender.lastStamp);
         }
         if (sender.foreign != 0) {
-            facts.foreign.push_back({sender.address().shown(), sender.foreign, sender.foreignHead});
+            facts.foreign.push_back(sender.foreignFact());
         }
     }
     facts.silence = std::max(log::Duration::zero(), now - newest);

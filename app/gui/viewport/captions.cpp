@@ -5,7 +5,6 @@
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
 #include "app/gui/theme/words.h"
-#include "app/net/connection_help.h"
 #include "core/log/ip_packet.h"
 #include "core/model/body/character_pose.h"
 #include "core/model/session/messages.h"
@@ -79,15 +78,21 @@ EmptyState withoutPort(const ReceivingState& receiving) {
     return state;
 }
 
+/// Empty if it resembles none that is known.
+QString formatText(const model::Sender& sender) {
+    const words::Fact format = sender.foreignFormat();
+    return format.isNothing() ? QString() : tr("It looks like %1.").arg(said(format, words::Form::Headline));
+}
+
 EmptyState foreign(const model::Sender& sender) {
-    const words::Fact guess = net::protocolThatBegins(sender.foreignHead);
-    const QString what = guess.isNothing() ? tr("Something else uses this port.")
-                                           : tr("It looks like %1.").arg(said(guess, words::Form::Headline));
+    const QString format = formatText(sender);
+    const QString what = format.isEmpty() ? tr("Something else uses this port.") : format;
     return {Health::Warning,
             tr("These datagrams are not MXTP"),
             {tr("%1 from %2, the newest begins with").arg(grouped(sender.foreign), shown(sender.address())),
              bytesText(sender.foreignHead),
-             tr("MXTP datagrams begin with 4d 58 54 50, \"MXTP\".") + QLatin1Char(' ') + what},
+             tr("MXTP datagrams begin with 4d 58 54 50, \"MXTP\".") + QLatin1Char(' ') + what,
+             said(sender.foreignFact(), words::Form::Advice)},
             HelpTopic::NotMxtp};
 }
 
@@ -230,7 +235,13 @@ EmptyState emptyState(model::SessionView& session, const ReceivingState& receivi
         return foreign(*stranger);
     }
     if (!file.isEmpty()) {
-        return {Health::Warning, tr("No character in %1").arg(file), {}, HelpTopic::EmptyFile};
+        EmptyState state{Health::Warning, tr("No character in %1").arg(file), {}, HelpTopic::EmptyFile};
+        for (const model::Sender& sender : session.roster().senders()) {
+            state.lines += formatText(sender);
+            state.lines += said(sender.foreignFormat(), words::Form::Advice);
+        }
+        state.lines.removeAll(QString());
+        return state;
     }
     return openPorts(receiving).isEmpty() ? withoutPort(receiving) : waiting(receiving);
 }

@@ -63,7 +63,7 @@ void Counting::takeFaulty(const Observed& seen) {
         sender.takeForeign(seen.packet.bytes);
         break;
     case PacketKind::Skipped:
-        sender.skippedBytes += seen.packet.bytes.size();
+        sender.takeSkipped(seen.packet.bytes);
         break;
     }
 }

@@ -320,6 +320,10 @@ words::Fact factOf(const SessionView& session, const ListedIncident& listed) {
     const std::string address = addressesOf(session, incident).front().shown();
     set(fact, "who", whom(session, incident));
     set(fact, "address", address);
+    const Sender* sender = session.roster().find(incident.sender);
+    if (incident.kind == IncidentKind::Foreign && sender != nullptr) {
+        set(fact, "looks", sender->foreignFormat());
+    }
     if (incident.kind == IncidentKind::Outage) {
         addSilence(session, listed, fact);
     } else if (incident.samples != 0) {

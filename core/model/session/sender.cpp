@@ -2,12 +2,19 @@
 #include "core/model/session/sender.h"
 
 #include "core/log/ip_packet.h"
+#include "core/model/accounting/other_formats.h"
 #include "core/wire/text.h"
 #include "core/wire/type_table.h"
 
 #include <algorithm>
+#include <span>
 
 namespace posewire::model {
+namespace {
+
+constexpr std::size_t kShown = 16;
+
+} // namespace
 
 void Sender::takeMalformed(log::Stamp stamp) {
     ++malformed;
@@ -15,11 +22,18 @@ void Sender::takeMalformed(log::Stamp stamp) {
 }
 
 void Sender::takeForeign(wire::Bytes datagram) {
-    constexpr std::size_t kKept = 16;
     ++foreign;
     foreignBytes += datagram.size();
-    const wire::Bytes head = datagram.first(std::min(datagram.size(), kKept));
+    const wire::Bytes head = datagram.first(std::min(datagram.size(), log::kLookedAt));
     foreignHead.assign(head.begin(), head.end());
+}
+
+void Sender::takeSkipped(wire::Bytes between) {
+    if (datagrams == 0 && skippedBytes == foreignHead.size()) {
+        const wire::Bytes more = between.first(std::min(between.size(), log::kLookedAt - foreignHead.size()));
+        foreignHead.insert(foreignHead.end(), more.begin(), more.end());
+    }
+    skippedBytes += between.size();
 }
 
 std::optional<std::string> Sender::host() const {
@@ -31,10 +45,24 @@ std::optional<std::string> Sender::host() const {
 
 std::string Sender::foreignText() const {
     std::string text;
-    for (const std::byte& byte : foreignHead) {
+    for (const std::byte& byte : std::span(foreignHead).first(std::min(foreignHead.size(), kShown))) {
         text += (text.empty() ? "" : " ") + wire::hexadecimal({&byte, 1});
     }
     return text;
+}
+
+words::Fact Sender::foreignFormat() const {
+    return looksLike(foreignHead);
+}
+
+words::Fact Sender::foreignFact() const {
+    std::string value = foreignText() + "  ";
+    for (const std::byte& byte : std::span(foreignHead).first(std::min(foreignHead.size(), kShown))) {
+        const auto character = std::to_integer<char>(byte);
+        value += character >= ' ' && character <= '~' ? character : '.'; // as dumps have it
+    }
+    return {words::Kind::ForeignDatagrams,
+            {{"n", foreign}, {"address", address().shown()}, {"value", value}, {"looks", foreignFormat()}}};
 }
 
 LengthUnit Sender::positionUnit(std::uint8_t type) const {

@@ -40,18 +40,24 @@ struct Sender {
     std::uint64_t skippedBytes = 0;
     std::uint64_t kernelDrops = 0;
     log::Stamp lastStamp{};
-    CountHistory history;               ///< of malformed datagrams alone, also those without a header
-    std::vector<std::byte> foreignHead; ///< what the newest foreign datagram begins with, at most 16 bytes
+    CountHistory history; ///< of malformed datagrams alone, also those without a header
+    /// What the newest foreign datagram begins with, or the skipped bytes that it began with.
+    std::vector<std::byte> foreignHead;
     Detector detector;
     SenderOverride overrides{};
 
     void takeMalformed(log::Stamp stamp);
     void takeForeign(wire::Bytes datagram);
+    void takeSkipped(wire::Bytes between);
     [[nodiscard]] ForeignText address() const { return info.address; }
     /// The host with the transport; nothing for a file.
     [[nodiscard]] std::optional<std::string> host() const;
-    /// "7b 22 61": foreignHead in hexadecimal.
+    /// "7b 22 61": the first 16 bytes of foreignHead in hexadecimal.
     [[nodiscard]] std::string foreignText() const;
+    /// A format that it resembles; nothing if there is none.
+    [[nodiscard]] words::Fact foreignFormat() const;
+    /// All that came of it and is not MXTP.
+    [[nodiscard]] words::Fact foreignFact() const;
 
     /// As declared, else as detected.
     [[nodiscard]] Revision revision() const {

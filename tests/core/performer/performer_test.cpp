@@ -213,9 +213,10 @@ TEST(Performer, FillsTheHeaderAsSendersSince2019) {
     settings.props = 1;
     settings.fingers = true;
     for (const wire::Datagram& datagram : Performer(settings).frame(0)) {
+        const bool isBodyAlone = datagram.header.type() == 5;
         EXPECT_EQ(datagram.header.bodySegments, 23);
-        EXPECT_EQ(datagram.header.props, 1);
-        EXPECT_EQ(datagram.header.fingerSegments, 40);
+        EXPECT_EQ(datagram.header.props, isBodyAlone ? 0 : 1);
+        EXPECT_EQ(datagram.header.fingerSegments, isBodyAlone ? 0 : 40);
         EXPECT_EQ(datagram.header.payloadSize, wire::payloadSize(datagram.body));
     }
 }
@@ -269,7 +270,9 @@ TEST(Performer, PlaysRevisionsJAndK) {
         EXPECT_EQ(std::set<int>(types.begin(), types.end()),
                   (std::set<int>{1, 2, 3, 5, 12, 13, 20, 21, 22, 23, 24, 25}));
         EXPECT_EQ(wire::payloadSize(firstOf(datagrams, 24)->body), 12U);
-        EXPECT_EQ(wire::payloadSize(firstOf(datagrams, 25)->body), 12U);
+        EXPECT_EQ(wire::payloadSize(firstOf(datagrams, 25)->body), 16U);
+        EXPECT_NE(std::get<wire::MetaData>(firstOf(datagrams, 12)->body).text.find("timeOffset:"),
+                  std::string::npos);
         EXPECT_TRUE(std::get<wire::MetaData>(firstOf(datagrams, 12)->body).hasLengthPrefix);
         EXPECT_EQ(firstOf(datagrams, 2)->header.payloadSize, 0);
         EXPECT_EQ(std::get<wire::PointPositions>(firstOf(datagrams, 3)->body).points.front().id, 257U);
@@ -277,6 +280,24 @@ TEST(Performer, PlaysRevisionsJAndK) {
     const auto modern = Performer(settingsOf(Revision::N)).frame(0);
     EXPECT_EQ(wire::payloadSize(firstOf(modern, 24)->body), 36U);
     EXPECT_EQ(wire::payloadSize(firstOf(modern, 25)->body), 16U);
+}
+
+TEST(Performer, WritesTheFormsOfThePaperIfAsked) {
+    PerformerSettings settings = settingsOf(Revision::K);
+    settings.asOnPaper = true;
+    const auto datagrams = Performer(settings).frame(0);
+    EXPECT_EQ(wire::payloadSize(firstOf(datagrams, 25)->body), 12U);
+    EXPECT_EQ(std::get<wire::MetaData>(firstOf(datagrams, 12)->body).text.find("timeOffset:"),
+              std::string::npos);
+}
+
+TEST(Performer, CountsInTheHeaderOfType05WhatItHolds) {
+    PerformerSettings settings;
+    settings.props = 2;
+    settings.fingers = true;
+    const auto datagrams = Performer(settings).frame(0);
+    EXPECT_EQ(firstOf(datagrams, 5)->header.countedSegments(), firstOf(datagrams, 5)->header.items);
+    EXPECT_EQ(firstOf(datagrams, 2)->header.countedSegments(), firstOf(datagrams, 2)->header.items);
 }
 
 TEST(Performer, SaysWhatIsWrongWithSettings) {

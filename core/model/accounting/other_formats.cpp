@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT
+#include "core/model/accounting/other_formats.h"
+
+#include "core/wire/byte_order.h"
+#include "core/wire/header.h"
+#include "core/wire/text.h"
+#include "core/words/say.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+namespace posewire::model {
+namespace {
+
+using namespace std::string_view_literals;
+using Kind = words::Kind;
+
+struct Mark {
+    std::string_view text;
+    Kind kind;
+};
+
+/// What something begins with. The more special ones come first.
+constexpr std::array kBeginnings{
+    Mark{"XTLP"sv, Kind::LooksLikeXtlp},
+    Mark{"Art-Net"sv, Kind::LooksLikeArtNet},
+    Mark{"GET "sv, Kind::LooksLikeHttp},
+    Mark{"POST "sv, Kind::LooksLikeHttp},
+    Mark{"fr "sv, Kind::LooksLikeDTrack},
+    Mark{"{\"type\":\"transport\""sv, Kind::LooksLikeTransport},
+    Mark{"{"sv, Kind::LooksLikeJson},
+    Mark{"Kaydara FBX"sv, Kind::LooksLikeFbx},
+    Mark{"; FBX"sv, Kind::LooksLikeFbx},
+    Mark{"\x1f\x8b"sv, Kind::LooksLikeCompressed}, // gzip, zip, xz, zstd, bzip2
+    Mark{"PK\x03\x04"sv, Kind::LooksLikeCompressed},
+    Mark{"\xfd"
+         "7zXZ"sv,
+         Kind::LooksLikeCompressed},
+    Mark{"\x28\xb5\x2f\xfd"sv, Kind::LooksLikeCompressed},
+    Mark{"BZh"sv, Kind::LooksLikeCompressed},
+};
+/// What XML has in its first elements.
+constexpr std::array kElements{
+    Mark{"<mvnx"sv, Kind::LooksLikeMvnx},
+    Mark{"<frame "sv, Kind::LooksLikeMvnx},
+    Mark{"<CaptureStart"sv, Kind::LooksLikeTrigger},
+    Mark{"<CaptureStop"sv, Kind::LooksLikeTrigger},
+    Mark{"<Identify"sv, Kind::LooksLikeRemote},
+    Mark{"<StartRecording"sv, Kind::LooksLikeRemote},
+    Mark{"<StopRecording"sv, Kind::LooksLikeRemote},
+    Mark{"<CaptureName"sv, Kind::LooksLikeRemote},
+};
+
+unsigned at(wire::Bytes bytes, std::size_t index) {
+    return index < bytes.size() ? std::to_integer<unsigned>(bytes[index]) : 0U;
+}
+
+unsigned littleEndian16(wire::Bytes bytes, std::size_t index) {
+    return at(bytes, index) | at(bytes, index + 1) << 8;
+}
+
+/// An address such as "/body/hip" that ends with a zero and is padded to four bytes, then the types of its
+/// arguments after a comma; or several of these.
+bool isOsc(std::string_view text) {
+    const std::size_t end = text.find('\0');
+    const std::size_t next = (end / 4 + 1) * 4;
+    const bool isAddress =
+        text.starts_with('/') && end != std::string_view::npos &&
+        std::ranges::all_of(text.substr(0, end), [](char c) { return c > ' ' && c <= '~'; });
+    return text.starts_with("#bundle") ||
+           (isAddress && (next == text.size() || text.substr(next).starts_with(',')));
+}
+
+/// A message number and the size of what follows, both little-endian; frames are 7, descriptions 5.
+bool isNatNet(wire::Bytes bytes) {
+    const unsigned message = littleEndian16(bytes, 0);
+    return bytes.size() >= 4 && (message == 5 || message == 7) && littleEndian16(bytes, 2) != 0;
+}
+
+/// Frame number, count of items, then the first item: number 0 and 72 bytes.
+bool isVicon(wire::Bytes bytes) {
+    return bytes.size() >= 8 && at(bytes, 4) != 0 && at(bytes, 5) == 0 && littleEndian16(bytes, 6) == 72;
+}
+
+/// A packet's size, big-endian, and its kind, one of a few.
+bool isQualisys(wire::Bytes bytes) {
+    return bytes.size() >= 8 && at(bytes, 0) == 0 && at(bytes, 1) == 0 && at(bytes, 4) == 0 &&
+           at(bytes, 5) == 0 && at(bytes, 6) == 0 && at(bytes, 7) <= 9 && at(bytes, 2) + at(bytes, 3) != 0;
+}
+
+bool isText(std::string_view text) {
+    constexpr std::size_t kLeast = 8;
+    constexpr std::size_t kCut = 3; // bytes of a character at the end
+    const bool isPlain = std::ranges::all_of(text, [](char c) {
+        return static_cast<unsigned char>(c) >= ' ' || c == '\n' || c == '\r' || c == '\t';
+    });
+    return isPlain && text.size() >= kLeast && wire::firstInvalidUtf8(text) + kCut >= text.size();
+}
+
+/// Where a whole datagram begins behind other bytes; 0 if none does.
+std::size_t datagramIn(wire::Bytes bytes) {
+    for (std::size_t from = 1; from < bytes.size(); ++from) {
+        if (wire::startsDatagram(bytes.subspan(from))) {
+            return from;
+        }
+    }
+    return 0;
+}
+
+Kind kindOf(std::string_view text, const auto& marks, const auto& isMet) {
+    const auto met = std::ranges::find_if(marks, [&](const Mark& mark) { return isMet(text, mark.text); });
+    return met == marks.end() ? Kind::Nothing : met->kind;
+}
+
+void append(std::string& list, std::uint64_t count, const std::string& what) {
+    if (count != 0) {
+        list += (list.empty() ? "" : ", ") + std::to_string(count) + ' ' + what;
+    }
+}
+
+std::string ofCapture(const log::CaptureContents& contents) {
+    if (contents.packets == 0) {
+        return "is a capture without packets; record again while the sender streams";
+    }
+    std::string list;
+    append(list, contents.udp, "UDP");
+    append(list, contents.tcp, "TCP");
+    append(list, contents.withoutIp, "neither");
+    append(list, contents.ofOtherLinks,
+           "of link type " + std::to_string(contents.otherLink) + ", which is not looked through");
+    const bool isAllUnknown = contents.ofOtherLinks == contents.packets;
+    return "has no MXTP datagram in " + std::to_string(contents.packets) +
+           (contents.packets == 1 ? " packet (" : " packets (") + list + "); " +
+           (isAllUnknown ? "capture at an Ethernet or a loopback interface"
+                         : "capture where the sender sends to, while it streams");
+}
+
+words::Fact otherFile(const log::FileContents& contents, std::string_view name) {
+    const words::Fact seen = name.ends_with(".mvn") ? Kind::LooksLikeMvn : looksLike(contents.head);
+    return contents.datagrams == 0 ? words::Fact{Kind::HoldsNoMxtp, {{"looks", seen}}}
+                                   : words::Fact{Kind::HoldsLittleMxtp,
+                                                 {{"n", contents.datagrams},
+                                                  {"value", contents.skipped},
+                                                  {"all", contents.skipped + contents.bytes},
+                                                  {"looks", seen}}};
+}
+
+} // namespace
+
+words::Fact looksLike(wire::Bytes head) {
+    const std::string_view text(reinterpret_cast<const char*>(head.data()), head.size());
+    const auto contains = [](std::string_view all, std::string_view part) {
+        return all.find(part) != std::string_view::npos;
+    };
+    const auto begins = [](std::string_view all, std::string_view part) { return all.starts_with(part); };
+    if (const std::size_t before = datagramIn(head); before != 0) {
+        return words::counted(Kind::MxtpBehind, before);
+    }
+    if (const Kind kind = kindOf(text, kBeginnings, begins); kind != Kind::Nothing) {
+        return kind;
+    }
+    if (text.starts_with('<') || text.starts_with("\xef\xbb\xbf<")) {
+        const Kind kind = kindOf(text, kElements, contains);
+        return kind != Kind::Nothing ? kind : Kind::LooksLikeXml;
+    }
+    return isOsc(text)        ? contains(text, "/VMC/") ? Kind::LooksLikeVmc : Kind::LooksLikeOsc
+           : isNatNet(head)   ? Kind::LooksLikeNatNet
+           : isVicon(head)    ? Kind::LooksLikeVicon
+           : isQualisys(head) ? Kind::LooksLikeQualisys
+           : isText(text)     ? Kind::LooksLikeText
+                              : Kind::Nothing;
+}
+
+std::string otherContents(const log::FileContents& contents, std::string_view name) {
+    if (contents.isEmpty) {
+        return "is empty; was it copied whole?";
+    }
+    if (contents.capture) {
+        return contents.datagrams == 0 ? ofCapture(*contents.capture) : std::string();
+    }
+    if (!contents.isMostlyOther()) {
+        return {};
+    }
+    const words::Fact fact = otherFile(contents, name);
+    return say(fact, words::Form::Sentence) + ' ' + say(fact, words::Form::Advice);
+}
+
+} // namespace posewire::model
