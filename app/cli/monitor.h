@@ -89,6 +89,7 @@ public:
     MonitorRun(const MonitorOptions& options, Console& console);
 
     [[nodiscard]] log::PacketLog& log() { return m_origin.log(); }
+    [[nodiscard]] model::Session& session() { return m_session; }
 
     /// Takes in everything that is in the log. `isReceiverHeldUp`: what has just come may not be.
     void follow(log::Stamp now, bool isReceiverHeldUp = false);

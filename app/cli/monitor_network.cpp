@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/monitor.h"
+#include "app/net/connection_help.h"
+#include "core/model/session/roster.h"
+#include "core/words/say.h"
 
 #include <QCoreApplication>
 #include <QHostAddress>
@@ -161,7 +164,8 @@ class InputWatch {
 public:
     InputWatch(const net::Receiver& receiver, Console& console) : m_receiver(receiver), m_console(console) {}
 
-    void look() {
+    void look(const model::SessionView& session, const model::KernelCounters& kernel, log::Stamp now) {
+        tellHelp(session, kernel, now);
         for (const net::InputStatus& input : m_receiver.inputs()) {
             Told& told = m_told[input.id];
             if (told.note.empty()) {
@@ -197,6 +201,24 @@ private:
         std::string note;
     };
 
+    /// What may be the reason if no MXTP comes for some seconds.
+    void tellHelp(const model::SessionView& session, const model::KernelCounters& kernel, log::Stamp now) {
+        constexpr log::Duration kPatience = std::chrono::seconds(3);
+        constexpr log::Duration kStep = std::chrono::milliseconds(500);
+        if (now < m_nextHelp || !session.roster().streams().empty()) {
+            return;
+        }
+        m_nextHelp = now + kStep;
+        m_begin = m_begin.value_or(now);
+        for (const words::Fact& finding : m_watch.look(session, m_receiver.inputs(), {}, kernel, now)) {
+            const words::Value* address = find(finding, "address");
+            const std::string whose = address != nullptr ? std::get<std::string>(*address) : std::string();
+            if (now - *m_begin >= kPatience && m_toldHelp.emplace(finding.kind, whose).second) {
+                m_console.complain(say(finding, words::Form::Sentence) + ' ' +
+                                   say(finding, words::Form::Advice));
+            }
+        }
+    }
     void tellNote(const net::InputStatus& input, Told& told) {
         if (told.note != input.note) {
             told.note = input.note;
@@ -207,6 +229,10 @@ private:
     const net::Receiver& m_receiver;
     Console& m_console;
     std::map<net::InputId, Told> m_told;
+    net::ConnectionWatch m_watch;
+    log::Stamp m_nextHelp{};
+    std::optional<log::Stamp> m_begin;
+    std::set<std::pair<words::Kind, std::string>> m_toldHelp;
 };
 
 exporting::MonitorFacts factsOf(const net::Receiver& receiver, double elapsedS) {
@@ -230,10 +256,12 @@ double watch(const MonitorOptions& options, const net::Receiver& receiver, Monit
         const duration<double> left{options.durationSeconds - elapsed.count()};
         const bool hasEnd = options.durationSeconds > 0;
         const log::Stamp now = run.log().timeline().now(clock);
+        const model::KernelCounters kernel = receiver.totals().kernel;
+        run.session().setKernel(kernel);
         run.follow(now, receiver.isHeldUp());
         run.show(factsOf(receiver, elapsed.count()), now);
         recording.look();
-        inputs.look();
+        inputs.look(run.session(), kernel, now);
         const bool isInVain = options.record == "-" && recording.hasFailed();
         if (run.isOver() || isInVain || (hasEnd && left.count() <= 0)) {
             return elapsed.count();

@@ -2,12 +2,14 @@
 #include "app/net/connection_help.h"
 
 #include "core/log/ip_packet.h"
+#include "core/model/session/roster.h"
 
 #include <QHostAddress>
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <system_error>
 #include <utility>
 
@@ -50,14 +52,37 @@ words::NamedValue lasted(log::Duration duration) {
     return {"lasted", static_cast<std::uint64_t>(duration / std::chrono::seconds(1))};
 }
 
-/// "192.168.1.20 (eth0) or 10.0.0.4 (wlan0)"; nothing if there is no address.
-Fact hostFact(const ConnectionFacts& facts) {
+/// Link-local addresses of IPv6 are nothing to type into a sender.
+bool isUsable(const LocalAddress& address) {
+    return !address.isLinkLocal || address.isIpv4;
+}
+
+/// A multicast group is heard on all.
+bool listensOn(const InputStatus& input, const LocalAddress& address) {
+    const QHostAddress own(QString::fromStdString(input.endpoint.host));
+    return own.isNull() || own.isMulticast() || own == QHostAddress::Any || own == QHostAddress::AnyIPv6 ||
+           (own == QHostAddress::AnyIPv4 && address.isIpv4) ||
+           own == QHostAddress(QString::fromStdString(address.address));
+}
+
+/// Whether any input listens where data could come: those that connect do not.
+bool isHeard(const ConnectionFacts& facts, const LocalAddress& address) {
+    return std::ranges::any_of(facts.inputs, [&](const InputStatus& input) {
+        return input.kind != InputKind::TcpConnection && listensOn(input, address);
+    });
+}
+
+/// "192.168.1.20 (eth0) or 10.0.0.4 (wlan0)"; nothing if there is no such address.
+template <class IsMeant>
+Fact hostFact(const ConnectionFacts& facts, const IsMeant& isMeant) {
     constexpr std::size_t kMost = 3;
+    std::size_t count = 0;
     Fact all;
-    for (std::size_t i = 0; i < std::min(facts.addresses.size(), kMost); ++i) {
-        const LocalAddress& address = facts.addresses[i];
-        const Fact one{Kind::HostOn, {{"address", address.address}, {"name", address.interface}}};
-        all = i == 0 ? one : Fact{Kind::Either, {{"first", all}, {"second", one}}};
+    for (const LocalAddress& address : facts.addresses) {
+        if (isUsable(address) && isMeant(address) && count < kMost) {
+            const Fact one{Kind::HostOn, {{"address", address.address}, {"name", address.interface}}};
+            all = count++ == 0 ? one : Fact{Kind::Either, {{"first", all}, {"second", one}}};
+        }
     }
     return all;
 }
@@ -144,12 +169,25 @@ void findPeers(const ConnectionFacts& facts, Findings& findings) {
     }
 }
 
+/// What the kernel has turned away as fast as a stream would come.
+void findElsewhere(const ConnectionFacts& facts, const std::string& port, Findings& findings) {
+    constexpr std::uint64_t kMany = 10;
+    constexpr std::uint64_t kKnocks = 3;
+    const auto seconds = static_cast<std::uint64_t>(facts.silence / std::chrono::seconds(1));
+    if (facts.kernel.noPort >= std::max(kMany, 2 * seconds)) {
+        findings.push_back({Kind::NoListener, {{"n", facts.kernel.noPort}, {"port", port}}});
+    }
+    if (facts.kernel.refusedTcp >= kKnocks && !has(facts, InputKind::TcpListener)) {
+        findings.push_back({Kind::TcpRefused, {{"n", facts.kernel.refusedTcp}}});
+    }
+}
+
 void findSilence(const ConnectionFacts& facts, Findings& findings) {
     const bool listens = has(facts, InputKind::Udp) || has(facts, InputKind::TcpListener);
     if (!listens || facts.silence < kSilenceTold) {
         return;
     }
-    if (facts.mxtpDatagrams != 0) {
+    if (facts.datagrams != 0) {
         findings.push_back({Kind::WentSilent, {lasted(facts.silence)}});
         return;
     }
@@ -158,17 +196,24 @@ void findSilence(const ConnectionFacts& facts, Findings& findings) {
     }
     const auto open = std::ranges::find_if(
         facts.inputs, [](const InputStatus& input) { return input.kind != InputKind::TcpConnection; });
-    findings.push_back({Kind::NothingArrives,
-                        {{"protocol", protocolOf(open->kind)},
-                         {"port", std::to_string(open->endpoint.port)},
-                         {"host", hostFact(facts)}}});
+    const std::string port = std::to_string(open->endpoint.port);
+    const Fact heard = hostFact(facts, [&](const auto& address) { return listensOn(*open, address); });
+    const words::Value host =
+        heard.isNothing() && !open->endpoint.host.empty() ? words::Value(open->endpoint.host) : heard;
+    findings.push_back(
+        {Kind::NothingArrives, {{"protocol", protocolOf(open->kind)}, {"port", port}, {"host", host}}});
+    if (const Fact others = hostFact(facts, [&](const auto& one) { return !isHeard(facts, one); });
+        !others.isNothing()) {
+        findings.push_back({Kind::ListensOnly, {{"host", host}, {"others", others}}});
+    }
+    findElsewhere(facts, port, findings);
 }
 
 /// Data sent by a transport that no input uses is invisible here, so say so.
 void findTransport(const ConnectionFacts& facts, Findings& findings) {
     const bool hasUdp = has(facts, InputKind::Udp);
     const bool hasTcp = has(facts, InputKind::TcpListener);
-    if (facts.mxtpDatagrams != 0 || facts.silence < kSilenceTold || hasUdp == hasTcp) {
+    if (facts.datagrams != 0 || facts.silence < kSilenceTold || hasUdp == hasTcp) {
         return;
     }
     const auto of = [](bool isUdp) { return protocolOf(isUdp ? InputKind::Udp : InputKind::TcpListener); };
@@ -176,7 +221,7 @@ void findTransport(const ConnectionFacts& facts, Findings& findings) {
 }
 
 void findBlocked(const ConnectionFacts& facts, Findings& findings) {
-    if (!facts.firewall || facts.mxtpDatagrams != 0 || facts.silence < kSilenceTold || facts.inputs.empty()) {
+    if (!facts.firewall || facts.datagrams != 0 || facts.silence < kSilenceTold || facts.inputs.empty()) {
         return;
     }
     const InputStatus& input = facts.inputs.front();
@@ -221,6 +266,46 @@ std::vector<Fact> connectionHelp(const ConnectionFacts& facts) {
         find(facts, findings);
     }
     return findings;
+}
+
+std::vector<Fact> ConnectionWatch::look(const model::SessionView& session, std::vector<InputStatus> inputs,
+                                        std::vector<FailedInput> failed, const model::KernelCounters& kernel,
+                                        log::Stamp now) {
+    constexpr log::Duration kAsk = std::chrono::seconds(3);
+    if (m_asked == log::Stamp() || std::chrono::abs(now - m_asked) >= kAsk) {
+        m_asked = now;
+        m_addresses = reachable(localAddresses());
+        m_firewall = findFirewall();
+    }
+    std::vector<InputId> open;
+    std::ranges::transform(inputs, std::back_inserter(open), &InputStatus::id);
+    if (open != m_open || m_opened == log::Stamp()) {
+        m_open = std::move(open);
+        m_opened = now;
+        m_kernel = kernel;
+    }
+    ConnectionFacts facts;
+    facts.inputs = std::move(inputs);
+    facts.failed = std::move(failed);
+    facts.addresses = m_addresses;
+    facts.firewall = m_firewall;
+    facts.now = now;
+    log::Stamp newest = m_opened;
+    for (const model::Sender& sender : session.roster().senders()) {
+        const bool isFromNetwork =
+            sender.info.transport == log::Transport::Udp || sender.info.transport == log::Transport::Tcp;
+        if (isFromNetwork && sender.datagrams != 0) {
+            facts.datagrams += sender.datagrams;
+            newest = std::max(newest, sender.lastStamp);
+        }
+        if (isFromNetwork && sender.foreign != 0) {
+            facts.foreign.push_back(sender.foreignFact());
+        }
+    }
+    facts.silence = std::max(log::Duration::zero(), now - newest);
+    m_kernel = facts.datagrams != 0 && facts.silence < kSilenceTold ? kernel : m_kernel;
+    facts.kernel = kernel.since(m_kernel);
+    return connectionHelp(facts);
 }
 
 } // namespace posewire::net

@@ -4,6 +4,8 @@
 #include "app/net/endpoint.h"
 #include "app/net/input.h"
 #include "core/log/time.h"
+#include "core/model/accounting/kernel_counters.h"
+#include "core/model/session/session_view.h"
 #include "core/words/fact.h"
 
 #include <cstdint>
@@ -33,16 +35,37 @@ struct FailedInput {
 struct ConnectionFacts {
     std::vector<InputStatus> inputs;
     std::vector<FailedInput> failed;
-    std::uint64_t mxtpDatagrams = 0;     ///< received in total, malformed ones included
+    std::uint64_t datagrams = 0;         ///< received in total, whatever they are
     log::Duration silence{};             ///< since the newest of them, or since the inputs were opened
     std::vector<words::Fact> foreign;    ///< see model::Sender::foreignFact()
     std::vector<LocalAddress> addresses; ///< see reachable()
     std::optional<Firewall> firewall;
+    model::KernelCounters kernel; ///< since data last came, or the inputs were opened
     log::Stamp now{};
 };
 
 /// Advice for an operator who sees nothing, most certain first; empty if all is well. Silence counts after
 /// two seconds.
 [[nodiscard]] std::vector<words::Fact> connectionHelp(const ConnectionFacts& facts);
+
+/// Gathers the facts again and again while a session follows what is received.
+class ConnectionWatch {
+public:
+    /// The advice of now. The system is asked for what changes seldom every three seconds.
+    [[nodiscard]] std::vector<words::Fact> look(const model::SessionView& session,
+                                                std::vector<InputStatus> inputs,
+                                                std::vector<FailedInput> failed,
+                                                const model::KernelCounters& kernel, log::Stamp now);
+    /// See reachable().
+    [[nodiscard]] const std::vector<LocalAddress>& addresses() const { return m_addresses; }
+
+private:
+    std::vector<InputId> m_open;
+    log::Stamp m_opened{};
+    log::Stamp m_asked{};
+    std::vector<LocalAddress> m_addresses;
+    std::optional<Firewall> m_firewall;
+    model::KernelCounters m_kernel; ///< when data last came
+};
 
 } // namespace posewire::net

@@ -147,8 +147,15 @@ std::vector<InputStatus> Receiver::inputs() const {
 }
 
 ReceiveTotals Receiver::totals() const {
+    constexpr log::Duration kStale = std::chrono::milliseconds(250);
     const std::lock_guard lock(m_mutex);
     ReceiveTotals totals = m_past;
+    const log::Moment now = m_clock.monotonic();
+    if (m_kernelBefore && now - m_kernelRead >= kStale) {
+        m_kernelRead = now;
+        m_kernel = readKernelCounters().value_or(*m_kernelBefore).since(*m_kernelBefore);
+    }
+    totals.kernel = m_kernel;
     totals.longestDelay = m_counters.longestDelay;
     for (const auto& input : m_inputs) {
         add(input->counters(), totals);

@@ -5,6 +5,7 @@
 #include "app/net/command_queue.h"
 #include "app/net/endpoint.h"
 #include "app/net/input.h"
+#include "app/net/kernel_counters.h"
 #include "app/net/packet_queue.h"
 #include "core/log/clock.h"
 #include "core/log/packet_log.h"
@@ -61,6 +62,7 @@ struct ReceiveTotals {
     std::uint64_t refusedDatagrams = 0; ///< see InputCounters, as the next two
     std::uint64_t refusedPeers = 0;
     std::uint64_t closedPeers = 0;
+    model::KernelCounters kernel{}; ///< looked at a few times a second; zeros if the system does not say
 };
 
 /// The one thread that writes a PacketLog for as long as the program runs. It receives UDP datagrams straight
@@ -141,6 +143,9 @@ private:
     mutable std::mutex m_mutex; ///< guards the members below
     std::vector<std::shared_ptr<Input>> m_inputs;
     ReceiveTotals m_past; ///< of removed inputs
+    const std::optional<model::KernelCounters> m_kernelBefore = readKernelCounters();
+    mutable model::KernelCounters m_kernel; ///< since then
+    mutable log::Moment m_kernelRead{};
     AllowList m_allowed;
     std::uint32_t m_nextId = 0;
     std::unique_ptr<TcpThread> m_tcp; ///< from the first TCP input on

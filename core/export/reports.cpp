@@ -284,6 +284,7 @@ VerdictLines::Changes VerdictLines::changesOf(const model::SessionView& session)
 std::string monitorReport(const model::SessionView& session, const MonitorFacts& facts) {
     const model::SenderTotals all = session.accounts().allSenders();
     const model::RetiredTotals& retired = session.accounts().retired();
+    const model::KernelCounters& kernel = session.accounts().kernel();
     std::vector<const model::Character*> everyone;
     for (const model::Character& character : session.roster().characters()) {
         everyone.push_back(&character);
@@ -309,7 +310,9 @@ std::string monitorReport(const model::SessionView& session, const MonitorFacts&
                      {"local", JsonValue{{"kernelDropped", all.kernelDrops},
                                          {"receiveBufferBytes", facts.receiveBufferBytes},
                                          {"overtaken", session.accounts().overtaken()},
-                                         {"refusedDatagrams", facts.refusedDatagrams}}},
+                                         {"refusedDatagrams", facts.refusedDatagrams},
+                                         {"reassemblyFailures", kernel.reassemblyFailures},
+                                         {"noPort", kernel.noPort}}},
                      {"foreignDatagrams", all.foreign},
                      {"sources", std::move(senders)},
                      {"foreignSources", std::move(foreignSenders)},

@@ -236,7 +236,7 @@ constexpr std::array kFindings{
     Wording{.kind = K::TcpRefused,
             .sentence = {"This computer has refused {n} TCP connections: no program listens at their port.",
                          "This computer has refused {n} TCP connection: no program listens at its port."},
-            .advice = {"If it is MVN: set Protocol to {protocol} in its Network Streamer, or add a TCP "
+            .advice = {"If it is MVN: set Protocol to UDP in its Network Streamer, or add a TCP "
                        "listener here."}},
     Wording{.kind = K::OtherTransport,
             .sentence = {"Only {protocol} inputs are open; a sender that uses {other} would go unnoticed."},

@@ -4,7 +4,6 @@
 #include "app/gui/base/background.h"
 #include "app/gui/base/logging.h"
 #include "app/gui/base/saving.h"
-#include "core/model/session/roster.h"
 
 #include <QCoreApplication>
 #include <QFile>
@@ -21,7 +20,6 @@ using Kind = InputAddress::Kind;
 
 constexpr log::Duration kRateWindow = std::chrono::seconds(1);
 constexpr log::Duration kExamine = std::chrono::milliseconds(250);
-constexpr log::Duration kAsk = std::chrono::seconds(3);
 
 net::Endpoint endpointOf(const InputAddress& port) {
     return {port.address.toStdString(), port.port};
@@ -40,41 +38,6 @@ bool useTheSame(const InputAddress& a, const InputAddress& b) {
     const bool isWide = a.address.isEmpty() || b.address.isEmpty();
     return a.kind == b.kind && a.port == b.port &&
            (a.address == b.address || (isWide && a.kind != Kind::TcpConnection));
-}
-
-bool isFromNetwork(const model::Sender& sender) {
-    return sender.info.transport == log::Transport::Udp || sender.info.transport == log::Transport::Tcp;
-}
-
-/// The facts that the session and the inputs give; without those of the system.
-net::ConnectionFacts connectionFacts(const model::SessionView& session, const ReceivingState& state,
-                                     log::Stamp opened, log::Stamp now) {
-    net::ConnectionFacts facts;
-    facts.now = now;
-    for (const PortState& port : state.ports) {
-        if (port.id) {
-            facts.inputs.push_back(port.status);
-        } else if (!port.problem.isEmpty()) {
-            facts.failed.push_back({port.port.kind,
-                                    endpointOf(port.port),
-                                    {net::NetError::Kind::Other, port.problem.toStdString()}});
-        }
-    }
-    log::Stamp newest = opened;
-    for (const model::Sender& sender : session.roster().senders()) {
-        if (!isFromNetwork(sender)) {
-            continue;
-        }
-        facts.mxtpDatagrams += sender.datagrams + sender.malformed;
-        if (sender.datagrams + sender.malformed != 0) {
-            newest = std::max(newest, sender.lastStamp);
-        }
-        if (sender.foreign != 0) {
-            facts.foreign.push_back(sender.foreignFact());
-        }
-    }
-    facts.silence = std::max(log::Duration::zero(), now - newest);
-    return facts;
 }
 
 } // namespace
@@ -229,6 +192,7 @@ void Receiving::measure(log::Stamp now) {
     readStatus();
     const net::ReceiveTotals figures = m_receiver.totals();
     m_state.kernelDropped = figures.kernelDropped;
+    m_state.kernel = figures.kernel;
     m_state.refusedDatagrams = figures.refusedDatagrams;
     m_state.receiveBufferBytes = figures.receiveBufferBytes;
     m_state.longestDelay = figures.longestDelay;
@@ -273,23 +237,16 @@ void Receiving::examine(const model::SessionView& session, log::Stamp now) {
         return;
     }
     m_examined = now;
-    if (std::chrono::abs(now - m_asked) >= kAsk) {
-        m_asked = now;
-        m_state.addresses = net::reachable(net::localAddresses());
-        m_firewall = net::findFirewall();
+    std::vector<net::FailedInput> failed;
+    for (const PortState& port : m_state.ports) {
+        if (!port.id && !port.problem.isEmpty()) {
+            failed.push_back({port.port.kind,
+                              endpointOf(port.port),
+                              {net::NetError::Kind::Other, port.problem.toStdString()}});
+        }
     }
-    std::vector<net::InputId> open;
-    for (const net::InputStatus& input : openInputs()) {
-        open.push_back(input.id);
-    }
-    if (open != m_open || m_opened == log::Stamp()) {
-        m_open = open;
-        m_opened = now;
-    }
-    net::ConnectionFacts facts = connectionFacts(session, m_state, m_opened, now);
-    facts.addresses = m_state.addresses;
-    facts.firewall = m_firewall;
-    m_state.findings = net::connectionHelp(facts);
+    m_state.findings = m_watch.look(session, openInputs(), std::move(failed), m_state.kernel, now);
+    m_state.addresses = m_watch.addresses();
 }
 
 InputChoices Receiving::choices() const {

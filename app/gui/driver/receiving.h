@@ -98,11 +98,8 @@ private:
     Relaying m_relaying;
     RateMeter m_rates;
     std::map<net::InputId, RateMeter> m_portRates;
-    std::vector<net::InputId> m_open; ///< the inputs at the last examine()
-    log::Stamp m_opened{};            ///< when they became these
-    std::optional<net::Firewall> m_firewall;
+    net::ConnectionWatch m_watch;
     log::Stamp m_examined{};
-    log::Stamp m_asked{};
     QStringList m_allowed;
     std::future<net::NetResult<net::AllowList>> m_lookUp;                 ///< of the names in it
     std::vector<std::future<net::NetResult<net::AllowList>>> m_abandoned; ///< no longer wanted

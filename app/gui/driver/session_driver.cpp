@@ -179,6 +179,7 @@ void SessionDriver::tick() {
 void SessionDriver::tickTables(log::Stamp now) {
     model::Session& live = m_local.session();
     m_receiving.measure(now);
+    live.setKernel(m_receiving.state().kernel);
     for (const Relaying::Loop& loop : m_receiving.relaying().takeLoops()) {
         model::Occurrence one = model::Occurrence::at(model::IncidentKind::RelayLoop, loop.returner, now,
                                                       live.end() == 0 ? 0 : live.end() - 1);

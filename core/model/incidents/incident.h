@@ -45,8 +45,9 @@ enum class IncidentKind : std::uint8_t {
     GapLimit,
     AgeLimit,
     RateLimit,
+    Fragments,
 };
-inline constexpr std::size_t kIncidentKinds = 25;
+inline constexpr std::size_t kIncidentKinds = 26;
 
 enum class IncidentSeverity : std::uint8_t { Info, Warning, Error };
 enum class IncidentGroup : std::uint8_t { Sender, Loss, Content, Limit };
@@ -212,6 +213,7 @@ inline constexpr std::array<IncidentKindFacts, kIncidentKinds> kIncidentKindTabl
         {K::GapLimit, "gap limit", "limit", W::GapLimit, S::Warning, G::Limit, true},
         {K::AgeLimit, "age limit", "limit", W::AgeLimit, S::Error, G::Limit, true, false, false, 1},
         {K::RateLimit, "rate limit", "limit", W::RateLimit, S::Warning, G::Limit, true, false, false, 1},
+        {K::Fragments, "fragments", "loss", W::Nothing, S::Error, G::Loss, true},
     }};
 }();
 

@@ -34,6 +34,10 @@ std::uint64_t Accounts::dropsUnseen() const {
     return m_moment.ingest().dropsUnseen();
 }
 
+const KernelCounters& Accounts::kernel() const {
+    return m_moment.ingest().content().kernel();
+}
+
 Unproven Accounts::unproven() const {
     Unproven sums;
     for (const Character& character : m_roster.characters()) {

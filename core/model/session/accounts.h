@@ -3,6 +3,7 @@
 
 #include "core/log/stream_index.h"
 #include "core/model/accounting/attribution.h"
+#include "core/model/accounting/kernel_counters.h"
 #include "core/model/accounting/packet_digest.h"
 #include "core/model/accounting/stream_counts.h"
 #include "core/model/session/roster.h"
@@ -34,6 +35,7 @@ public:
     [[nodiscard]] std::uint64_t unfollowed() const;
     [[nodiscard]] std::uint64_t overtaken() const;
     [[nodiscard]] std::uint64_t dropsUnseen() const;
+    [[nodiscard]] const KernelCounters& kernel() const;
     /// Of all characters that may be the invention of corrupt headers.
     [[nodiscard]] Unproven unproven() const;
 

@@ -6,10 +6,12 @@
 #include "core/model/body/null_pose_findings.h"
 #include "core/model/incidents/incident_follower.h"
 #include "core/model/text.h"
+#include "core/wire/type_table.h"
 
 #include <functional>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <variant>
@@ -39,6 +41,32 @@ std::vector<words::Fact> changesBy(const Metadata& metadata, std::uint64_t packe
 words::Fact contradictionOf(const NullPoseRecord& record) {
     auto error = gravestError(record);
     return error ? words::Fact{words::Kind::Contradiction, {{"what", *std::move(error)}}} : words::Fact();
+}
+
+/// Types that would be datagrams larger than an Ethernet frame, of as many segments, and that have not come.
+std::vector<std::uint8_t> missingLargeTypes(const Sender& sender) {
+    constexpr std::size_t kFrame = 1472;
+    std::size_t segments = 0;
+    std::set<std::uint8_t> come;
+    for (const Character* character : sender.characters) {
+        for (const Stream* stream : character->streams) {
+            segments = std::max<std::size_t>(segments, stream->newest.datagram.header.countedSegments());
+            come.insert(stream->key.type);
+        }
+    }
+    std::vector<std::uint8_t> missing;
+    for (const wire::TypeInfo& info : wire::typeTable()) {
+        constexpr std::uint8_t kUnity = 5; // the body alone
+        if (!wire::countsSegments(info.type) || info.type == kUnity ||
+            wire::kHeaderSize + segments * info.fields().back().size <= kFrame) {
+            continue;
+        }
+        if (come.contains(info.type)) {
+            return {}; // large ones do get here
+        }
+        missing.push_back(info.type);
+    }
+    return missing;
 }
 
 } // namespace
@@ -125,6 +153,7 @@ void Content::lookForContradictions(log::Stamp stamp) {
     m_nextContradictions = stamp + kContradictions;
     for (const Sender& sender : std::as_const(m_roll).senders()) {
         if (sender.isPerforming()) {
+            lookForFragments(sender, stamp);
             const auto found = m_roll.hasEnded(sender) ? std::vector<words::Fact>() : sender.contradictions();
             Occurrence one = Occurrence::at(IncidentKind::Scale, sender.id, stamp);
             one.detail = found.empty() ? words::Fact() : found.front();
@@ -132,6 +161,17 @@ void Content::lookForContradictions(log::Stamp stamp) {
         }
     }
     m_roll.characters().forEach([&](Character& each) { each.content.rest(each.key, stamp, m_incidents); });
+}
+
+void Content::lookForFragments(const Sender& sender, log::Stamp stamp) {
+    Occurrence one = Occurrence::at(IncidentKind::Fragments, sender.id, stamp);
+    one.cause = LossCause::Network;
+    const bool isPossible = m_kernel.lacksFragments() && !m_roll.hasEnded(sender);
+    if (const auto missing = missingLargeTypes(sender); isPossible && !missing.empty()) {
+        one.detail = {words::Kind::FragmentsLost,
+                      {{"missing", words::typesFact(missing)}, {"cause", causeFact(LossCause::Network)}}};
+    }
+    m_incidents.takeCondition(std::move(one));
 }
 
 std::size_t Content::metadataBytes() const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/model/accounting/kernel_counters.h"
 #include "core/model/keeping.h"
 #include "core/model/session/roll.h"
 
@@ -24,6 +25,9 @@ public:
     void take(const Observed& seen);
     /// Looks whether senders contradict themselves, and what is not sent any more, if it is time again.
     void lookForContradictions(log::Stamp stamp);
+    /// What the kernel counted since this computer began to listen.
+    void setKernel(const KernelCounters& counters) { m_kernel = counters; }
+    [[nodiscard]] const KernelCounters& kernel() const { return m_kernel; }
     /// Makes it time.
     void lookAgain() { m_nextContradictions = {}; }
 
@@ -35,11 +39,13 @@ private:
     void takeMetadata(const wire::MetaData& message, const Observed& seen);
     void takeNullPose(const wire::NullPose& part, const Observed& seen);
     void takePose(const Observed& seen);
+    void lookForFragments(const Sender& sender, log::Stamp stamp);
 
     Roll& m_roll;
     IncidentFollower& m_incidents;
     Keeping m_metadataKeeping{kMetadataBudget};
     Keeping m_nullPoseKeeping{kNullPoseBudget};
+    KernelCounters m_kernel;
     log::Stamp m_nextContradictions{};
 };
 

@@ -35,6 +35,9 @@ public:
     /// went by after its last packet while it was recorded.
     void endFile(log::Duration afterLast = {}) { m_ingest.endFile(afterLast); }
 
+    /// What the kernel counted since this computer began to listen.
+    void setKernel(const KernelCounters& counters) { m_ingest.setKernel(counters); }
+
     /// What verdicts() says is judged now and stays until this is called again, so that all that show it say
     /// the same. Without this it is judged whenever something has changed.
     void judge() { verdicts().keep(); }

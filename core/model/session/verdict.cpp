@@ -24,7 +24,9 @@ using State = ListedIncident::State;
 /// Of errors that go on: whoever sends nothing or what is of no use, or is sent twice, is worse off than one
 /// who loses some.
 int gravityOf(const Incident& incident) {
-    const bool isUnusable = incident.kind == IncidentKind::Conflict || incident.kind == IncidentKind::Content;
+    const bool isUnusable = incident.kind == IncidentKind::Conflict ||
+                            incident.kind == IncidentKind::Content ||
+                            incident.kind == IncidentKind::Fragments;
     return incident.kind == IncidentKind::Outage ? 2 : isUnusable ? 1 : 0;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/net/connection_help.h"
+#include "app/net/kernel_counters.h"
 #include "tests/support/facts.h"
 #include "tests/support/temporary_folder.h"
 
@@ -51,7 +52,7 @@ protected:
 
 TEST_F(ConnectionHelpTest, SaysNothingWhereAllIsWell) {
     facts.silence = 100ms;
-    facts.mxtpDatagrams = 100;
+    facts.datagrams = 100;
     facts.firewall = Firewall{"ufw", "sudo ufw allow PORT/udp"};
     EXPECT_TRUE(connectionHelp(facts).empty());
 }
@@ -61,7 +62,7 @@ TEST_F(ConnectionHelpTest, TellsThatOnlyOthersThanThoseListenedToSend) {
     ASSERT_THAT(kindsOf(facts), ElementsAre(Kind::NotListenedTo));
     EXPECT_EQ(numberIn(connectionHelp(facts)[0], "n"), 34);
     facts.silence = 100ms;
-    facts.mxtpDatagrams = 100;
+    facts.datagrams = 100;
     EXPECT_TRUE(connectionHelp(facts).empty()) << "that is what the list is for";
 }
 
@@ -118,7 +119,7 @@ TEST_F(ConnectionHelpTest, AFirewallIsNamedOnlyWhileNothingHasCome) {
     facts.firewall = Firewall{"nftables", ""};
     EXPECT_EQ(say(connectionHelp(facts).back(), Form::Advice),
               "Ask the administrator to accept TCP port 9764.");
-    facts.mxtpDatagrams = 1;
+    facts.datagrams = 1;
     EXPECT_THAT(kindsOf(facts), ElementsAre(Kind::WentSilent));
 }
 
@@ -167,7 +168,7 @@ TEST_F(ConnectionHelpTest, APortInUseKeepsItsWordsAndItsAdvice) {
 }
 
 TEST_F(ConnectionHelpTest, TcpPeersThatSayNothingOrNonsenseAreTold) {
-    facts.mxtpDatagrams = 1;
+    facts.datagrams = 1;
     facts.silence = 0s;
     facts.inputs[1].peers = {{"10.0.0.7:50000", log::Stamp(90s), 0, 0, 0},
                              {"10.0.0.8:50000", log::Stamp(90s), 0, 500, 500},
@@ -184,6 +185,39 @@ TEST_F(ConnectionHelpTest, ASenderThatCannotBeReachedIsTold) {
     facts.inputs[0].text = "studio:9763 cannot be reached: Connection refused; trying again in 1 s";
     ASSERT_THAT(kindsOf(facts), ElementsAre(Kind::NotReachable));
     EXPECT_THAT(say(connectionHelp(facts)[0], Form::Advice), HasSubstr("MVN itself does not listen"));
+}
+
+TEST_F(ConnectionHelpTest, NamesOnlyAddressesAtWhichItListens) {
+    facts.addresses = {{"10.43.0.2", "vb", true, false, false},
+                       {"10.43.1.2", "vd", true, false, false},
+                       {"fe80::1%vb", "vb", false, false, true}};
+    EXPECT_THAT(kindsOf(facts), ElementsAre(Kind::NothingArrives));
+    EXPECT_EQ(namesIn(connectionHelp(facts)[0], "host"),
+              std::vector<std::string>{"10.43.0.2 (vb) or 10.43.1.2 (vd)"});
+    facts.inputs = {input(InputKind::Udp)};
+    facts.inputs[0].endpoint.host = "10.43.1.2";
+    ASSERT_THAT(kindsOf(facts), ElementsAre(Kind::NothingArrives, Kind::ListensOnly, Kind::OtherTransport));
+    const Fact only = connectionHelp(facts)[1];
+    EXPECT_EQ(namesIn(connectionHelp(facts)[0], "host"), std::vector<std::string>{"10.43.1.2 (vd)"});
+    EXPECT_EQ(namesIn(only, "host"), std::vector<std::string>{"10.43.1.2 (vd)"});
+    EXPECT_EQ(namesIn(only, "others"), std::vector<std::string>{"10.43.0.2 (vb)"});
+    facts.inputs.push_back(input(InputKind::Udp));
+    facts.inputs[1].endpoint.host = "10.43.0.2";
+    EXPECT_THAT(kindsOf(facts), ElementsAre(Kind::NothingArrives, Kind::OtherTransport));
+}
+
+TEST_F(ConnectionHelpTest, TellsOfWhatGoesElsewhere) {
+    facts.inputs = {input(InputKind::Udp)};
+    facts.kernel = {.noPort = 9, .refusedTcp = 2};
+    EXPECT_THAT(kindsOf(facts), ElementsAre(Kind::NothingArrives, Kind::OtherTransport));
+    facts.kernel = {.noPort = 300, .refusedTcp = 3};
+    EXPECT_THAT(kindsOf(facts),
+                ElementsAre(Kind::NothingArrives, Kind::NoListener, Kind::TcpRefused, Kind::OtherTransport));
+    EXPECT_EQ(numberIn(connectionHelp(facts)[1], "n"), 300);
+    facts.silence = 1'000s; // as much as any network has
+    EXPECT_THAT(kindsOf(facts), ElementsAre(Kind::NothingArrives, Kind::TcpRefused, Kind::OtherTransport));
+    facts.inputs.push_back(input(InputKind::TcpListener));
+    EXPECT_THAT(kindsOf(facts), ElementsAre(Kind::NothingArrives));
 }
 
 TEST(Reachable, PutsTheBestFirstAndLeavesLoopbackOutUnlessAlone) {
@@ -223,6 +257,15 @@ TEST_F(FirewallTest, IsSeenOnlyWhereItIsSwitchedOn) {
     EXPECT_EQ(findFirewall(root.string())->name, "firewalld");
     write("etc/ufw/ufw.conf", "# settings\nENABLED=yes\n");
     EXPECT_EQ(findFirewall(root.string())->name, "ufw");
+}
+
+TEST_F(FirewallTest, CountersOfTheKernelAreReadBesideIt) {
+    EXPECT_FALSE(readKernelCounters(root.string()));
+    write("proc/net/snmp", "Ip: Forwarding ReasmReqds ReasmOKs ReasmFails\nIp: 1 40 5 30\n"
+                           "Tcp: MaxConn OutRsts\nTcp: -1 7\nUdp: InDatagrams NoPorts\nUdp: 9 11\n");
+    EXPECT_EQ(*readKernelCounters(root.string()), (model::KernelCounters{40, 5, 30, 11, 7}));
+    write("proc/net/snmp6", "Ip6ReasmReqds   \t2\nIp6ReasmOKs 1\nUdp6NoPorts  100\n");
+    EXPECT_EQ(*readKernelCounters(root.string()), (model::KernelCounters{42, 6, 30, 111, 7}));
 }
 
 } // namespace

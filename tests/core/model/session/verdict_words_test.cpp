@@ -307,5 +307,54 @@ TEST_F(VerdictTest, ASilenceThatIsOverMakesNoFewSamplesGrave) {
     }
 }
 
+/// One that announces 40 finger segments.
+wire::Datagram withFingers(wire::Body body, std::uint32_t sample) {
+    wire::Datagram datagram{{}, std::move(body), {}};
+    datagram.header.sampleCounter = sample;
+    datagram.header.bodySegments = 23;
+    datagram.header.fingerSegments = 40;
+    wire::completeHeader(datagram, wire::HeaderEra::Counted);
+    return datagram;
+}
+
+TEST_F(VerdictTest, IsNotGoodWhereLargeDatagramsDoNotGetHereWhole) {
+    std::uint32_t sample = 0;
+    const auto sendSmall = [&] {
+        for (int i = 0; i < 100; ++i, m_at += 10ms) {
+            sendBytes(*wire::encode(withFingers(wire::CentreOfMass{}, ++sample)), m_at);
+        }
+        follow();
+    };
+    m_session.setKernel({.fragments = 90, .reassembled = 45});
+    sendSmall();
+    EXPECT_TRUE(of(IncidentKind::Fragments).empty());
+    m_session.setKernel({.fragments = 190, .reassembled = 45, .reassemblyFailures = 60});
+    sendSmall();
+    ASSERT_EQ(of(IncidentKind::Fragments).size(), 1U);
+    const Incident incident = of(IncidentKind::Fragments)[0];
+    EXPECT_EQ(incident.cause, LossCause::Network);
+    EXPECT_TRUE(incident.isCurrent);
+    EXPECT_EQ(partOf(incident.detail, "missing"), words::typesFact({1, 2, 21, 22}));
+    EXPECT_EQ(verdict().state, TakeVerdict::State::Bad);
+    EXPECT_EQ(reason().kind, Kind::FragmentsLost);
+    // One of them gets here.
+    wire::PoseQuaternion pose = standingAt(0);
+    for (std::uint32_t id = 24; id <= 63; ++id) {
+        pose.segments.push_back({id, {}, {1, 0, 0, 0}});
+    }
+    sendBytes(*wire::encode(withFingers(pose, sample)), m_at);
+    sendSmall();
+    EXPECT_FALSE(of(IncidentKind::Fragments)[0].isCurrent);
+}
+
+TEST_F(VerdictTest, DoesNotBlameFragmentsWhereAllDatagramsAreSmall) {
+    m_session.setKernel({.fragments = 100, .reassemblyFailures = 60});
+    for (std::uint32_t sample = 1; sample <= 100; ++sample, m_at += 10ms) {
+        send(wire::CentreOfMass{}, sample, m_at);
+    }
+    follow();
+    EXPECT_TRUE(of(IncidentKind::Fragments).empty());
+}
+
 } // namespace
 } // namespace posewire::model
