@@ -211,11 +211,9 @@ private:
         m_nextHelp = now + kStep;
         m_begin = m_begin.value_or(now);
         for (const words::Fact& finding : m_watch.look(session, m_receiver.inputs(), {}, kernel, now)) {
-            const words::Value* address = find(finding, "address");
-            const std::string whose = address != nullptr ? std::get<std::string>(*address) : std::string();
-            if (now - *m_begin >= kPatience && m_toldHelp.emplace(finding.kind, whose).second) {
-                m_console.complain(say(finding, words::Form::Sentence) + ' ' +
-                                   say(finding, words::Form::Advice));
+            const std::string advice = say(finding, words::Form::Advice);
+            if (now - *m_begin >= kPatience && !advice.empty() && m_advised.insert(advice).second) {
+                m_console.complain(say(finding, words::Form::Sentence) + ' ' + advice);
             }
         }
     }
@@ -232,7 +230,7 @@ private:
     net::ConnectionWatch m_watch;
     log::Stamp m_nextHelp{};
     std::optional<log::Stamp> m_begin;
-    std::set<std::pair<words::Kind, std::string>> m_toldHelp;
+    std::set<std::string> m_advised;
 };
 
 exporting::MonitorFacts factsOf(const net::Receiver& receiver, double elapsedS) {

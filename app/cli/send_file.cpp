@@ -288,9 +288,7 @@ ExitStatus concludeFile(const std::string& path, const RecordSender& sender,
         return console.unusable(sender.failure());
     }
     if (sender.datagrams() == 0) {
-        const std::string other = model::otherContents(contents, path);
-        console.complain(path + ": no datagrams found" +
-                         (other.empty() ? "; is it a recording of MXTP?" : ": it " + other));
+        console.complain(path + ": no datagrams found: it " + model::otherContents(contents, path));
         return ExitStatus::Faults;
     }
     if (sender.skipped() != 0) {

@@ -10,6 +10,8 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
+#include <sstream>
 #include <system_error>
 #include <utility>
 
@@ -52,11 +54,6 @@ words::NamedValue lasted(log::Duration duration) {
     return {"lasted", static_cast<std::uint64_t>(duration / std::chrono::seconds(1))};
 }
 
-/// Link-local addresses of IPv6 are nothing to type into a sender.
-bool isUsable(const LocalAddress& address) {
-    return !address.isLinkLocal || address.isIpv4;
-}
-
 /// A multicast group is heard on all.
 bool listensOn(const InputStatus& input, const LocalAddress& address) {
     const QHostAddress own(QString::fromStdString(input.endpoint.host));
@@ -65,21 +62,15 @@ bool listensOn(const InputStatus& input, const LocalAddress& address) {
            own == QHostAddress(QString::fromStdString(address.address));
 }
 
-/// Whether any input listens where data could come: those that connect do not.
-bool isHeard(const ConnectionFacts& facts, const LocalAddress& address) {
-    return std::ranges::any_of(facts.inputs, [&](const InputStatus& input) {
-        return input.kind != InputKind::TcpConnection && listensOn(input, address);
-    });
-}
-
-/// "192.168.1.20 (eth0) or 10.0.0.4 (wlan0)"; nothing if there is no such address.
+/// "192.168.1.20 (eth0) or 10.0.0.4 (wlan0)"; nothing if there is no such address. Nobody types link-local
+/// ones of IPv6 into a sender.
 template <class IsMeant>
 Fact hostFact(const ConnectionFacts& facts, const IsMeant& isMeant) {
     constexpr std::size_t kMost = 3;
     std::size_t count = 0;
     Fact all;
     for (const LocalAddress& address : facts.addresses) {
-        if (isUsable(address) && isMeant(address) && count < kMost) {
+        if ((address.isIpv4 || !address.isLinkLocal) && isMeant(address) && count < kMost) {
             const Fact one{Kind::HostOn, {{"address", address.address}, {"name", address.interface}}};
             all = count++ == 0 ? one : Fact{Kind::Either, {{"first", all}, {"second", one}}};
         }
@@ -202,7 +193,13 @@ void findSilence(const ConnectionFacts& facts, Findings& findings) {
         heard.isNothing() && !open->endpoint.host.empty() ? words::Value(open->endpoint.host) : heard;
     findings.push_back(
         {Kind::NothingArrives, {{"protocol", protocolOf(open->kind)}, {"port", port}, {"host", host}}});
-    if (const Fact others = hostFact(facts, [&](const auto& one) { return !isHeard(facts, one); });
+    if (const Fact others =
+            hostFact(facts,
+                     [&](const auto& one) {
+                         return std::ranges::none_of(facts.inputs, [&](const InputStatus& input) {
+                             return input.kind != InputKind::TcpConnection && listensOn(input, one);
+                         });
+                     });
         !others.isNothing()) {
         findings.push_back({Kind::ListensOnly, {{"host", host}, {"others", others}}});
     }
@@ -257,6 +254,37 @@ std::optional<Firewall> findFirewall(const std::string& root) {
         return Firewall{"iptables", "sudo iptables -I INPUT -p udp --dport PORT -j ACCEPT"};
     }
     return std::nullopt;
+}
+
+std::optional<model::KernelCounters> readKernelCounters(const std::string& root) {
+    const fs::path folder = fs::path(root) / "proc/net";
+    std::map<std::string, std::int64_t> counters;
+    std::ifstream pairs(folder / "snmp"); // "Udp: InDatagrams NoPorts", then "Udp: 17 4"
+    std::string names;
+    std::string values;
+    while (std::getline(pairs, names) && std::getline(pairs, values)) {
+        std::istringstream name(names);
+        std::istringstream value(values);
+        std::string group;
+        value >> group;
+        name >> group;
+        for (std::string counter; name >> counter;) {
+            value >> counters[group + counter];
+        }
+    }
+    if (counters.empty()) {
+        return std::nullopt;
+    }
+    std::ifstream lines(folder / "snmp6"); // "Udp6NoPorts 4"
+    while (lines >> names) {
+        lines >> counters[names];
+    }
+    const auto sum = [&](const char* ofIpv4, const char* ofIpv6) {
+        return static_cast<std::uint64_t>(counters[ofIpv4] + counters[ofIpv6]);
+    };
+    return model::KernelCounters{sum("Ip:ReasmReqds", "Ip6ReasmReqds"), sum("Ip:ReasmOKs", "Ip6ReasmOKs"),
+                                 sum("Ip:ReasmFails", "Ip6ReasmFails"), sum("Udp:NoPorts", "Udp6NoPorts"),
+                                 sum("Tcp:OutRsts", "")};
 }
 
 std::vector<Fact> connectionHelp(const ConnectionFacts& facts) {

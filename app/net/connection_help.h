@@ -25,6 +25,9 @@ struct Firewall {
 /// if none was found, which is no proof that there is none.
 [[nodiscard]] std::optional<Firewall> findFirewall(const std::string& root = "/");
 
+/// Since the computer was started; nothing if the system does not show them in files, as only Linux does.
+[[nodiscard]] std::optional<model::KernelCounters> readKernelCounters(const std::string& root = "/");
+
 struct FailedInput {
     InputKind kind = InputKind::Udp;
     Endpoint endpoint;

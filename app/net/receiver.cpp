@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/net/receiver.h"
 
+#include "app/net/connection_help.h"
 #include "app/net/listening.h"
 #include "app/net/receive_loop.h"
 #include "app/net/tcp_thread.h"
@@ -27,7 +28,8 @@ Receiver::Receiver(log::PacketLog& log, const log::Clock& clock, const ReceiverO
       m_clock(clock),
       m_queue([this] { m_loop->wake(); }),
       m_commands([this] { m_loop->wake(); }),
-      m_loop(makeReceiveLoop({log, clock, m_queue, m_commands, m_counters, options})) {
+      m_loop(makeReceiveLoop({log, clock, m_queue, m_commands, m_counters, options})),
+      m_kernelBefore(readKernelCounters()) {
     m_thread = std::thread([this] { m_loop->run(); });
 }
 

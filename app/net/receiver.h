@@ -5,11 +5,11 @@
 #include "app/net/command_queue.h"
 #include "app/net/endpoint.h"
 #include "app/net/input.h"
-#include "app/net/kernel_counters.h"
 #include "app/net/packet_queue.h"
 #include "core/log/clock.h"
 #include "core/log/packet_log.h"
 #include "core/log/time.h"
+#include "core/model/accounting/kernel_counters.h"
 
 #include <atomic>
 #include <chrono>
@@ -143,7 +143,7 @@ private:
     mutable std::mutex m_mutex; ///< guards the members below
     std::vector<std::shared_ptr<Input>> m_inputs;
     ReceiveTotals m_past; ///< of removed inputs
-    const std::optional<model::KernelCounters> m_kernelBefore = readKernelCounters();
+    const std::optional<model::KernelCounters> m_kernelBefore;
     mutable model::KernelCounters m_kernel; ///< since then
     mutable log::Moment m_kernelRead{};
     AllowList m_allowed;

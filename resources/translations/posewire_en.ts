@@ -238,10 +238,10 @@
         </translation>
     </message>
     <message numerus="yes">
-        <source>{count} are not MXTP.</source>
+        <source>{count} are not MXTP[; they look like {looks}].</source>
         <translation>
-            <numerusform>{count} is not MXTP.</numerusform>
-            <numerusform>{count} are not MXTP.</numerusform>
+            <numerusform>{count} is not MXTP[; it looks like {looks}].</numerusform>
+            <numerusform>{count} are not MXTP[; they look like {looks}].</numerusform>
         </translation>
     </message>
     <message numerus="yes">
@@ -441,10 +441,31 @@
         </translation>
     </message>
     <message numerus="yes">
+        <source>{n} datagrams have come to ports of this computer where no program listens.</source>
+        <translation>
+            <numerusform>{n} datagram has come to a port of this computer where no program listens.</numerusform>
+            <numerusform>{n} datagrams have come to ports of this computer where no program listens.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>This computer has refused {n} TCP connections: no program listens at their port.</source>
+        <translation>
+            <numerusform>This computer has refused {n} TCP connection: no program listens at its port.</numerusform>
+            <numerusform>This computer has refused {n} TCP connections: no program listens at their port.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
         <source>MXTP behind {n} other bytes (a tunnel, or a length prefix)</source>
         <translation>
             <numerusform>MXTP behind {n} other byte (a tunnel, or a length prefix)</numerusform>
             <numerusform>MXTP behind {n} other bytes (a tunnel, or a length prefix)</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>has {n} MXTP datagrams, but {value} of its {all} bytes belong to none[; it looks like {looks}].</source>
+        <translation>
+            <numerusform>has {n} MXTP datagram, but {value} of its {all} bytes belong to none[; it looks like {looks}].</numerusform>
+            <numerusform>has {n} MXTP datagrams, but {value} of its {all} bytes belong to none[; it looks like {looks}].</numerusform>
         </translation>
     </message>
     <message numerus="yes">

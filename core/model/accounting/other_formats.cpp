@@ -13,7 +13,6 @@
 namespace posewire::model {
 namespace {
 
-using namespace std::string_view_literals;
 using Kind = words::Kind;
 
 struct Mark {
@@ -21,44 +20,23 @@ struct Mark {
     Kind kind;
 };
 
-/// What something begins with. The more special ones come first.
-constexpr std::array kBeginnings{
-    Mark{"XTLP"sv, Kind::LooksLikeXtlp},
-    Mark{"Art-Net"sv, Kind::LooksLikeArtNet},
-    Mark{"GET "sv, Kind::LooksLikeHttp},
-    Mark{"POST "sv, Kind::LooksLikeHttp},
-    Mark{"fr "sv, Kind::LooksLikeDTrack},
-    Mark{"{\"type\":\"transport\""sv, Kind::LooksLikeTransport},
-    Mark{"{"sv, Kind::LooksLikeJson},
-    Mark{"Kaydara FBX"sv, Kind::LooksLikeFbx},
-    Mark{"; FBX"sv, Kind::LooksLikeFbx},
-    Mark{"\x1f\x8b"sv, Kind::LooksLikeCompressed}, // gzip, zip, xz, zstd, bzip2
-    Mark{"PK\x03\x04"sv, Kind::LooksLikeCompressed},
-    Mark{"\xfd"
-         "7zXZ"sv,
-         Kind::LooksLikeCompressed},
-    Mark{"\x28\xb5\x2f\xfd"sv, Kind::LooksLikeCompressed},
-    Mark{"BZh"sv, Kind::LooksLikeCompressed},
-};
+// clang-format off
+/// What something begins with, the more special ones first; compressed are gzip, zip, xz, zstd and bzip2.
+constexpr std::array<Mark, 14> kBeginnings{{
+    {"XTLP", Kind::LooksLikeXtlp}, {"Art-Net", Kind::LooksLikeArtNet}, {"GET ", Kind::LooksLikeHttp},
+    {"POST ", Kind::LooksLikeHttp}, {"fr ", Kind::LooksLikeDTrack},
+    {"{\"type\":\"transport\"", Kind::LooksLikeTransport}, {"{", Kind::LooksLikeJson},
+    {"Kaydara FBX", Kind::LooksLikeFbx}, {"; FBX", Kind::LooksLikeFbx},
+    {"\x1f\x8b", Kind::LooksLikeCompressed}, {"PK\x03\x04", Kind::LooksLikeCompressed},
+    {"\xfd\x37zXZ", Kind::LooksLikeCompressed}, {"\x28\xb5\x2f\xfd", Kind::LooksLikeCompressed},
+    {"BZh", Kind::LooksLikeCompressed}}};
 /// What XML has in its first elements.
-constexpr std::array kElements{
-    Mark{"<mvnx"sv, Kind::LooksLikeMvnx},
-    Mark{"<frame "sv, Kind::LooksLikeMvnx},
-    Mark{"<CaptureStart"sv, Kind::LooksLikeTrigger},
-    Mark{"<CaptureStop"sv, Kind::LooksLikeTrigger},
-    Mark{"<Identify"sv, Kind::LooksLikeRemote},
-    Mark{"<StartRecording"sv, Kind::LooksLikeRemote},
-    Mark{"<StopRecording"sv, Kind::LooksLikeRemote},
-    Mark{"<CaptureName"sv, Kind::LooksLikeRemote},
-};
-
-unsigned at(wire::Bytes bytes, std::size_t index) {
-    return index < bytes.size() ? std::to_integer<unsigned>(bytes[index]) : 0U;
-}
-
-unsigned littleEndian16(wire::Bytes bytes, std::size_t index) {
-    return at(bytes, index) | at(bytes, index + 1) << 8;
-}
+constexpr std::array<Mark, 8> kElements{{
+    {"<mvnx", Kind::LooksLikeMvnx}, {"<frame ", Kind::LooksLikeMvnx},
+    {"<CaptureStart", Kind::LooksLikeTrigger}, {"<CaptureStop", Kind::LooksLikeTrigger},
+    {"<Identify", Kind::LooksLikeRemote}, {"<StartRecording", Kind::LooksLikeRemote},
+    {"<StopRecording", Kind::LooksLikeRemote}, {"<CaptureName", Kind::LooksLikeRemote}}};
+// clang-format on
 
 /// An address such as "/body/hip" that ends with a zero and is padded to four bytes, then the types of its
 /// arguments after a comma; or several of these.
@@ -69,24 +47,24 @@ bool isOsc(std::string_view text) {
         text.starts_with('/') && end != std::string_view::npos &&
         std::ranges::all_of(text.substr(0, end), [](char c) { return c > ' ' && c <= '~'; });
     return text.starts_with("#bundle") ||
-           (isAddress && (next == text.size() || text.substr(next).starts_with(',')));
+           (isAddress && next <= text.size() && (next == text.size() || text[next] == ','));
 }
 
 /// A message number and the size of what follows, both little-endian; frames are 7, descriptions 5.
 bool isNatNet(wire::Bytes bytes) {
-    const unsigned message = littleEndian16(bytes, 0);
-    return bytes.size() >= 4 && (message == 5 || message == 7) && littleEndian16(bytes, 2) != 0;
+    return bytes.size() >= 4 && wire::load16(bytes.data() + 2) != 0 &&
+           (wire::load16(bytes.data()) == 0x0500 || wire::load16(bytes.data()) == 0x0700);
 }
 
-/// Frame number, count of items, then the first item: number 0 and 72 bytes.
+/// Frame number, count of items, then the first item: number 0 and 72 bytes, little-endian.
 bool isVicon(wire::Bytes bytes) {
-    return bytes.size() >= 8 && at(bytes, 4) != 0 && at(bytes, 5) == 0 && littleEndian16(bytes, 6) == 72;
+    return bytes.size() >= 8 && bytes[4] != std::byte{} && (wire::load32(bytes.data() + 4) << 8U) == 0x480000;
 }
 
-/// A packet's size, big-endian, and its kind, one of a few.
+/// A packet's size and its kind, one of a few.
 bool isQualisys(wire::Bytes bytes) {
-    return bytes.size() >= 8 && at(bytes, 0) == 0 && at(bytes, 1) == 0 && at(bytes, 4) == 0 &&
-           at(bytes, 5) == 0 && at(bytes, 6) == 0 && at(bytes, 7) <= 9 && at(bytes, 2) + at(bytes, 3) != 0;
+    return bytes.size() >= 8 && wire::load16(bytes.data()) == 0 && wire::load16(bytes.data() + 2) != 0 &&
+           wire::load32(bytes.data() + 4) <= 9;
 }
 
 bool isText(std::string_view text) {

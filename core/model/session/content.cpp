@@ -8,6 +8,7 @@
 #include "core/model/text.h"
 #include "core/wire/type_table.h"
 
+#include <algorithm>
 #include <functional>
 #include <numeric>
 #include <optional>
@@ -57,16 +58,13 @@ std::vector<std::uint8_t> missingLargeTypes(const Sender& sender) {
     std::vector<std::uint8_t> missing;
     for (const wire::TypeInfo& info : wire::typeTable()) {
         constexpr std::uint8_t kUnity = 5; // the body alone
-        if (!wire::countsSegments(info.type) || info.type == kUnity ||
-            wire::kHeaderSize + segments * info.fields().back().size <= kFrame) {
-            continue;
+        const std::size_t size = wire::kHeaderSize + segments * info.fields().back().size;
+        if (wire::countsSegments(info.type) && info.type != kUnity && size > kFrame) {
+            missing.push_back(info.type);
         }
-        if (come.contains(info.type)) {
-            return {}; // large ones do get here
-        }
-        missing.push_back(info.type);
     }
-    return missing;
+    const bool isAny = std::ranges::any_of(missing, [&](std::uint8_t type) { return come.contains(type); });
+    return isAny ? std::vector<std::uint8_t>() : missing; // else large ones do get here
 }
 
 } // namespace

@@ -7,12 +7,14 @@
 #include "core/wire/type_table.h"
 
 #include <algorithm>
-#include <span>
 
 namespace posewire::model {
 namespace {
 
-constexpr std::size_t kShown = 16;
+wire::Bytes shownOf(const std::vector<std::byte>& head) {
+    constexpr std::size_t kShown = 16;
+    return wire::Bytes(head).first(std::min(head.size(), kShown));
+}
 
 } // namespace
 
@@ -45,7 +47,7 @@ std::optional<std::string> Sender::host() const {
 
 std::string Sender::foreignText() const {
     std::string text;
-    for (const std::byte& byte : std::span(foreignHead).first(std::min(foreignHead.size(), kShown))) {
+    for (const std::byte& byte : shownOf(foreignHead)) {
         text += (text.empty() ? "" : " ") + wire::hexadecimal({&byte, 1});
     }
     return text;
@@ -57,7 +59,7 @@ words::Fact Sender::foreignFormat() const {
 
 words::Fact Sender::foreignFact() const {
     std::string value = foreignText() + "  ";
-    for (const std::byte& byte : std::span(foreignHead).first(std::min(foreignHead.size(), kShown))) {
+    for (const std::byte byte : shownOf(foreignHead)) {
         const auto character = std::to_integer<char>(byte);
         value += character >= ' ' && character <= '~' ? character : '.'; // as dumps have it
     }

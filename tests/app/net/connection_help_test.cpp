@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/net/connection_help.h"
-#include "app/net/kernel_counters.h"
 #include "tests/support/facts.h"
 #include "tests/support/temporary_folder.h"
 

@@ -96,6 +96,10 @@ TEST(LooksLike, KnowsWhatUsuallyComesToThesePorts) {
     EXPECT_EQ(kindOf("#bundle\0"sv), Kind::LooksLikeOsc);
     EXPECT_EQ(kindOf("/body/hip\0\0\0,fff\0\0\0\0"sv), Kind::LooksLikeOsc);
     EXPECT_EQ(kindOf("/go\0"sv), Kind::LooksLikeOsc);
+    EXPECT_EQ(kindOf("/cut\0"sv), Kind::Nothing);
+    EXPECT_EQ(kindOf("\xfd"
+                     "7zXZ\0"sv),
+              Kind::LooksLikeCompressed);
     EXPECT_EQ(kindOf("#bundle\0\0\0\0\0\0\0\0\1\0\0\0\x20/VMC/Ext/Bone/Pos\0,s"sv), Kind::LooksLikeVmc);
     EXPECT_EQ(kindOf("/VMC/Ext/OK\0,i\0\0"sv), Kind::LooksLikeVmc);
     EXPECT_EQ(kindOf("// a program, with MXTP in it"), Kind::LooksLikeText);
