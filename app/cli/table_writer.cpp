@@ -11,6 +11,7 @@
 #include "core/model/session/losses.h"
 #include "core/model/session/roster.h"
 #include "core/wire/type_table.h"
+#include "core/words/say.h"
 
 #include <algorithm>
 #include <array>

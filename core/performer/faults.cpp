@@ -10,7 +10,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <iterator>
-#include <ranges>
+#include <span>
 #include <utility>
 
 namespace posewire::performer {
@@ -307,7 +307,7 @@ void Faults::sendCopy(const Sending& sending, std::uint64_t key) {
 
 void Faults::breakFrom(std::size_t begin, std::vector<Sending>& sendings) {
     if (m_content) {
-        std::ranges::for_each(sendings | std::views::drop(begin),
+        std::ranges::for_each(std::span(sendings).subspan(begin),
                               [this](Sending& one) { m_content->apply(one); });
     }
 }

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
+#include <span>
 #include <utility>
 
 namespace posewire::model {
@@ -176,8 +176,8 @@ void ContentWatch::checkFrozen(const Sample& sample, OfType& known, bool isUnusa
 /// A silence, a jump and what was held up are seen by one look each. One that stands still is of the kind
 /// Clock.
 void ContentWatch::checkTimeCode(const Sample& sample, OfType& known, IncidentFollower& incidents) {
-    constexpr double kSlow = 0.4;
-    constexpr double kFast = 2.5;
+    constexpr double kSlowest = 0.4;
+    constexpr double kFastest = 2.5;
     const log::Stamp stamp = sample.packet.stamp;
     const std::uint32_t timeCode = sample.datagram.header.timeCode;
     const std::pair from = known.clock.value_or(std::pair(stamp, timeCode));
@@ -188,7 +188,7 @@ void ContentWatch::checkTimeCode(const Sample& sample, OfType& known, IncidentFo
     known.clock = std::pair(stamp, timeCode);
     ContentFinding finding{ContentFault::TimeCode, words::Kind::TimeCodeSpeed};
     finding.value = ms / std::max(log::millisecondsOf(stamp - from.first), 1.0);
-    noteOrClear(sample, finding, ms > 0 && (finding.value < kSlow || finding.value > kFast), from.first,
+    noteOrClear(sample, finding, ms > 0 && (finding.value < kSlowest || finding.value > kFastest), from.first,
                 incidents);
 }
 
@@ -248,9 +248,10 @@ void ContentWatch::checkJump(const Sample& sample, OfType& known, const Eigen::V
 void ContentWatch::checkFloor(const Sample& sample, const CharacterPose& pose, IncidentFollower& incidents) {
     constexpr double kMostFromFloor = 0.5;
     constexpr double kLeastHeight = 0.8;
-    const auto [lowest, highest] =
-        std::ranges::minmax(pose.segments | std::views::take(kBodySegments) |
-                            std::views::transform([](const auto& one) { return one.position.z(); }));
+    const auto height = [](const SegmentPose& one) { return one.position.z(); };
+    const auto [low, high] = std::ranges::minmax(std::span(pose.segments).first(kBodySegments), {}, height);
+    const double lowest = height(low);
+    const double highest = height(high);
     ContentFinding finding{ContentFault::Floor, words::Kind::FloorOff};
     finding.value = lowest;
     noteOrClear(sample, finding, std::abs(lowest) > kMostFromFloor && highest - lowest > kLeastHeight,
