@@ -23,9 +23,9 @@ struct PerformerSettings {
     double rateHz = 240.0;           ///< frames a second, 1 to 1000
     std::vector<std::uint8_t> types; ///< message types to send; empty means all of the revision
     Revision revision = Revision::N;
-    std::string motion = "walk";                 ///< one of motionNames()
-    int props = 0;                               ///< 0 to 4 for each character
-    bool isYUp = false;                          ///< types 02, 21 and 22
+    std::string motion = "walk"; ///< one of motionNames()
+    int props = 0;               ///< 0 to 4 for each character
+    bool isYUp = false;          ///< types 02, 21 and 22
     /// Of revisions J and K type 25 without a length, and 12 with the tags of the text alone; MVN never sent
     /// these.
     bool asOnPaper = false;

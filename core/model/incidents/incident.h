@@ -40,12 +40,12 @@ enum class IncidentKind : std::uint8_t {
     RelayLoop,
     RecordingEnded, ///< by itself: its disk is full, say
     ClockSet,
+    Fragments, ///< do not get here
     LossLimit,
     JitterLimit,
     GapLimit,
     AgeLimit,
     RateLimit,
-    Fragments,
 };
 inline constexpr std::size_t kIncidentKinds = 26;
 
@@ -207,13 +207,13 @@ inline constexpr std::array<IncidentKindFacts, kIncidentKinds> kIncidentKindTabl
         {K::RelayLoop, "relay loop", "local", W::Nothing, S::Error, G::Sender},
         {K::RecordingEnded, "recording", "local", W::Nothing, S::Error, G::Sender},
         {K::ClockSet, "clock set", "clock", W::ClockSet, S::Warning, G::Sender},
+        {K::Fragments, "fragments", "loss", W::Nothing, S::Error, G::Loss, true},
         {K::LossLimit, "loss limit", "limit", W::LossLimit, S::Warning, G::Limit, true, false, false, 2},
         {K::JitterLimit, "jitter limit", "limit", W::JitterLimit, S::Warning, G::Limit, true, false, false,
          1},
         {K::GapLimit, "gap limit", "limit", W::GapLimit, S::Warning, G::Limit, true},
         {K::AgeLimit, "age limit", "limit", W::AgeLimit, S::Error, G::Limit, true, false, false, 1},
         {K::RateLimit, "rate limit", "limit", W::RateLimit, S::Warning, G::Limit, true, false, false, 1},
-        {K::Fragments, "fragments", "loss", W::Nothing, S::Error, G::Loss, true},
     }};
 }();
 

@@ -161,7 +161,7 @@ TEST_F(ExportCommand, SaysWhyThereIsNothing) {
     EXPECT_THAT(time.err, HasSubstr("between these times; try without --from and --until"));
     const ProgramRun nothing = exported(fileWith("no datagrams here"), output("take.csv"));
     EXPECT_EQ(nothing.status, 2);
-    EXPECT_THAT(nothing.err, HasSubstr("is it a recording of MXTP?"));
+    EXPECT_THAT(nothing.err, HasSubstr("it looks like plain text. Posewire reads recordings of MXTP"));
     EXPECT_EQ(exported(output("missing.pcapng"), output("take.csv")).status, 2);
     EXPECT_EQ(fileCount(), 0U);
 }

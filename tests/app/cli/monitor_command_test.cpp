@@ -43,8 +43,8 @@ TEST(MonitorCommand, ReportsWithTheKeysOfTheInterfaceInItsOrder) {
         return keys;
     };
     EXPECT_THAT(first(keysOf(report), 4), ElementsAre("durationS", "local", "foreignDatagrams", "sources"));
-    EXPECT_THAT(keysOf(report["local"]),
-                ElementsAre("kernelDropped", "receiveBufferBytes", "overtaken", "refusedDatagrams"));
+    EXPECT_THAT(keysOf(report["local"]), ElementsAre("kernelDropped", "receiveBufferBytes", "overtaken",
+                                                     "refusedDatagrams", "reassemblyFailures", "noPort"));
     const Json& sender = report["sources"][0];
     EXPECT_THAT(first(keysOf(sender), 7), ElementsAre("address", "transport", "datagrams", "bytes",
                                                       "malformed", "skippedBytes", "characters"));
@@ -231,6 +231,8 @@ TEST(MonitorCommand, TellsMalformedAndForeignDatagramsApart) {
     EXPECT_EQ(report["sources"][1]["skippedBytes"], 7);
     ASSERT_EQ(report["foreignSources"].size(), 2U);
     EXPECT_EQ(report["foreignSources"][1]["address"], "10.0.0.9:1");
+    EXPECT_EQ(report["foreignSources"][1]["firstBytes"], "2f 6f 73 63 2f 61 64 64 72 65 73 73");
+    EXPECT_TRUE(report["foreignSources"][1]["looksLike"].is_null()) << "its address has no end";
 }
 
 TEST(MonitorCommand, SortsCharactersAndStreams) {
