@@ -192,7 +192,8 @@ void UnitFinder::add(double height, double reach) {
     const LengthUnit unit = detectLengthUnit(hasHeight ? height : reach);
     const bool isOfBody = hasReach || unit != LengthUnit::Millimetre; // an object may be high up
     const bool isSane = reach < 5'000; // of a body in millimetres, else it is no number of a pose
-    if ((hasHeight || hasReach) && isSane && isOfBody && !(hasHeight && hasReach && detectLengthUnit(reach) != unit)) {
+    if ((hasHeight || hasReach) && isSane && isOfBody &&
+        !(hasHeight && hasReach && detectLengthUnit(reach) != unit)) {
         Finder::add(unit,
                     {hasHeight ? words::Kind::PelvisAt : words::Kind::ReachOf,
                      {{"value", words::Number{hasHeight ? height : reach, 2}}}},
