@@ -180,7 +180,7 @@ TEST_F(RestartTest, IsForgottenWithAllThatCameBefore) {
 TEST_F(RestartTest, IsSilentWhereWhatItHadTakenOverMustStay) {
     const auto posesOfOther = [this](log::Duration time) { // of the first sender, which goes on
         for (const log::Stamp end = m_at + time; m_at < end; m_at += 10ms) {
-            wire::Datagram datagram{{}, swayingAt(0, ++m_other), {}};
+            wire::Datagram datagram{{}, swayingAt(2, ++m_other), {}};
             datagram.header.sampleCounter = m_other;
             datagram.header.character = 1;
             wire::completeHeader(datagram, wire::HeaderEra::Counted);
