@@ -8,9 +8,6 @@
 namespace posewire::model {
 namespace {
 
-/// Bytes at the beginning of a datagram by which two samples differ: the header and the first item.
-constexpr std::size_t kTelling = wire::kHeaderSize + 40;
-
 constexpr TimeRange kEver{log::Stamp::min(), log::Stamp::max()};
 
 /// True if a counter is ahead by what was passed over at most.
@@ -94,12 +91,11 @@ std::span<const Verdict> StreamAccounting::add(const log::Packet& packet, const 
     CountHistory::Counters change{.bytes = packet.bytes.size(), .datagrams = 1};
     if (m_countsSamples) {
         m_history.add(packet.stamp, change);
-        const std::size_t begin = std::min(packet.bytes.size(), kTelling);
         takeCounter({{packet.stamp, header.sampleCounter, header.datagramIndex(), header.isLast()},
                      packet.number,
                      header.timeCode,
                      false},
-                    wire::hashOf(packet.bytes.first(begin)));
+                    packet.bytes.first(std::min(packet.bytes.size(), kTelling)));
         return m_verdicts;
     }
     const std::uint64_t incomplete = m_rounds.incomplete();
@@ -123,11 +119,12 @@ std::span<const Verdict> StreamAccounting::add(const log::Packet& packet, const 
 
 /// Senders exist whose counter stands. One datagram that repeats the counter of the one before with other
 /// bytes may be a damaged copy and waits; the second in a row shows that both are samples of their own.
-void StreamAccounting::takeCounter(Probation::Waiting datagram, std::size_t digest) {
+void StreamAccounting::takeCounter(Probation::Waiting datagram, wire::Bytes bytes) {
     const SampleLedger::Datagram before = std::exchange(m_newest, datagram.datagram);
     const bool isStanding =
         m_datagrams > 1 && before.sample == m_newest.sample && before.index == 0 && m_newest.index == 0;
-    const bool isRepeat = std::exchange(m_newestDigest, digest) != digest && isStanding;
+    const bool isRepeat = isStanding && !std::equal(bytes.begin(), bytes.end(), m_newestBytes.begin());
+    std::copy(bytes.begin(), bytes.end(), m_newestBytes.begin());
     datagram.datagram.sample += m_added;
     if (isRepeat && !m_repeat && !m_isUncounted) {
         m_repeat = datagram;

@@ -10,7 +10,9 @@
 #include "core/model/accounting/stream_counts.h"
 #include "core/wire/header.h"
 
+#include <array>
 #include <bitset>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -176,9 +178,11 @@ public:
 
 private:
     static constexpr std::uint64_t kUncertain = 128; ///< datagrams of a run
+    /// Bytes at the beginning of a datagram by which two samples differ: the header and the first item.
+    static constexpr std::size_t kTelling = 64;
 
     enum class Framing : std::uint8_t { Unknown, Given, Missing };
-    void takeCounter(Probation::Waiting datagram, std::size_t digest);
+    void takeCounter(Probation::Waiting datagram, wire::Bytes bytes);
     void noteFraming(const Probation::Waiting& datagram);
     void takeSample(Probation::Waiting datagram);
     void endDoubt(bool isEnd);
@@ -192,7 +196,7 @@ private:
     std::uint32_t m_added = 0;                  ///< to the sender's counter, for samples it did not count
     std::optional<Probation::Waiting> m_repeat; ///< of the datagram before with other bytes
     SampleLedger::Datagram m_newest;            ///< as on the wire
-    std::size_t m_newestDigest = 0;
+    std::array<std::byte, kTelling> m_newestBytes{}; ///< its beginning
     AccountingDepth m_depth;
     std::uint64_t m_datagrams = 0;
     std::uint64_t m_bytes = 0;
