@@ -201,7 +201,7 @@ private:
         std::string note;
     };
 
-    /// What may be the reason if no MXTP comes for some seconds.
+    /// Suggests reasons if no MXTP has come for some seconds.
     void tellHelp(const model::SessionView& session, const model::KernelCounters& kernel, log::Stamp now) {
         constexpr log::Duration kPatience = std::chrono::seconds(3);
         constexpr log::Duration kStep = std::chrono::milliseconds(500);

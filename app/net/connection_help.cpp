@@ -160,7 +160,7 @@ void findPeers(const ConnectionFacts& facts, Findings& findings) {
     }
 }
 
-/// What the kernel has turned away as fast as a stream would come.
+/// Reports what the kernel rejects at the rate of a stream.
 void findElsewhere(const ConnectionFacts& facts, const std::string& port, Findings& findings) {
     constexpr std::uint64_t kMany = 10;
     constexpr std::uint64_t kKnocks = 3;

@@ -84,7 +84,7 @@ public:
     virtual tl::expected<void, FileError> finish() { return sync(); }
 };
 
-/// What a capture holds, in packets.
+/// The packets that a capture holds.
 struct CaptureContents {
     std::uint64_t packets = 0;
     std::uint64_t withoutIp = 0;    ///< or damaged, or carrying neither UDP nor TCP
@@ -97,7 +97,7 @@ struct CaptureContents {
 /// So many of the first bytes tell which format something is of that is not MXTP.
 inline constexpr std::size_t kLookedAt = 192;
 
-/// What a file holds, counted while it is read: for what is said where it holds little or nothing of ours.
+/// The contents of a file, counted while it is read, to explain a file that holds little or no MXTP.
 struct FileContents {
     bool isEmpty = true;
     std::uint64_t datagrams = 0;              ///< that begin with "MXTP"

@@ -79,7 +79,7 @@ struct FieldDocument {
     /// What a node is called in every datagram that has it, whatever part of the sample that is.
     [[nodiscard]] std::string lastingPath(std::int32_t node) const;
 
-    /// Whether an item is a MotionGrid tag in the place of a prop.
+    /// True if an item is a MotionGrid tag in the place of a prop.
     [[nodiscard]] bool isTag(std::int32_t item) const;
     /// Position in a pose datagram of the segment that a node is about, -1 if it is about none.
     [[nodiscard]] int segmentOf(std::int32_t node) const;

@@ -5,7 +5,7 @@
 
 namespace posewire::model {
 
-/// What the kernel of this computer has counted of all its network traffic.
+/// The kernel's counters of all network traffic of this computer.
 struct KernelCounters {
     std::uint64_t fragments = 0;          ///< of IP, that had to be put together
     std::uint64_t reassembled = 0;        ///< datagrams that were

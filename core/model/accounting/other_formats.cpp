@@ -21,7 +21,7 @@ struct Mark {
 };
 
 // clang-format off
-/// What something begins with, the more special ones first; compressed are gzip, zip, xz, zstd and bzip2.
+/// Formats by their first bytes, the more special ones first; compressed are gzip, zip, xz, zstd and bzip2.
 constexpr std::array<Mark, 14> kBeginnings{{
     {"XTLP", Kind::LooksLikeXtlp}, {"Art-Net", Kind::LooksLikeArtNet}, {"GET ", Kind::LooksLikeHttp},
     {"POST ", Kind::LooksLikeHttp}, {"fr ", Kind::LooksLikeDTrack},
@@ -30,7 +30,7 @@ constexpr std::array<Mark, 14> kBeginnings{{
     {"\x1f\x8b", Kind::LooksLikeCompressed}, {"PK\x03\x04", Kind::LooksLikeCompressed},
     {"\xfd\x37zXZ", Kind::LooksLikeCompressed}, {"\x28\xb5\x2f\xfd", Kind::LooksLikeCompressed},
     {"BZh", Kind::LooksLikeCompressed}}};
-/// What XML has in its first elements.
+/// The kind of XML, by its first elements.
 constexpr std::array<Mark, 8> kElements{{
     {"<mvnx", Kind::LooksLikeMvnx}, {"<frame ", Kind::LooksLikeMvnx},
     {"<CaptureStart", Kind::LooksLikeTrigger}, {"<CaptureStop", Kind::LooksLikeTrigger},
@@ -76,7 +76,7 @@ bool isText(std::string_view text) {
     return isPlain && text.size() >= kLeast && wire::firstInvalidUtf8(text) + kCut >= text.size();
 }
 
-/// Where a whole datagram begins behind other bytes; 0 if none does.
+/// The offset of a whole datagram behind other bytes; 0 if there is none.
 std::size_t datagramIn(wire::Bytes bytes) {
     for (std::size_t from = 1; from < bytes.size(); ++from) {
         if (wire::startsDatagram(bytes.subspan(from))) {

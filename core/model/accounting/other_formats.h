@@ -10,12 +10,12 @@
 
 namespace posewire::model {
 
-/// What a datagram or a file that is not MXTP looks like by its first bytes, at most log::kLookedAt of them;
-/// nothing if they resemble no format that is known. Only a hint: most of these begin with few fixed bytes.
+/// Guesses the format of a datagram or a file that is not MXTP by its first bytes, at most log::kLookedAt of
+/// them; returns an empty fact for formats that are not known. Most of these begin with few fixed bytes.
 [[nodiscard]] words::Fact looksLike(wire::Bytes head);
 
-/// What a file holds instead of MXTP, or besides little of it, and what to do, as it follows the file's name;
-/// empty if most of it is MXTP.
+/// Explains a file that holds little or no MXTP, with advice, as it follows the file's name; empty if most of
+/// it is MXTP.
 [[nodiscard]] std::string otherContents(const log::FileContents& contents, std::string_view name);
 
 } // namespace posewire::model

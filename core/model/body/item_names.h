@@ -7,7 +7,7 @@
 #include <optional>
 #include <string_view>
 
-/// What the numbers of items are called; names are those of the tables of segments, points and joints.
+/// The names of items, from the tables of segments, points and joints.
 namespace posewire::model {
 
 /// The point of an item in type 03, whose first point has the number `firstId`: the few numbers that could
