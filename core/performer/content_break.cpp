@@ -2,12 +2,12 @@
 #include "core/performer/content_break.h"
 
 #include "core/wire/codec.h"
+#include "core/wire/pose_items.h"
 #include "core/wire/type_table.h"
 
 #include <algorithm>
 #include <bit>
 #include <limits>
-#include <variant>
 
 namespace posewire::performer {
 namespace {
@@ -17,37 +17,19 @@ struct Moment {
     double seconds = 0;          ///< since then
 };
 
-/// Calls f(segments) for the segments of a pose.
+/// Calls f(numbers) for the positions and the orientations of all segments.
 template <class F>
-void forSegments(wire::Datagram& datagram, F&& f) {
-    std::visit(
-        [&](auto& message) {
-            if constexpr (
-                requires { message.segments.front().id; } && !requires { message.segments.front().matrix; }) {
-                f(message.segments);
-            }
-        },
-        datagram.body);
-}
-
-/// Calls f(numbers) for the position and the orientation of each segment, whichever it has.
-template <class F>
-void forNumbers(wire::Datagram& datagram, F&& f) {
-    forSegments(datagram, [&](auto& segments) {
+void forAllNumbers(wire::Datagram& datagram, F&& f) {
+    wire::forSegments(datagram.body, [&](auto& segments) {
         for (auto& segment : segments) {
-            if constexpr (requires { segment.position; }) {
-                f(segment.position);
-            }
-            if constexpr (requires { segment.orientation; }) {
-                f(segment.orientation);
-            }
+            wire::forNumbers(segment, f);
         }
     });
 }
 
 template <std::size_t N, class F>
 void forEach(wire::Datagram& datagram, F&& f) {
-    forNumbers(datagram, [&]<std::size_t M>(std::array<float, M>& numbers) {
+    forAllNumbers(datagram, [&]<std::size_t M>(std::array<float, M>& numbers) {
         if constexpr (M == N) {
             f(numbers);
         }
@@ -68,11 +50,11 @@ struct Row {
 constexpr std::array kRows{
     Row{"frozen",
         [](wire::Datagram& datagram, const Moment& moment) {
-            forSegments(datagram, [&](const auto&) { datagram.body = moment.first.body; });
+            wire::forSegments(datagram.body, [&](const auto&) { datagram.body = moment.first.body; });
         }},
     Row{"missing",
         [](wire::Datagram& datagram, const Moment&) {
-            forSegments(datagram, [&](auto& segments) {
+            wire::forSegments(datagram.body, [&](auto& segments) {
                 segments.resize(std::min<std::size_t>(segments.size(), 1));
                 datagram.header.items = static_cast<std::uint8_t>(segments.size());
             });
@@ -87,8 +69,8 @@ constexpr std::array kRows{
         }},
     Row{"byteOrder",
         [](wire::Datagram& datagram, const Moment&) {
-            forNumbers(datagram,
-                       [](auto& numbers) { std::ranges::transform(numbers, numbers.begin(), swapped); });
+            forAllNumbers(datagram,
+                          [](auto& numbers) { std::ranges::transform(numbers, numbers.begin(), swapped); });
         }},
     Row{"counter",
         [](wire::Datagram& datagram, const Moment& moment) {
@@ -122,7 +104,7 @@ constexpr std::array kRows{
         }},
     Row{"ids",
         [](wire::Datagram& datagram, const Moment&) {
-            forSegments(datagram, [](auto& segments) {
+            wire::forSegments(datagram.body, [](auto& segments) {
                 for (auto& segment : segments) {
                     --segment.id;
                 }

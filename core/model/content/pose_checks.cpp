@@ -3,7 +3,7 @@
 
 #include "core/model/body/character_pose.h"
 #include "core/model/body/segments.h"
-#include "core/wire/messages.h"
+#include "core/wire/pose_items.h"
 #include "core/wire/tags.h"
 
 #include <algorithm>
@@ -13,7 +13,6 @@
 #include <span>
 #include <type_traits>
 #include <utility>
-#include <variant>
 
 namespace posewire::model {
 namespace {
@@ -53,17 +52,6 @@ std::array<float, N> swapped(std::array<float, N> values) {
     return values;
 }
 
-/// Calls f(numbers) for the position and the orientation of an item, whichever it has.
-template <class Item, class F>
-void forNumbers(const Item& item, F&& f) {
-    if constexpr (requires { item.position; }) {
-        f(item.position);
-    }
-    if constexpr (requires { item.orientation; }) {
-        f(item.orientation);
-    }
-}
-
 /// How many segments have a position or orientation of each kind.
 struct Tally {
     std::array<std::uint16_t, 4> positions{};
@@ -73,7 +61,7 @@ struct Tally {
     template <class Item>
     void add(const Item& item) {
         bool isBad = false;
-        forNumbers(item, [&]<std::size_t N>(const std::array<float, N>& numbers) {
+        wire::forNumbers(item, [&]<std::size_t N>(const std::array<float, N>& numbers) {
             const Number number = judge(numbers);
             ++(N == 3 ? positions : orientations)[static_cast<std::size_t>(number)];
             isBad = isBad || number != Number::Usable;
@@ -98,7 +86,7 @@ void add(PoseChecks& checks, const ContentFinding& finding) {
 template <class Item>
 bool isSaneSwapped(const Item& item) {
     bool isSane = true;
-    forNumbers(item, [&](const auto& numbers) {
+    wire::forNumbers(item, [&](const auto& numbers) {
         const auto other = swapped(numbers);
         const float largest =
             std::abs(*std::ranges::max_element(other, {}, [](float value) { return std::abs(value); }));
@@ -235,25 +223,19 @@ PoseChecks checkPose(const wire::Datagram& datagram, std::uint8_t mostBodyItems)
     PoseChecks checks;
     const wire::Header& header = datagram.header;
     checks.isWhole = header.datagramIndex() == 0 && header.isLast();
-    std::visit(
-        [&](const auto& message) {
-            if constexpr (
-                requires { message.segments.front().id; } && !requires { message.segments.front().matrix; }) {
-                const auto& items = message.segments;
-                const std::size_t body = header.bodySegments != 0 ? header.bodySegments : kBodySegments;
-                checks.bodyItems = static_cast<std::uint8_t>(std::min({items.size(), body, kBodySegments}));
-                checks.isOfObjects = holdsObjects(header, items);
-                if (!items.empty()) {
-                    if constexpr (requires { items.front().position; }) {
-                        checks.first = items.front().position;
-                    }
-                    checkNumbers(items, checks);
-                    checkIds(header, items, checks);
-                }
-                checkMissing(header, items.size(), mostBodyItems, checks);
+    wire::forSegments(datagram.body, [&](const auto& items) {
+        const std::size_t body = header.bodySegments != 0 ? header.bodySegments : kBodySegments;
+        checks.bodyItems = static_cast<std::uint8_t>(std::min({items.size(), body, kBodySegments}));
+        checks.isOfObjects = holdsObjects(header, items);
+        if (!items.empty()) {
+            if constexpr (requires { items.front().position; }) {
+                checks.first = items.front().position;
             }
-        },
-        datagram.body);
+            checkNumbers(items, checks);
+            checkIds(header, items, checks);
+        }
+        checkMissing(header, items.size(), mostBodyItems, checks);
+    });
     return checks;
 }
 
