@@ -12,7 +12,7 @@ namespace {
 constexpr log::Duration kMostPatience = std::chrono::seconds(2);
 constexpr log::Duration kForgetLate = std::chrono::seconds(30);
 // Where stamps freeze nothing becomes due.
-constexpr std::size_t kMostPartials = 65'536;
+constexpr std::size_t kMostDue = 65'536;
 // Late arrivals are looked for among this many gaps of a stream, or incomplete samples, and not farther back
 // than that many gaps of all.
 constexpr std::size_t kMostBack = 1'024;
@@ -42,17 +42,16 @@ void noteSpacing(Stream& stream, const Verdict& verdict) {
 
 /// True if a gap that is due is one of several that are alike, or may become one, and the stream still goes
 /// on like that.
-bool mayBeStep(const Gap& gap, log::Stamp stamp) {
-    const Stream* stream = gap.waiting;
-    const bool isEven = stream != nullptr && gap.lost != 0 && stream->evenGaps != 0 &&
-                        (gap.toSample - gap.fromSample) % stream->evenSpacing == 0;
+bool mayBeStep(const Gap& gap, const Stream& stream, log::Stamp stamp) {
+    const bool isEven =
+        gap.lost != 0 && stream.evenGaps != 0 && (gap.toSample - gap.fromSample) % stream.evenSpacing == 0;
     if (!isEven) {
         return false;
     }
     const log::Duration lasted = gap.toStamp - gap.fromStamp;
-    const log::Duration patience = stream->evenGaps >= kEven ? std::max(kMostPatience, 3 * lasted)
-                                                             : std::min(kMostPatience, 3 * lasted / 2);
-    return stamp - stream->accounting.lastStamp() < patience;
+    const log::Duration patience = stream.evenGaps >= kEven ? std::max(kMostPatience, 3 * lasted)
+                                                            : std::min(kMostPatience, 3 * lasted / 2);
+    return stamp - stream.accounting.lastStamp() < patience;
 }
 
 /// Counts a loss and reports it. Returns its incident.
@@ -97,19 +96,12 @@ void takeBack(LossSink& sink, Gap& gap, Stream& stream, LossCause cause, std::ui
 
 void Attribution::retire(log::SenderId sender) {
     m_evidence.retire(sender);
-    const std::uint64_t end = m_firstGap + m_gaps.size();
-    for (std::uint64_t number = m_held.empty() ? m_firstDue : m_held.front(); number < end; ++number) {
-        Gap& gap = m_gaps[number - m_firstGap];
-        gap.waiting = gap.stream.sender == sender ? nullptr : gap.waiting;
-    }
     const auto isOf = [sender](const auto& one) {
         return one.stream != nullptr && one.stream->key.sender == sender;
     };
-    std::erase_if(m_open, isOf);
-    std::erase_if(m_rests, isOf);
+    std::erase_if(m_due, isOf);
     std::erase_if(m_judgedPartials, isOf);
-    // Others know these by their place.
-    for (Partial& partial : m_partials) {
+    for (Partial& partial : m_partials) { // others know these by their place
         partial.stream = isOf(partial) ? nullptr : partial.stream;
     }
 }
@@ -192,47 +184,52 @@ void Attribution::judgeDue(log::Stamp stamp, std::uint64_t packet, bool isAll) {
         m_patience = kPatience;
         m_lateSeen.reset();
     }
-    for (; m_firstDue < m_firstGap + m_gaps.size(); ++m_firstDue) {
-        Gap& gap = m_gaps[m_firstDue - m_firstGap];
-        if (!isAll && gap.waiting != nullptr && stamp - gap.toStamp < m_patience) {
-            break;
-        }
-        if (!isAll && mayBeStep(gap, stamp)) {
-            m_held.push_back(m_firstDue);
-        } else {
-            judge(gap);
-        }
-    }
-    if (isAll || stamp >= m_nextHeld) {
-        m_nextHeld = stamp + kHeldCheck;
-        std::erase_if(m_held, [&](std::uint64_t number) {
-            Gap& gap = m_gaps[number - m_firstGap];
-            const bool isOver = isAll || !mayBeStep(gap, stamp);
-            if (isOver) {
-                judge(gap);
+    while (!m_due.empty() && (isAll || m_due.front().at <= stamp || m_due.size() > kMostDue)) {
+        const bool isNow = isAll || m_due.size() > kMostDue;
+        Due due = m_due.front();
+        m_due.pop_front();
+        if (due.what == Due::What::Gap && due.stream != nullptr && !isNow) {
+            const Gap& gap = m_gaps[due.number - m_firstGap];
+            due.at = gap.toStamp + m_patience;
+            if (due.at <= stamp && mayBeStep(gap, *due.stream, stamp)) {
+                due.at = stamp + kHeldCheck;
             }
-            return isOver;
-        });
-    }
-    for (; !m_open.empty() && (isAll || stamp - m_open.front().stamp > MessageRounds::kTogether ||
-                               m_open.size() > kMostPartials);
-         m_open.pop_front()) {
-        const OpenMessage& message = m_open.front();
-        if (message.stream->accounting.partialMessage() == message.packet) { // nothing more comes of it
-            message.stream->judgedMessage = message.packet;
-            lose({message.stream, 0, message.stamp, message.packet}, packet, packet,
-                 {words::Kind::PartOfMessage});
+        }
+        if (due.at > stamp && !isNow) {
+            expect(due);
+        } else {
+            judge(due, packet);
         }
     }
-    for (; !m_partials.empty() &&
-           (isAll || m_partials.front().stream == nullptr || stamp - m_partials.front().stamp >= kPatience ||
-            m_partials.size() > kMostPartials);
-         m_partials.pop_front(), ++m_firstPartial) {
-        judge(m_partials.front(), packet);
+}
+
+void Attribution::expect(const Due& due) {
+    m_due.insert(std::ranges::upper_bound(m_due, due.at, {}, &Due::at), due);
+}
+
+/// By the packets up to one.
+void Attribution::judge(Due& due, std::uint64_t packet) {
+    Stream* const stream = std::exchange(due.stream, nullptr);
+    if (stream == nullptr) {
+        return;
     }
-    for (; !m_rests.empty() && (isAll || stamp - m_rests.front().stamp >= m_patience); m_rests.pop_front()) {
-        m_rests.front().stream->awaitsRest = false;
-        attributeRest(*m_rests.front().stream);
+    switch (due.what) {
+    case Due::What::Gap: {
+        Gap& gap = m_gaps[due.number - m_firstGap];
+        recount(gap, *stream, {});
+        gap.isJudged = true;
+        if (gap.lost != 0) {
+            report(*m_sink, gap, *stream, m_evidence.findCauses(gap, *stream));
+        }
+        break;
+    }
+    case Due::What::Partial:
+        judge(m_partials[due.number - m_firstPartial], packet);
+        break;
+    case Due::What::Rest:
+        stream->awaitsRest = false;
+        attributeRest(*stream);
+        break;
     }
 }
 
@@ -250,9 +247,10 @@ void Attribution::takeVerdict(Stream& stream, const Verdict& verdict) {
                  {words::Kind::PartOfMessage});
         }
         if (stream.accounting.partialMessage() == verdict.packet) {
-            m_open.push_back({&stream, verdict.stamp, verdict.packet});
+            expectPartial(stream, verdict, MessageRounds::kTogether + log::Duration(1));
         }
     }
+    bool mayBeRest = false;
     if (verdict.gap != 0 || verdict.mayBeGap) {
         m_gaps.push_back({.stream = stream.key,
                           .fromSample = verdict.sampleBefore,
@@ -261,35 +259,30 @@ void Attribution::takeVerdict(Stream& stream, const Verdict& verdict) {
                           .toStamp = verdict.stamp,
                           .fromPacket = verdict.packetBefore,
                           .toPacket = verdict.packet,
-                          .lost = verdict.gap,
-                          .waiting = &stream,
-                          .datagrams = stream.accounting.datagrams()});
+                          .lost = verdict.gap});
+        expect({Due::What::Gap, &stream, verdict.stamp + m_patience, m_firstGap + m_gaps.size() - 1,
+                stream.accounting.datagrams()});
         expectJudgement(stream);
         if (m_gaps.size() > kMostGaps) {
-            judge(m_gaps.front());
-            if (!m_held.empty() && m_held.front() == m_firstGap) {
-                m_held.pop_front();
-            }
-            m_firstDue = std::max(m_firstDue, m_firstGap + 1);
-            m_gaps.pop_front();
-            ++m_firstGap;
+            forgetGap();
         }
     } else if (verdict.isReordered && verdict.isFirstOfSample) {
         if (const Gap* gap = recount(stream, verdict.sample)) { // it came after all
             const log::Duration late = verdict.stamp - gap->toStamp;
             m_patience = gap->isJudged ? std::clamp(late + late / 2, m_patience, kMostPatience) : m_patience;
             m_lateSeen = gap->isJudged ? verdict.stamp : m_lateSeen;
-        } else if (!std::exchange(stream.awaitsRest, true)) { // it may be from before the first one
-            m_rests.push_back({&stream, verdict.stamp});
+        } else {
+            mayBeRest = true; // it may be from before the first one
         }
     }
     if (step != stream.judgedStep) {
         // Known in hindsight: what seemed lost may not be.
         stream.judgedStep = step;
         recount(stream, {});
-        if (!std::exchange(stream.awaitsRest, true)) {
-            m_rests.push_back({&stream, verdict.stamp});
-        }
+        mayBeRest = true;
+    }
+    if (mayBeRest && !std::exchange(stream.awaitsRest, true)) {
+        expect({Due::What::Rest, &stream, verdict.stamp + m_patience});
     }
 }
 
@@ -301,8 +294,7 @@ void Attribution::takePartial(Stream& stream, const Verdict& verdict) {
         open = 0;
     }
     if (verdict.isFirstOfSample && !verdict.isCompleting) {
-        m_partials.push_back(
-            {&stream, verdict.sample, verdict.stamp, verdict.packet, stream.accounting.datagrams()});
+        expectPartial(stream, verdict, kPatience);
         expectJudgement(stream);
         open = verdict.isReordered ? open : m_firstPartial + m_partials.size();
     } else if (verdict.isCompleting && !verdict.isFirstOfSample) {
@@ -321,13 +313,28 @@ void Attribution::takePartial(Stream& stream, const Verdict& verdict) {
     }
 }
 
+void Attribution::expectPartial(Stream& stream, const Verdict& verdict, log::Duration patience) {
+    m_partials.push_back({&stream, verdict.sample, verdict.stamp, verdict.packet});
+    expect({Due::What::Partial, &stream, verdict.stamp + patience, m_firstPartial + m_partials.size() - 1,
+            stream.accounting.datagrams()});
+}
+
 /// By the packets up to one.
 void Attribution::judge(Partial& partial, std::uint64_t packet) {
-    if (partial.stream != nullptr && partial.stream->accounting.isIncomplete(partial.sample)) {
+    const StreamAccounting& accounting = partial.stream->accounting;
+    if (!countsSamples(partial.stream->key.type)) {
+        if (accounting.partialMessage() == partial.packet) { // nothing more comes of it
+            partial.stream->judgedMessage = partial.packet;
+            lose(partial, packet, packet, {words::Kind::PartOfMessage});
+        }
+    } else if (accounting.isIncomplete(partial.sample)) {
         lose(partial, partial.nextPacket != 0 ? partial.nextPacket : packet, partial.packet,
              {words::Kind::PartOfSample, {{"sample", words::Number{static_cast<double>(partial.sample)}}}});
     }
     partial.stream = nullptr;
+    for (; !m_partials.empty() && m_partials.front().stream == nullptr; m_partials.pop_front()) {
+        ++m_firstPartial;
+    }
 }
 
 void Attribution::lose(const Partial& partial, std::uint64_t lastPacket, std::uint64_t toPacket,
@@ -357,23 +364,15 @@ void Attribution::judgeEarly(Stream& stream, std::uint64_t packet) {
         stream.judgeAt = std::min(stream.judgeAt, isYoung ? since + most : UINT64_MAX);
         return isYoung;
     };
-    const std::uint64_t first = m_held.empty() ? m_firstDue : m_held.front();
-    for (auto gap = m_gaps.begin() + static_cast<std::ptrdiff_t>(first - m_firstGap); gap != m_gaps.end();
-         ++gap) {
-        if (gap->waiting == &stream && !isWaiting(gap->datagrams)) {
-            judge(*gap);
-        }
-    }
-    for (Partial& partial : m_partials) {
-        if (partial.stream == &stream && !isWaiting(partial.datagrams)) {
-            judge(partial, packet);
+    for (Due& due : m_due) {
+        if (due.stream == &stream && due.what != Due::What::Rest && !isWaiting(due.datagrams)) {
+            judge(due, packet);
         }
     }
 }
 
 std::size_t Attribution::memoryBytes() const {
-    return m_gaps.size() * sizeof(Gap) + m_held.size() * sizeof(m_held[0]) +
-           m_open.size() * sizeof(OpenMessage) +
+    return m_gaps.size() * sizeof(Gap) + m_due.size() * sizeof(Due) +
            (m_partials.size() + m_judgedPartials.size()) * sizeof(Partial) + m_evidence.memoryBytes();
 }
 
@@ -391,7 +390,7 @@ void Attribution::attributeRest(Stream& stream) {
     for (const std::uint64_t samples : stream.attributed) {
         told += samples;
     }
-    forEachWaiting([&](const Gap& gap) { told += gap.waiting == &stream ? gap.lost : 0; });
+    forEachWaiting([&](const Gap& gap) { told += gap.stream == stream.key ? gap.lost : 0; });
     for (const Partial& partial : m_partials) {
         told += partial.stream == &stream && stream.accounting.isIncomplete(partial.sample) ? 1 : 0;
     }
@@ -414,17 +413,18 @@ void Attribution::attributeRest(Stream& stream) {
     }
 }
 
-/// Once.
-void Attribution::judge(Gap& gap) {
-    Stream* const stream = std::exchange(gap.waiting, nullptr);
-    if (stream == nullptr) {
-        return;
+/// The oldest one, which is judged at the latest now.
+void Attribution::forgetGap() {
+    const auto isOldest = [this](const Due& due) {
+        return due.what == Due::What::Gap && due.number == m_firstGap;
+    };
+    if (!m_gaps.front().isJudged) {
+        if (const auto due = std::ranges::find_if(m_due, isOldest); due != m_due.end()) {
+            judge(*due, m_lastPacket);
+        }
     }
-    recount(gap, *stream, {});
-    gap.isJudged = true;
-    if (gap.lost != 0) {
-        report(*m_sink, gap, *stream, m_evidence.findCauses(gap, *stream));
-    }
+    m_gaps.pop_front();
+    ++m_firstGap;
 }
 
 } // namespace posewire::model

@@ -61,8 +61,8 @@ public:
     /// The sink outlives this.
     explicit Attribution(LossSink& sink) : m_sink(&sink) {}
 
-    /// The stream outlives this, or is retired with its sender before it goes.
-    void addStream(const Stream& stream, const log::SenderInfo& info) { m_evidence.addStream(stream, info); }
+    /// Others add to it what they see.
+    [[nodiscard]] LossEvidence& evidence() { return m_evidence; }
     /// What is yet to be judged of the sender's streams stays as it is.
     void retire(log::SenderId sender);
 
@@ -72,16 +72,6 @@ public:
     void settle() { judgeDue({}, m_lastPacket + 1, true); }
     /// Time passes without packets: judges what is due.
     void advance(log::Stamp stamp);
-    /// Packets just below one were passed over: whatever they were of is missing for that.
-    void takeOvertaken(std::uint64_t packet, std::uint64_t count, log::Stamp stamp) {
-        m_evidence.takeOvertaken(packet, count, stamp);
-    }
-    /// See LossEvidence.
-    void takeSampled(log::SenderId sender, log::Stamp stamp) { m_evidence.takeSampled(sender, stamp); }
-    /// One that has a header and cannot be decoded.
-    void takeMalformed(const log::Packet& packet, const wire::Header& header) {
-        m_evidence.takeMalformed(packet, header);
-    }
     /// What waits of the stream is judged before its accounting forgets it.
     static void expectJudgement(Stream& stream);
     /// A verdict of the stream's accounting.
@@ -128,46 +118,41 @@ public:
     void clearRecounts() { m_recounts.clear(); }
 
 private:
-    /// A sample of which only a part has come yet.
+    /// A sample, or a message of types 10 to 13, of which only a part has come yet.
     struct Partial {
         Stream* stream = nullptr; ///< null if it was judged, or retired
-        std::uint32_t sample = 0;
+        std::uint32_t sample = 0; ///< 0 of a message
         log::Stamp stamp{};
         std::uint64_t packet = 0;     ///< the first that came of it
-        std::uint64_t datagrams = 0;  ///< of the stream until then
         std::uint64_t nextPacket = 0; ///< the first of the next sample of the stream; 0 until that comes
         LossCause cause = LossCause::Unknown;
         std::uint64_t incident = 0;
     };
-    /// A message of types 10 to 13 that lacked something when its first part came.
-    struct OpenMessage {
-        Stream* stream;
-        log::Stamp stamp;
-        std::uint64_t packet;
-    };
-    /// A stream whose step has changed.
-    struct Rest {
-        Stream* stream;
-        log::Stamp stamp;
+    /// Something that is judged when its time has come.
+    struct Due {
+        enum class What : std::uint8_t { Gap, Partial, Rest };
+        What what = What::Gap;
+        Stream* stream = nullptr; ///< null if it was judged, or retired
+        log::Stamp at{};
+        std::uint64_t number = 0;    ///< of the gap or partial
+        std::uint64_t datagrams = 0; ///< of the stream until then
     };
 
     /// Calls f(const Gap&) for the gaps that are yet to be judged.
     template <class Function>
     void forEachWaiting(Function&& f) const {
-        for (std::uint64_t number = m_firstDue; number < m_firstGap + m_gaps.size(); ++number) {
-            if (const Gap& gap = m_gaps[number - m_firstGap]; gap.waiting != nullptr) {
-                f(gap);
-            }
-        }
-        for (const std::uint64_t number : m_held) {
-            if (const Gap& gap = m_gaps[number - m_firstGap]; gap.waiting != nullptr) {
-                f(gap);
+        for (const Due& due : m_due) {
+            if (due.what == Due::What::Gap && due.stream != nullptr) {
+                f(m_gaps[due.number - m_firstGap]);
             }
         }
     }
+    void expect(const Due& due);
+    void expectPartial(Stream& stream, const Verdict& verdict, log::Duration patience);
+    void forgetGap();
     void judgeEarly(Stream& stream, std::uint64_t packet);
     void judgeDue(log::Stamp stamp, std::uint64_t packet, bool isAll = false);
-    void judge(Gap& gap);
+    void judge(Due& due, std::uint64_t packet);
     void judge(Partial& partial, std::uint64_t packet);
     /// The rest of a sample or message is lost, by the packets up to `lastPacket`.
     void lose(const Partial& partial, std::uint64_t lastPacket, std::uint64_t toPacket, words::Fact evidence);
@@ -181,14 +166,10 @@ private:
     std::optional<log::Stamp> m_lateSeen; ///< the last sample that came later than it was waited for
     std::uint64_t m_lastPacket = 0;
     LossEvidence m_evidence;
+    std::deque<Due> m_due; ///< by when they are judged, the next one first
     std::deque<Gap> m_gaps;
     std::uint64_t m_firstGap = 0;
-    std::uint64_t m_firstDue = 0;     ///< gaps from this number on were not due yet
-    std::deque<std::uint64_t> m_held; ///< gaps that were, but may turn out to be a new step, oldest first
-    log::Stamp m_nextHeld{};          ///< when these are looked at again
-    std::deque<OpenMessage> m_open;   ///< yet to be judged, oldest first
-    std::deque<Rest> m_rests;         ///< yet to be looked at, oldest first
-    std::deque<Partial> m_partials;   ///< yet to be judged, oldest first
+    std::deque<Partial> m_partials; ///< from the oldest on that is yet to be judged
     std::uint64_t m_firstPartial = 0;
     std::deque<Partial> m_judgedPartials; ///< the newest ones
     std::vector<Recount> m_recounts;

@@ -51,8 +51,6 @@ struct Gap {
     std::uint32_t lost = 0;                  ///< what still is; 0 if all came late or nothing was expected
     std::array<Share, kLossCauses> shares{}; ///< by LossCause, once it is judged; together `lost`
     bool isJudged = false;                   ///< else late arrivals are still waited for
-    Stream* waiting = nullptr;               ///< its stream, until it is judged or retired
-    std::uint64_t datagrams = 0;             ///< of the stream when it ended
 
     [[nodiscard]] bool isAround(std::uint32_t sample) const;
     [[nodiscard]] const Share& of(LossCause cause) const { return shares[static_cast<std::size_t>(cause)]; }
@@ -71,9 +69,11 @@ public:
     void addStream(const Stream& stream, const log::SenderInfo& info);
     void retire(log::SenderId sender);
     void takePacket(const log::Packet& packet, std::uint16_t localPort);
+    /// Packets just below one were passed over: whatever they were of is missing for that.
     void takeOvertaken(std::uint64_t packet, std::uint64_t count, log::Stamp stamp);
     /// A datagram of a type that counts samples, unless it is late: that is no sign of life.
     void takeSampled(log::SenderId sender, log::Stamp stamp);
+    /// One that has a header and cannot be decoded.
     void takeMalformed(const log::Packet& packet, const wire::Header& header);
 
     /// Samples in a row that are lost by one cause.

@@ -53,7 +53,7 @@ void Counting::takeFaulty(const Observed& seen) {
     case PacketKind::Malformed:
         sender.takeMalformed(seen.packet.stamp);
         if (seen.header) {
-            m_attribution.takeMalformed(seen.packet, *seen.header);
+            m_attribution.evidence().takeMalformed(seen.packet, *seen.header);
         }
         if (seen.stream != nullptr) {
             seen.stream->accounting.addMalformed(seen.packet.stamp);
@@ -91,7 +91,7 @@ void Counting::takeDatagram(Observed& seen) {
                                  isLate(verdicts));
     }
     if (isSampled && !isLate(verdicts)) {
-        m_attribution.takeSampled(packet.sender, packet.stamp);
+        m_attribution.evidence().takeSampled(packet.sender, packet.stamp);
     } else if (!isSampled && seen.header->datagramIndex() == 0) {
         stream.statistics.addSample(packet.stamp);
     }
@@ -112,7 +112,7 @@ void Counting::close(const Observed& seen) {
 }
 
 void Counting::takeOvertaken(std::uint64_t packet, std::uint64_t count, log::Stamp stamp) {
-    m_attribution.takeOvertaken(packet, count, stamp);
+    m_attribution.evidence().takeOvertaken(packet, count, stamp);
     m_incidents.takeOvertaken(packet, count, stamp);
     passOver(count);
 }
@@ -153,7 +153,7 @@ void Counting::dropBefore(std::uint64_t packet) {
 void Counting::began(Stream& stream, const Sender& sender) {
     stream.accounting.setDepth(m_depth);
     fitDepth();
-    m_attribution.addStream(stream, sender.info);
+    m_attribution.evidence().addStream(stream, sender.info);
 }
 
 void Counting::tookOver(const CharacterKey& before, const CharacterKey& after, log::Stamp since) {
