@@ -197,7 +197,7 @@ PoseCharacter::Part partOf(const model::SessionView& session, const model::Chara
     }
     std::ranges::transform(model::kPoseTypes, part.isUnframed.begin(), [&](std::uint8_t type) {
         const model::Stream* stream = session.roster().find(log::StreamKey{key.sender, key.character, type});
-        return stream != nullptr && stream->accounting.isUnframed();
+        return stream != nullptr && stream->accounting.framing().isUnmarked();
     });
     return part;
 }

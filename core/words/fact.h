@@ -76,7 +76,8 @@ enum class Kind : std::uint16_t {
     PoseFrozen, AnnouncedMissing, FingerSegments, OrientationsZero, OrientationsFar, NumbersNotFinite,
     PositionsAbsurd, NumbersSwapped, PelvisJumped, UnitLooks, IdsFromZero, IdsRepeat, ConventionLooks,
     ConventionUnknown, QuaternionXyzw, QuaternionInverse, UnityAxes, AllMirrored, PlacesMirrored,
-    InBursts, TimeCodesDrift, CounterStands, TimeCodeSpeed, FloorOff, LastNeverSet, OtherId, SharedPacket,
+    InBursts, ClocksApart, TimeCodesDrift, CounterStands, TimeCodeSpeed, FloorOff, LastNeverSet,
+    PartNeverSent, OtherId, SharedPacket,
     // clang-format on
     Overtaken,
     RelayStopped,

@@ -256,6 +256,14 @@ constexpr std::array kTable{
             .sentence = {"Data comes in bursts up to {value} s apart, and nothing is lost."},
             .brief = {"in bursts"},
             .advice = {"A Wi-Fi adapter that saves power does so: turn that off here and at the sender."}},
+    Wording{.kind = K::ClocksApart,
+            .headline = {"The clocks of {who} and {address} are {value} s apart"},
+            .sentence =
+                {"The clocks of this sender and of {address} are {value} s apart: samples cannot be matched "
+                 "by their time codes."},
+            .brief = {"clocks apart"},
+            .advice = {"Let both computers set their clocks from one time server, or give both the same time "
+                       "code."}},
     Wording{.kind = K::TimeCodesDrift,
             .headline = {"{who}: type 25 and the time code of its header drift apart"},
             .sentence = {"Type 25 and the time code of its header drift apart."},
@@ -288,6 +296,15 @@ constexpr std::array kTable{
         .brief = {"last datagram never marked"},
         .advice = {"Tell the maker of the sender: bit 7 of the datagram counter marks the last one "
                    "(section 2.4.1.3)."}},
+    Wording{.kind = K::PartNeverSent,
+            .headline = {"{who}: a part of every sample is missing"},
+            .sentence =
+                {"The same datagram of every sample never arrives: the sender does not send it, or miscounts "
+                 "its datagrams."},
+            .brief = {"part of every sample missing"},
+            .advice =
+                {"Tell the maker of the sender: the datagrams of a sample count from 0, and bit 7 marks the "
+                 "last one (section 2.4.1.3)."}},
     Wording{.kind = K::OtherId,
             .headline = {"{who} goes on, now ID {id}"},
             .sentence = {"The same performer goes on, now ID {id}."},

@@ -341,7 +341,9 @@ void Attribution::lose(const Partial& partial, std::uint64_t lastPacket, std::ui
                        words::Fact evidence) {
     Stream& stream = *partial.stream;
     Partial lost = partial;
-    lost.cause = m_evidence.causeOfPartial(stream.key, partial.packet, lastPacket);
+    lost.cause = stream.accounting.framing().isShort(partial.sample)
+                     ? LossCause::Sender
+                     : m_evidence.causeOfPartial(stream.key, partial.packet, lastPacket);
     lost.incident = attribute(*m_sink, stream,
                               {.stream = stream.key,
                                .cause = lost.cause,

@@ -144,29 +144,6 @@ void StreamAccounting::takeCounter(Probation::Waiting datagram, wire::Bytes byte
     takeSample(datagram);
 }
 
-/// Senders exist that never mark the last datagram of a sample: where no second one ever comes either, the
-/// first is all there is.
-void StreamAccounting::noteFraming(const Probation::Waiting& datagram) {
-    constexpr std::uint32_t kEnough = 4;
-    const SampleLedger::Datagram& part = datagram.datagram;
-    if (m_framing == Framing::Given) {
-        return;
-    }
-    if (part.isLast || part.index != 0) {
-        m_framing = Framing::Given;
-        return;
-    }
-    m_unframed += m_unframed == 0 || part.sample != m_unframedSample ? 1 : 0;
-    m_unframedSample = part.sample;
-    if (m_framing == Framing::Unknown && m_unframed >= kEnough) {
-        m_framing = Framing::Missing;
-        m_ledger.completeAll(&m_history, [&](std::uint32_t sample) {
-            m_verdicts.push_back(
-                {.packet = datagram.packet, .stamp = part.stamp, .sample = sample, .isCompleting = true});
-        });
-    }
-}
-
 void StreamAccounting::beginRun(log::Stamp stamp) {
     if (m_countsSamples && !isInDoubt() && !m_ledger.present().empty()) {
         m_ledger.begin(stamp, &m_history, false);
@@ -187,8 +164,14 @@ std::size_t StreamAccounting::memoryBytes() const {
 }
 
 void StreamAccounting::takeSample(Probation::Waiting datagram) {
-    noteFraming(datagram);
-    datagram.datagram.isLast = datagram.datagram.isLast || isUnframed();
+    SampleLedger::Datagram& part = datagram.datagram;
+    if (m_framing.add(part.sample, part.index, part.isLast, step())) {
+        m_ledger.completeAll(&m_history, [&](std::uint32_t sample) {
+            m_verdicts.push_back(
+                {.packet = datagram.packet, .stamp = part.stamp, .sample = sample, .isCompleting = true});
+        });
+    }
+    part.isLast = part.isLast || m_framing.isUnmarked();
     const bool isExplained = isAfterPassedOver(m_passedOver, m_ledger.present(), datagram.datagram.sample);
     m_passedOver = 0;
     if (m_probation.empty() && (isExplained || Probation::isExpected(m_ledger, datagram.datagram))) {

@@ -4,6 +4,7 @@
 #include "core/log/packet.h"
 #include "core/log/time.h"
 #include "core/model/accounting/count_history.h"
+#include "core/model/accounting/framing.h"
 #include "core/model/accounting/probation.h"
 #include "core/model/accounting/sample_ledger.h"
 #include "core/model/accounting/sender_clock.h"
@@ -162,8 +163,7 @@ public:
     }
     [[nodiscard]] std::uint64_t datagrams() const { return m_datagrams; }
     [[nodiscard]] std::uint32_t step() const { return m_ledger.present().step(); }
-    /// Its samples have one datagram each, which is not marked as the last.
-    [[nodiscard]] bool isUnframed() const { return m_framing == Framing::Missing; }
+    [[nodiscard]] const Framing& framing() const { return m_framing; }
     /// The sample counter stands while what is sent changes: its datagrams are counted instead.
     [[nodiscard]] bool isUncounted() const { return m_isUncounted; }
     [[nodiscard]] bool isInDoubt() const { return !m_probation.empty() || m_repeat; }
@@ -181,17 +181,13 @@ private:
     /// Bytes at the beginning of a datagram by which two samples differ: the header and the first item.
     static constexpr std::size_t kTelling = 64;
 
-    enum class Framing : std::uint8_t { Unknown, Given, Missing };
     void takeCounter(Probation::Waiting datagram, wire::Bytes bytes);
-    void noteFraming(const Probation::Waiting& datagram);
     void takeSample(Probation::Waiting datagram);
     void endDoubt(bool isEnd);
     void settle(const Probation::Waiting& datagram, Probation::Outcome outcome, bool isMoved);
 
     bool m_countsSamples;
-    Framing m_framing = Framing::Unknown;
-    std::uint32_t m_unframed = 0;       ///< samples in a row without a last datagram, or a second one
-    std::uint32_t m_unframedSample = 0; ///< the newest of them
+    Framing m_framing;
     bool m_isUncounted = false;
     std::uint32_t m_added = 0;                  ///< to the sender's counter, for samples it did not count
     std::optional<Probation::Waiting> m_repeat; ///< of the datagram before with other bytes

@@ -143,8 +143,11 @@ void ContentWatch::take(const Sample& sample, const NullPose* nullPose, Incident
     unit.looks = words::Kind::Millimetres;
     unit.value = nullPose != nullptr ? 1 / metresPer(sample.unit) : 0;
     noteOrClear(sample, unit, isInMillimetres, stamp, incidents);
-    noteOrClear(sample, {ContentFault::Framing, words::Kind::LastNeverSet},
-                sample.stream.accounting.isUnframed(), stamp, incidents);
+    const Framing& framing = sample.stream.accounting.framing();
+    noteOrClear(
+        sample,
+        {ContentFault::Framing, framing.isShort() ? words::Kind::PartNeverSent : words::Kind::LastNeverSet},
+        framing.isShort() || framing.isUnmarked(), stamp, incidents);
     noteOrClear(sample, {ContentFault::Counter, words::Kind::CounterStands}, isUncounted, stamp, incidents);
     if (!checks.isOfObjects && isMostTelling(place, stamp)) {
         checkTimeCode(sample, known, incidents);

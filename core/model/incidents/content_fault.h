@@ -60,7 +60,8 @@ inline constexpr std::array<ContentFaultFacts, kContentFaults> kContentFaultTabl
         {F::ByteOrder, "byteOrder", true, 300ms},
         // Datagrams of other content repeat the sample counter of the one before.
         {F::Counter, "counter", false, 300ms},
-        // No datagram is marked as the last of its sample, and no sample has a second one.
+        // No datagram is marked as the last of its sample and no sample has a second one, or the same one of
+        // several is missing in each.
         {F::Framing, "framing", false, 300ms},
         // The time code runs at less than 0.4 or more than 2.5 × the speed of time: a busy sender or
         // a recording played at double speed is none.

@@ -9,6 +9,8 @@
 #include "core/wire/type_table.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <functional>
 #include <numeric>
 #include <optional>
@@ -42,6 +44,29 @@ std::vector<words::Fact> changesBy(const Metadata& metadata, std::uint64_t packe
 words::Fact contradictionOf(const NullPoseRecord& record) {
     auto error = gravestError(record);
     return error ? words::Fact{words::Kind::Contradiction, {{"what", *std::move(error)}}} : words::Fact();
+}
+
+/// How far the clock of a sender is ahead of this computer's, if it sends the time of day: type 25, or time
+/// codes near it. MVN counts those of a playback from 0.
+std::optional<std::int32_t> clockAhead(const Sender& sender) {
+    constexpr std::int32_t kDay = 86'400'000; // ms
+    constexpr std::int32_t kNear = 600'000;
+    std::optional<std::int32_t> found;
+    for (const Character* character : sender.characters) {
+        for (const Stream* stream : character->streams) {
+            const wire::Datagram& newest = stream->newest.datagram;
+            const auto* timeCode = std::get_if<wire::TimeCode>(&newest.body);
+            const std::int64_t sent = timeCode != nullptr ? timeCode->milliseconds() : newest.header.timeCode;
+            const auto here = log::millisecondsOf(stream->accounting.lastStamp().time_since_epoch());
+            const auto ahead = static_cast<std::int32_t>(
+                std::remainder(static_cast<double>(sent) - std::fmod(here, kDay), kDay));
+            if (timeCode != nullptr) {
+                return ahead;
+            }
+            found = sent > kNear && std::abs(ahead) < kNear ? ahead : found;
+        }
+    }
+    return found;
 }
 
 /// Types that would be datagrams larger than an Ethernet frame, of as many segments, and that have not come.
@@ -158,7 +183,44 @@ void Content::lookForContradictions(log::Stamp stamp) {
             m_incidents.takeCondition(std::move(one));
         }
     }
+    compareClocks(stamp);
     m_roll.characters().forEach([&](Character& each) { each.content.rest(each.key, stamp, m_incidents); });
+}
+
+/// Of hosts that all send the time of day: each with the one in the middle. What is a minute apart or more is
+/// not of one time.
+void Content::compareClocks(log::Stamp stamp) {
+    constexpr int kLooks = 3;
+    constexpr std::int32_t kApart = 500; // ms, more than a network takes
+    constexpr std::int32_t kMost = 60'000;
+    constexpr std::int32_t kLess = 20; // at a look: what arrives late is no other clock
+    std::vector<Sender*> all;
+    m_roll.senders().forEach([&](Sender& sender) {
+        const auto ahead = m_roll.hasEnded(sender) ? std::nullopt : clockAhead(sender);
+        Sender::Clock& clock = sender.clock;
+        clock.looks = ahead ? clock.looks + 1 : 0;
+        clock.aheadMs = clock.looks > 1 ? std::max(*ahead, clock.aheadMs - kLess) : ahead.value_or(0);
+        if (clock.looks >= kLooks) {
+            all.push_back(&sender);
+        }
+    });
+    if (all.size() < 2) {
+        return;
+    }
+    const auto middle = all.begin() + static_cast<std::ptrdiff_t>((all.size() - 1) / 2);
+    std::ranges::nth_element(all, middle, {}, [](const Sender* one) { return one->clock.aheadMs; });
+    for (Sender* sender : all) {
+        const std::int32_t apart = sender->clock.aheadMs - (*middle)->clock.aheadMs;
+        const bool isApart = std::abs(apart) > kApart && std::abs(apart) < kMost;
+        if (isApart && std::abs(apart - sender->clock.toldMs) > kApart) {
+            sender->clock.toldMs = apart;
+            Occurrence one = Occurrence::at(IncidentKind::TimeCode, sender->id, stamp);
+            one.detail = {words::Kind::ClocksApart,
+                          {{"address", (*middle)->address().shown()},
+                           {"value", words::Number{std::abs(apart) / 1000.0, 1}}}};
+            m_incidents.report(one);
+        }
+    }
 }
 
 void Content::lookForFragments(const Sender& sender, log::Stamp stamp) {

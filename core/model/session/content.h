@@ -40,6 +40,7 @@ private:
     void takeNullPose(const wire::NullPose& part, const Observed& seen);
     void takePose(const Observed& seen);
     void lookForFragments(const Sender& sender, log::Stamp stamp);
+    void compareClocks(log::Stamp stamp);
 
     Roll& m_roll;
     IncidentFollower& m_incidents;

@@ -72,7 +72,7 @@ void Counting::takeDatagram(Observed& seen) {
     const log::Packet& packet = seen.packet;
     Stream& stream = *seen.stream;
     wire::Header header = *seen.header;
-    if (stream.accounting.isUnframed()) {
+    if (stream.accounting.framing().isUnmarked()) {
         header.markLast();
     }
     m_index.add(packet, header);

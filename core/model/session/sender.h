@@ -45,6 +45,12 @@ struct Sender {
     std::vector<std::byte> foreignHead;
     Detector detector;
     SenderOverride overrides{};
+    /// See Content.
+    struct Clock {
+        std::int32_t aheadMs = 0; ///< of this computer's, as the time of day
+        std::int32_t toldMs = 0;  ///< by which it is apart from the others'
+        int looks = 0;
+    } clock{};
 
     void takeMalformed(log::Stamp stamp);
     void takeForeign(wire::Bytes datagram);

@@ -14,7 +14,7 @@ TEST_F(Accounting, TakesSamplesWithoutALastFlagForWholeIfNoSecondDatagramEverCom
     EXPECT_EQ(stream.counts().incomplete, 3U) << "more of them may come";
     const auto verdicts = send(4, 0);
     EXPECT_EQ(std::ranges::count_if(verdicts, &Verdict::isCompleting), 4);
-    EXPECT_TRUE(stream.isUnframed());
+    EXPECT_TRUE(stream.framing().isUnmarked());
     for (std::uint32_t sample = 5; sample <= 100; ++sample) {
         send(sample, 0);
     }
@@ -31,8 +31,49 @@ TEST_F(Accounting, WaitsForTheRestOfSamplesThatHaveEverComeInParts) {
     for (std::uint32_t sample = 2; sample <= 40; ++sample) {
         send(sample, 0);
     }
-    EXPECT_FALSE(stream.isUnframed());
+    EXPECT_FALSE(stream.framing().isUnmarked());
     EXPECT_EQ(stream.counts().incomplete, 39U);
+}
+
+TEST_F(Accounting, TakesSamplesForWholeThatAreNotMarkedAnyMore) {
+    sendSteady(1, 100);
+    for (std::uint32_t sample = 101; sample <= 107; ++sample) {
+        send(sample, 0);
+    }
+    EXPECT_FALSE(stream.framing().isUnmarked()) << "a few may be damaged";
+    EXPECT_EQ(stream.counts().incomplete, 7U);
+    for (std::uint32_t sample = 108; sample <= 200; ++sample) {
+        send(sample, 0);
+    }
+    EXPECT_TRUE(stream.framing().isUnmarked());
+    EXPECT_EQ(stream.counts().samples, 200U);
+    EXPECT_EQ(stream.counts().incomplete, 0U);
+    sendSteady(201, 210);
+    EXPECT_FALSE(stream.framing().isUnmarked());
+    EXPECT_EQ(stream.counts().samples, 210U);
+}
+
+TEST_F(Accounting, FindsThePartThatIsNeverSent) {
+    for (std::uint32_t sample = 1; sample <= 90; ++sample) {
+        send(sample, 0);
+        send(sample, 1);
+        if (sample <= 20 || sample > 60) {
+            send(sample, 0x82);
+        }
+        EXPECT_EQ(stream.framing().isShort(), sample > 28 && sample <= 61) << sample;
+    }
+    for (std::uint32_t sample = 1; sample <= 90; ++sample) {
+        EXPECT_EQ(stream.framing().isShort(sample), sample > 20 && sample <= 60) << sample;
+    }
+    EXPECT_EQ(stream.counts().incomplete, 40U);
+    for (std::uint32_t sample = 91; sample <= 1000; ++sample) { // one of two is lost by chance
+        send(sample, 0);
+        send(sample, 1);
+        if (sample % 8 != 0 && sample % 8 > 3) {
+            send(sample, 0x82);
+        }
+        EXPECT_FALSE(stream.framing().isShort());
+    }
 }
 
 TEST_F(Accounting, CountsDatagramsWhereTheCounterStands) {
@@ -60,7 +101,7 @@ TEST_F(Accounting, CountsWhatNeitherCountsNorMarksTheLast) {
     for (std::uint32_t content = 1; content <= 50; ++content) {
         sendWith(content, 0, 0);
     }
-    EXPECT_TRUE(stream.isUncounted() && stream.isUnframed());
+    EXPECT_TRUE(stream.isUncounted() && stream.framing().isUnmarked());
     EXPECT_EQ(stream.counts().samples, 50U);
     EXPECT_EQ(stream.counts().incomplete + stream.counts().duplicates, 0U);
 }

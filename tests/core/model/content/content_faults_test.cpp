@@ -4,6 +4,7 @@
 #include "core/model/body/pose_remark.h"
 #include "core/model/session/messages.h"
 #include "core/model/session/roster.h"
+#include "core/performer/sending.h"
 
 #include <bit>
 #include <limits>
@@ -210,6 +211,30 @@ TEST_F(ContentTest, ACounterThatStandsIsNoDuplicate) {
     EXPECT_NE(m_session.messages().pose(m_session.roster().listed().front()->key), nullptr);
 }
 
+TEST_F(ContentTest, APartOfEverySampleThatNeverComesIsOfTheSender) {
+    performer::Performer performer(m_settings);
+    for (; m_frame < 240; ++m_frame) {
+        const bool isWhole = m_frame < 60;
+        for (const wire::Datagram& datagram : performer.frame(m_frame)) {
+            if (datagram.header.type() != wire::PoseQuaternion::kType) {
+                continue;
+            }
+            auto parts = performer::splitSample(*wire::encode(datagram), 3);
+            parts.resize(isWhole ? 3 : 2);
+            for (const auto& part : parts) {
+                send(part, stampOf(m_frame));
+            }
+        }
+        m_session.follow(m_now);
+    }
+    const Incident found = only(ContentFault::Framing);
+    EXPECT_EQ(found.cause, LossCause::Sender);
+    EXPECT_LT(found.firstStamp, stampOf(70));
+    const Stream& stream = *m_session.roster().listed().front()->streams.front();
+    EXPECT_EQ(stream.accounting.counts().incomplete, 180U);
+    EXPECT_EQ(stream.lostByCause()[static_cast<std::size_t>(LossCause::Network)], 0U);
+}
+
 TEST_F(ContentTest, ATimeCodeOfAnotherSpeedIsToldWithIt) {
     perform(1.2, [](wire::Datagram& datagram) { datagram.header.timeCode *= 3; });
     const Incident one = only(ContentFault::TimeCode);
@@ -228,6 +253,32 @@ TEST_F(ContentTest, ATimeCodeThatDriftsAgainstItsHeaderIsOfTheClock) {
     ASSERT_EQ(of(IncidentKind::TimeCode).size(), 1U);
     EXPECT_EQ(of(IncidentKind::TimeCode)[0].detail.kind, words::Kind::TimeCodesDrift);
     EXPECT_TRUE(told().empty()) << testing::PrintToString(told());
+}
+
+TEST_F(ContentTest, ClocksOfTwoHostsThatAreApartAreToldOnceWithTheDifference) {
+    m_settings.types = {2, 25};
+    const auto sendBoth = [&](double seconds, int apartMs) {
+        performer::Performer performer(m_settings);
+        for (const std::uint64_t end = m_frame + static_cast<std::uint64_t>(60 * seconds); m_frame < end;
+             ++m_frame) {
+            for (wire::Datagram& datagram : performer.frame(m_frame)) {
+                send(*wire::encode(datagram), stampOf(m_frame));
+                if (auto* message = std::get_if<wire::TimeCode>(&datagram.body)) {
+                    const auto second = (message->milliseconds() + apartMs) / 1000 % 60;
+                    message->text[6] = static_cast<char>('0' + second / 10);
+                    message->text[7] = static_cast<char>('0' + second % 10);
+                }
+                send(*wire::encode(datagram), stampOf(m_frame), "127.0.0.2:40001");
+            }
+        }
+        m_session.follow(m_now);
+    };
+    sendBoth(3, 0);
+    EXPECT_TRUE(of(IncidentKind::TimeCode).empty());
+    sendBoth(3, 3000);
+    ASSERT_EQ(of(IncidentKind::TimeCode).size(), 1U);
+    EXPECT_EQ(of(IncidentKind::TimeCode)[0].detail.kind, words::Kind::ClocksApart);
+    EXPECT_NEAR(*numberIn(of(IncidentKind::TimeCode)[0].detail, "value"), 3, 0.1);
 }
 
 TEST_F(ContentTest, AFloorFarFromZeroIsToldWithItsHeight) {

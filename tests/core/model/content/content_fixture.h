@@ -44,10 +44,10 @@ protected:
         }
         m_session.follow(m_now);
     }
-    void send(wire::Bytes bytes, log::Stamp stamp) {
+    void send(wire::Bytes bytes, log::Stamp stamp, const char* address = "127.0.0.1:40001") {
         log::Arrival arrival;
         arrival.stamp = m_now = stamp;
-        arrival.sender = m_log.senders().intern({"127.0.0.1:40001", log::Transport::Udp, 9763});
+        arrival.sender = m_log.senders().intern({address, log::Transport::Udp, 9763});
         m_log.writer().append(bytes, arrival);
         m_log.writer().publish();
     }

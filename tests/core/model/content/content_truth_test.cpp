@@ -35,10 +35,7 @@ protected:
         const bool needsAll = kind < kinds.size() && kinds[kind] == "convention";
         m_faults.drop = pick(4, 2) == 0 && !needsAll ? 0.01 : 0;
         if (kind < kinds.size()) {
-            // Who ever marked a datagram as the last one goes on to do so.
-            const bool isWhole = kinds[kind] == "framing";
-            m_faults.content = {std::string(kinds[kind]),
-                                isWhole ? 0.0 : 0.1 * static_cast<double>(pick(5, 12))};
+            m_faults.content = {std::string(kinds[kind]), 0.1 * static_cast<double>(pick(5, 12))};
         }
     }
     [[nodiscard]] std::string what() const { return m_faults.content ? m_faults.content->kind : "nothing"; }
