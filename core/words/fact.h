@@ -92,7 +92,6 @@ enum class Kind : std::uint16_t {
     NotYetHere,
     TypesMissing,
     // What a loss rests on.
-    NoLongerListed,
     WaitingForLate,
     NoEvidence,
     DroppedHere,

@@ -359,7 +359,6 @@ constexpr std::array kTable{
             .sentence = {"Other types of this character are still arriving."},
             .brief = {"no data of {missing}"}},
     // What a loss rests on.
-    Wording{.kind = K::NoLongerListed, .headline = {"From incidents no longer listed."}},
     Wording{.kind = K::WaitingForLate, .headline = {"Still waiting for late arrivals."}},
     Wording{.kind = K::NoEvidence,
             .headline = {"Nothing was dropped here, and no other stream of the sender shows where {samples} "

@@ -170,7 +170,8 @@ void Incidents::add(Incident& incident, const Occurrence& one) {
         incident.detail = one.detail;
         words::clip(incident.detail, kMostDetailBytes);
     }
-    if (Incident::Part* part = partOf(incident, one)) {
+    if (Incident::Part* part =
+            partOf(incident, {one.sender, one.character, one.type, 0, 0, one.from, one.to})) {
         part->times += one.from > part->to + Incident::kApart ? 1 : 0;
         part->count += one.count;
         part->samples += one.samples;
@@ -185,7 +186,7 @@ void Incidents::add(Incident& incident, const Occurrence& one) {
 }
 
 /// Null where there are too many already.
-Incident::Part* Incidents::partOf(Incident& incident, const Occurrence& one) {
+Incident::Part* Incidents::partOf(Incident& incident, const Incident::Part& one) {
     const auto known = std::ranges::find_if(incident.parts, [&](const Incident::Part& part) {
         return part.sender == one.sender && part.character == one.character && part.type == one.type;
     });
@@ -196,8 +197,7 @@ Incident::Part* Incidents::partOf(Incident& incident, const Occurrence& one) {
         return nullptr;
     }
     ++m_parts;
-    return &incident.parts.emplace_back(
-        Incident::Part{one.sender, one.character, one.type, 0, 0, one.from, one.to});
+    return &incident.parts.emplace_back(one);
 }
 
 void Incidents::takeBack(std::uint64_t number, const Incident::Part& part, std::uint64_t samples,
@@ -327,7 +327,11 @@ std::uint64_t Incidents::joinOutages(std::uint64_t number) {
         }
     }
     for (std::size_t i = 1; i < same.size(); ++i) {
+        for (auto& [before, now] : m_joined) {
+            now = now == same[i] ? same.front() : now;
+        }
         join(same.front(), same[i]);
+        m_joined.emplace(same[i], same.front());
     }
     return same.empty() ? number : same.front();
 }
@@ -335,19 +339,25 @@ std::uint64_t Incidents::joinOutages(std::uint64_t number) {
 void Incidents::join(std::uint64_t to, std::uint64_t from) {
     Incident& all = *findOwn(to);
     const Incident& joining = *find(from);
-    all.sender = log::kNoSender;
+    all.sender = all.sender == joining.sender ? all.sender : log::kNoSender;
     extend(all, joining.firstStamp, joining.lastStamp, joining.firstPacket, joining.lastPacket);
     all.count += joining.count;
+    all.times += joining.times;
     all.samples += joining.samples;
     all.value = std::max(all.value, joining.value);
-    all.parts.insert(all.parts.end(), joining.parts.begin(), joining.parts.end());
-    m_parts += joining.parts.size();
-    for (auto& [before, now] : m_joined) {
-        now = now == from ? to : now;
+    for (const Incident::Part& part : joining.parts) {
+        const std::size_t before = all.parts.size();
+        if (Incident::Part* own = partOf(all, part); own != nullptr && all.parts.size() == before) {
+            own->count += part.count;
+            own->times += part.times;
+            own->samples += part.samples;
+            own->from = std::min(own->from, part.from);
+            own->to = std::max(own->to, part.to);
+            own->lastMany = std::max(own->lastMany, part.lastMany);
+        }
     }
-    erase(from);
-    m_joined.emplace(from, to);
     changed(all);
+    erase(from);
 }
 
 void Incidents::setCause(std::uint64_t number, LossCause cause) {
@@ -402,9 +412,22 @@ void Incidents::erase(std::uint64_t number) {
     ++m_version;
 }
 
-/// Makes room: the oldest that has ended goes, or the oldest of all where none has.
+/// Makes room: of the oldest that have ended the first two of one kind become one. Where none are alike the
+/// oldest goes, which has ended if any has.
 void Incidents::forget() {
+    constexpr std::size_t kMostLooked = 256;
     while (m_incidents.size() > kMost || m_parts > kMostParts) {
+        std::map<Episode, std::uint64_t> ended;
+        const std::size_t end = std::min(kMostLooked, m_incidents.size());
+        const auto like =
+            std::find_if(m_incidents.begin(), m_incidents.begin() + end, [&](const Incident& one) {
+                return !one.isCurrent && one.parts.size() <= kMostLooked &&
+                       !ended.try_emplace(episodeOf(one), one.number).second;
+            });
+        if (like != m_incidents.begin() + end) {
+            join(like->number, ended.at(episodeOf(*like)));
+            continue;
+        }
         const auto oldest = std::ranges::find(m_incidents, false, &Incident::isCurrent);
         erase((oldest == m_incidents.end() ? m_incidents.front() : *oldest).number);
     }

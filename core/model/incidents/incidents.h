@@ -90,7 +90,7 @@ private:
     [[nodiscard]] static Episode episodeOf(const Incident& incident);
     Incident& begin(const Occurrence& one);
     void add(Incident& incident, const Occurrence& one);
-    Incident::Part* partOf(Incident& incident, const Occurrence& one);
+    Incident::Part* partOf(Incident& incident, const Incident::Part& one);
     [[nodiscard]] Incident* findOwn(std::uint64_t number);
     [[nodiscard]] std::deque<Incident>::iterator placeOf(std::uint64_t number);
     [[nodiscard]] std::uint64_t numberNow(std::uint64_t number) const;

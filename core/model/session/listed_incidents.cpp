@@ -39,7 +39,7 @@ std::string clockText(log::WallTime time) {
 }
 
 struct Untold {
-    LossesByCause lost{};
+    std::uint64_t unknown = 0;           ///< samples
     std::vector<Incident::Part> stalled; ///< streams that are missing while others of their character go on
 };
 
@@ -47,25 +47,26 @@ std::map<log::SenderId, Untold> untoldOf(const SessionView& session) {
     std::map<log::SenderId, Untold> rest;
     for (const Stream& stream : session.roster().streams()) {
         Untold& own = rest[stream.key.sender];
-        addLosses(own.lost, stream.lostByCause());
+        own.unknown += stream.lostByCause()[kUnknownCause];
         if (stream.isStalled) {
             own.stalled.push_back({stream.key.sender, stream.key.character, stream.key.type, 0, 0,
                                    stream.accounting.lastStamp(), session.knownUntil()});
         }
     }
+    const auto less = [&rest](log::SenderId sender, std::uint64_t samples) {
+        if (const auto own = rest.find(sender); own != rest.end()) {
+            own->second.unknown -= std::min(own->second.unknown, samples);
+        }
+    };
     for (const Incident& incident : session.verdicts().incidents().all()) {
-        const auto cause = static_cast<std::size_t>(incident.cause.value_or(LossCause::Unknown));
-        incident.forEachShare([&](log::SenderId sender, std::uint64_t samples) {
-            if (const auto own = rest.find(sender); own != rest.end()) {
-                std::uint64_t& sum = own->second.lost[cause];
-                sum -= std::min(sum, samples);
-            }
-        });
+        if (incident.cause.value_or(LossCause::Unknown) == LossCause::Unknown) {
+            incident.forEachShare(
+                [&](log::SenderId sender, std::uint64_t samples) { less(sender, samples); });
+        }
     }
     session.accounts().forEachPending([&](const PendingLoss& loss) {
-        if (const auto own = rest.find(loss.stream.sender); own != rest.end() && loss.isUnderWay) {
-            std::uint64_t& sum = own->second.lost[kUnknownCause];
-            sum -= std::min(sum, loss.samples);
+        if (loss.isUnderWay) {
+            less(loss.stream.sender, loss.samples);
         }
     });
     return rest;
@@ -80,7 +81,7 @@ ListedIncident provisionalOf(const SessionView& session, log::SenderId sender, c
     incident.kind = IncidentKind::Loss;
     incident.sender = sender;
     incident.cause = LossCause::Unknown;
-    incident.samples = untold.lost[kUnknownCause];
+    incident.samples = untold.unknown;
     incident.firstStamp = log::Stamp::max();
     incident.version = session.verdicts().incidents().version();
     session.accounts().forEachPending([&](const PendingLoss& loss) {
@@ -129,19 +130,6 @@ bool hasCeased(const SessionView& session, const Incident& incident) {
     const log::Stamp known = isLoss ? session.accounts().judgedUntil() : session.knownUntil();
     return !incident.lasts() &&
            known - incident.lastStamp >= std::clamp(kPatience * between, kLeast, Incidents::kQuiet);
-}
-
-/// Incidents that are not listed any more.
-ListedIncident forgottenOf(log::SenderId sender, LossCause cause, std::uint64_t samples) {
-    ListedIncident listed;
-    listed.state = State::Over;
-    listed.incident.kind = cause == LossCause::ThisComputer ? IncidentKind::Local : IncidentKind::Loss;
-    listed.incident.sender = sender;
-    listed.incident.cause = cause;
-    listed.incident.samples = samples;
-    listed.incident.detail = {words::Kind::NoLongerListed};
-    listed.incident.isCurrent = false;
-    return listed;
 }
 
 /// Whether another sender has one of the same ID: its name does not say which of them is meant.
@@ -223,12 +211,7 @@ words::Value namesOrCount(std::vector<std::string> names) {
 std::vector<ListedIncident> unlistedOf(const SessionView& session) {
     std::vector<ListedIncident> all;
     for (const auto& [sender, untold] : untoldOf(session)) {
-        for (std::size_t cause = 0; cause < kUnknownCause; ++cause) {
-            if (untold.lost[cause] != 0) {
-                all.push_back(forgottenOf(sender, static_cast<LossCause>(cause), untold.lost[cause]));
-            }
-        }
-        if (untold.lost[kUnknownCause] != 0 || !untold.stalled.empty()) {
+        if (untold.unknown != 0 || !untold.stalled.empty()) {
             all.push_back(provisionalOf(session, sender, untold));
         }
     }

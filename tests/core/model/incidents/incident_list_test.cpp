@@ -301,6 +301,24 @@ TEST(IncidentList, FindsByNumberWhatItStillHas) {
     EXPECT_EQ(incidents.find(last + 1), nullptr);
 }
 
+TEST(IncidentList, JoinsTheOldestThatAreAlikeWhenThereAreTooMany) {
+    Incidents incidents;
+    constexpr std::uint32_t kBeyond = 2'000;
+    for (std::uint32_t i = 1; i <= Incidents::kMost + kBeyond; ++i) {
+        Occurrence loss = occurrenceAt(IncidentKind::Loss, at(i * 6s));
+        loss.samples = 1;
+        incidents.end(incidents.report(loss), at(i * 6s));
+    }
+    EXPECT_EQ(incidents.all().size(), Incidents::kMost);
+    const Incident& oldest = incidents.all().front();
+    EXPECT_EQ(oldest.samples, kBeyond + 1);
+    EXPECT_EQ(oldest.count, kBeyond + 1);
+    EXPECT_EQ(oldest.firstStamp, at(6s));
+    EXPECT_EQ(oldest.lastStamp, at((kBeyond + 1) * 6s));
+    EXPECT_EQ(oldest.parts.size(), 1U);
+    EXPECT_EQ(oldest.parts.front().samples, kBeyond + 1);
+}
+
 TEST(IncidentList, IsBoundedAlsoInItsParts) {
     Incidents incidents;
     for (std::uint32_t i = 0; i < 300; ++i) {
