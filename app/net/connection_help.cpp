@@ -5,12 +5,14 @@
 #include "core/model/session/roster.h"
 
 #include <QHostAddress>
+#include <QTcpSocket>
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <memory>
 #include <sstream>
 #include <system_error>
 #include <utility>
@@ -160,15 +162,21 @@ void findPeers(const ConnectionFacts& facts, Findings& findings) {
     }
 }
 
+bool isKnocked(const ConnectionFacts& facts) {
+    constexpr std::uint64_t kKnocks = 3;
+    return facts.kernel.refusedTcp >= kKnocks && !has(facts, InputKind::TcpListener);
+}
+
 /// Reports what the kernel rejects at the rate of a stream.
 void findElsewhere(const ConnectionFacts& facts, const std::string& port, Findings& findings) {
     constexpr std::uint64_t kMany = 10;
-    constexpr std::uint64_t kKnocks = 3;
     const auto seconds = static_cast<std::uint64_t>(facts.silence / std::chrono::seconds(1));
     if (facts.kernel.noPort >= std::max(kMany, 2 * seconds)) {
         findings.push_back({Kind::NoListener, {{"n", facts.kernel.noPort}, {"port", port}}});
     }
-    if (facts.kernel.refusedTcp >= kKnocks && !has(facts, InputKind::TcpListener)) {
+    if (!facts.knocker.empty()) {
+        findings.push_back({Kind::TcpKnocked, {{"address", facts.knocker}, {"port", port}}});
+    } else if (isKnocked(facts)) {
         findings.push_back({Kind::TcpRefused, {{"n", facts.kernel.refusedTcp}}});
     }
 }
@@ -333,7 +341,31 @@ std::vector<Fact> ConnectionWatch::look(const model::SessionView& session, std::
     facts.silence = std::max(log::Duration::zero(), now - newest);
     m_kernel = facts.datagrams != 0 && facts.silence < kSilenceTold ? kernel : m_kernel;
     facts.kernel = kernel.since(m_kernel);
+    answerKnocks(facts);
     return connectionHelp(facts);
+}
+
+/// Listens for TCP on a port of UDP for as long as this computer refuses connections and nothing else comes:
+/// whoever connects is named.
+void ConnectionWatch::answerKnocks(ConnectionFacts& facts) {
+    const auto udp = std::ranges::find(facts.inputs, InputKind::Udp, &InputStatus::kind);
+    if (facts.silence < kSilenceTold || !isKnocked(facts) || udp == facts.inputs.end()) {
+        m_door.close();
+        m_knocker.clear();
+        return;
+    }
+    if (m_knocker.empty() && !m_door.isListening()) {
+        m_door.listen(QHostAddress::Any, udp->endpoint.port);
+    }
+    while (m_door.isListening() && m_door.waitForNewConnection(0)) {
+        const std::unique_ptr<QTcpSocket> peer(m_door.nextPendingConnection());
+        const QHostAddress address = peer->peerAddress();
+        bool isIpv4 = false;
+        const QHostAddress mapped(address.toIPv4Address(&isIpv4));
+        m_knocker = (isIpv4 ? mapped : address).toString().toStdString();
+        m_door.close();
+    }
+    facts.knocker = m_knocker;
 }
 
 } // namespace posewire::net

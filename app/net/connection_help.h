@@ -8,6 +8,8 @@
 #include "core/model/session/session_view.h"
 #include "core/words/fact.h"
 
+#include <QTcpServer>
+
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -44,6 +46,7 @@ struct ConnectionFacts {
     std::vector<LocalAddress> addresses; ///< see reachable()
     std::optional<Firewall> firewall;
     model::KernelCounters kernel; ///< since data last came, or the inputs were opened
+    std::string knocker;          ///< who connected to the port by TCP, where it is listened on for UDP alone
     log::Stamp now{};
 };
 
@@ -61,14 +64,20 @@ public:
                                                 const model::KernelCounters& kernel, log::Stamp now);
     /// See reachable().
     [[nodiscard]] const std::vector<LocalAddress>& addresses() const { return m_addresses; }
+    /// Before an input takes the port: see answerKnocks().
+    void closeDoor() { m_door.close(); }
 
 private:
+    void answerKnocks(ConnectionFacts& facts);
+
     std::vector<InputId> m_open;
     log::Stamp m_opened{};
     log::Stamp m_asked{};
     std::vector<LocalAddress> m_addresses;
     std::optional<Firewall> m_firewall;
     model::KernelCounters m_kernel; ///< when data last came
+    QTcpServer m_door;
+    std::string m_knocker;
 };
 
 } // namespace posewire::net

@@ -207,7 +207,8 @@ enum class Kind : std::uint16_t {
     // clang-format off
     // Connections.
     NoInput, CannotOpen, AddressGone, NotJoined, NotListenedTo, ForeignDatagrams, NotReachable, SilentPeer,
-    GarbledPeer, NothingArrives, ListensOnly, NoListener, TcpRefused, OtherTransport, FirewallOn, WentSilent,
+    GarbledPeer, NothingArrives, ListensOnly, NoListener, TcpRefused, TcpKnocked, OtherTransport, FirewallOn,
+    WentSilent,
     Either, HostOn,
     // Formats of others.
     LooksLikeArtNet, LooksLikeHttp, LooksLikeDTrack, LooksLikeTransport, LooksLikeJson, LooksLikeRemote,

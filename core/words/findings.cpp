@@ -238,6 +238,10 @@ constexpr std::array kFindings{
                          "This computer has refused {n} TCP connection: no program listens at its port."},
             .advice = {"If it is MVN: set Protocol to UDP in its Network Streamer, or add a TCP "
                        "listener here."}},
+    Wording{.kind = K::TcpKnocked,
+            .sentence = {"{address} connects by TCP to port {port}, which is open for UDP alone."},
+            .advice = {"If it is MVN: set Protocol to UDP in its Network Streamer, or add a TCP "
+                       "listener here."}},
     Wording{.kind = K::OtherTransport,
             .sentence = {"Only {protocol} inputs are open; a sender that uses {other} would go unnoticed."},
             .advice = {"Check Protocol in MVN's Network Streamer, or listen for {other} as well."}},

@@ -84,6 +84,7 @@ void Receiving::open(PortState& state) {
         id = m_receiver.addUdp(udpOf(state.port));
         break;
     case Kind::TcpListener:
+        m_watch.closeDoor();
         id = m_receiver.addTcpListener(endpointOf(state.port));
         break;
     case Kind::TcpConnection:

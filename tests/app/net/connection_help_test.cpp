@@ -3,6 +3,12 @@
 #include "tests/support/facts.h"
 #include "tests/support/temporary_folder.h"
 
+#include "core/log/packet_log.h"
+#include "core/model/session/session.h"
+
+#include <QTcpServer>
+#include <QTcpSocket>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -13,9 +19,11 @@ namespace posewire::net {
 namespace {
 
 using namespace std::chrono_literals;
+using ::testing::Contains;
 using ::testing::Each;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using words::Fact;
 using words::Form;
 using words::numberIn;
@@ -217,6 +225,38 @@ TEST_F(ConnectionHelpTest, TellsOfWhatGoesElsewhere) {
     EXPECT_THAT(kindsOf(facts), ElementsAre(Kind::NothingArrives, Kind::TcpRefused, Kind::OtherTransport));
     facts.inputs.push_back(input(InputKind::TcpListener));
     EXPECT_THAT(kindsOf(facts), ElementsAre(Kind::NothingArrives));
+}
+
+TEST(ConnectionWatch, NamesWhoConnectsByTcpToAPortOfUdp) {
+    QTcpServer any;
+    ASSERT_TRUE(any.listen(QHostAddress::LocalHost));
+    const std::uint16_t port = any.serverPort();
+    any.close();
+    const log::PacketLog log;
+    model::Session session(log);
+    ConnectionWatch watch;
+    log::Stamp now(100s);
+    const auto look = [&](std::uint64_t refused, InputKind kind = InputKind::Udp) {
+        now += 3s;
+        std::vector<Kind> kinds;
+        for (const Fact& one : watch.look(session, {input(kind, port)}, {}, {.refusedTcp = refused}, now)) {
+            kinds.push_back(one.kind);
+        }
+        return kinds;
+    };
+    const auto connects = [port] {
+        QTcpSocket sender;
+        sender.connectToHost(QHostAddress(QHostAddress::LocalHost), port);
+        return sender.waitForConnected(1000);
+    };
+    look(0);
+    look(2);
+    EXPECT_FALSE(connects()) << "too few were refused to open it";
+    EXPECT_THAT(look(5), Contains(Kind::TcpRefused));
+    EXPECT_TRUE(connects());
+    EXPECT_THAT(look(5), Contains(Kind::TcpKnocked));
+    EXPECT_FALSE(connects()) << "one is enough";
+    EXPECT_THAT(look(5, InputKind::TcpListener), Not(Contains(Kind::TcpKnocked)));
 }
 
 TEST(Reachable, PutsTheBestFirstAndLeavesLoopbackOutUnlessAlone) {
