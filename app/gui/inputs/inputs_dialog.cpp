@@ -12,12 +12,14 @@
 
 #include <QDialogButtonBox>
 #include <QLabel>
+#include <QMessageBox>
 #include <QPushButton>
 #include <QTabWidget>
 #include <QTextBrowser>
 #include <QVBoxLayout>
 
 #include <cmath>
+#include <functional>
 #include <vector>
 
 namespace posewire::gui {
@@ -35,8 +37,12 @@ Advice allIsWell(const ReceivingState& receiving) {
             tr("No problem was found with the connection.")};
 }
 
-/// A mark in the colour of its level, what is known, below it what to do, and a link into the guide.
-QString htmlOf(const Advice& advice) {
+/// Before the place of an advice whose offer is taken.
+constexpr QLatin1String kOffer("offer:");
+
+/// A mark in the colour of its level, what is known, below it what to do, what would show it, and a link into
+/// the guide.
+QString htmlOf(const Advice& advice, std::size_t place) {
     const bool isKnown = advice.level != Health::Unknown;
     const QString mark = isKnown ? healthSymbol(advice.level) : QStringLiteral("●");
     const QColor colour = isKnown ? healthColour(advice.level) : theme().dim;
@@ -44,9 +50,15 @@ QString htmlOf(const Advice& advice) {
         advice.topic
             ? QStringLiteral(" <a href=\"%1\">%2</a>").arg(placeOf(*advice.topic), tr("Help on this"))
             : QString();
+    const QString offer = advice.offer
+                              ? QStringLiteral(" <a href=\"%1%2\">%3</a>")
+                                    .arg(kOffer)
+                                    .arg(place)
+                                    .arg(tr("Listen on %1").arg(displayText(*advice.offer)).toHtmlEscaped())
+                              : QString();
     return QStringLiteral("<table cellpadding=\"6\"><tr><td style=\"color: %1\">%2</td>"
-                          "<td><b>%3</b><br>%4%5</td></tr></table>")
-        .arg(colour.name(), mark, advice.text.toHtmlEscaped(), advice.remedy.toHtmlEscaped(), link);
+                          "<td><b>%3</b><br>%4%5%6</td></tr></table>")
+        .arg(colour.name(), mark, advice.text.toHtmlEscaped(), advice.remedy.toHtmlEscaped(), offer, link);
 }
 
 } // namespace
@@ -54,7 +66,9 @@ QString htmlOf(const Advice& advice) {
 /// Why no characters are seen, as long as it is open; says so if nothing is wrong.
 class ConnectionPage final : public QWidget {
 public:
-    explicit ConnectionPage(QWidget* parent) : QWidget(parent), m_findings(new QTextBrowser(this)) {
+    /// `take`: opens an input that an advice offers.
+    ConnectionPage(const std::function<void(const InputAddress&)>& take, QWidget* parent)
+        : QWidget(parent), m_findings(new QTextBrowser(this)) {
         m_findings->setAccessibleName(tr("What was found"));
         m_findings->setOpenLinks(false);
         setFocusProxy(m_findings);
@@ -67,8 +81,13 @@ public:
         column->setSpacing(fontMetrics().height() * 2 / 3);
         column->addLayout(row);
         column->addWidget(m_findings, 1);
-        connect(m_findings, &QTextBrowser::anchorClicked, this,
-                [](const QUrl& place) { openHelp(place.toString()); });
+        connect(m_findings, &QTextBrowser::anchorClicked, this, [this, take](const QUrl& link) {
+            if (const QString place = link.toString(); place.startsWith(kOffer)) {
+                take(m_offers.at(place.mid(kOffer.size()).toUInt()));
+            } else {
+                openHelp(place);
+            }
+        });
         connect(copy, &QPushButton::clicked, this, [this] { copyText(m_shown); });
     }
 
@@ -78,10 +97,12 @@ public:
             all.push_back(allIsWell(receiving));
         }
         m_shown.clear();
+        m_offers.clear();
         QString html;
         for (const Advice& advice : all) {
             m_shown += advice.text + QLatin1Char('\n') + advice.remedy + QStringLiteral("\n\n");
-            html += htmlOf(advice);
+            html += htmlOf(advice, m_offers.size());
+            m_offers.push_back(advice.offer.value_or(InputAddress()));
         }
         if (html != m_html) { // else what is selected in it stays
             m_html = html;
@@ -94,6 +115,7 @@ public:
 
 private:
     QTextBrowser* m_findings;
+    std::vector<InputAddress> m_offers; ///< one for each advice
     QString m_html;
     QString m_shown;
 };
@@ -104,7 +126,7 @@ InputsDialog::InputsDialog(Receiving& receiving, QWidget* parent)
       m_tabs(new QTabWidget(this)),
       m_inputs(new InputsPage(receiving, this)),
       m_relay(new RelayPage(receiving.relaying(), this)),
-      m_help(new ConnectionPage(this)) {
+      m_help(new ConnectionPage([this](const InputAddress& offer) { takeOffer(offer); }, this)) {
     setObjectName(QStringLiteral("sourcesDialog"));
     setWindowTitle(tr("Inputs"));
     m_tabs->addTab(m_inputs, tr("&Inputs"));
@@ -122,6 +144,16 @@ InputsDialog::InputsDialog(Receiving& receiving, QWidget* parent)
     connect(m_relay, &RelayPage::choicesChanged, this, &InputsDialog::choicesChanged);
     const QFontMetrics metrics = fontMetrics();
     resize(metrics.averageCharWidth() * 165, metrics.lineSpacing() * 36);
+}
+
+void InputsDialog::takeOffer(const InputAddress& offer) {
+    const QString problem = m_receiving.tryPort(offer);
+    if (problem.isEmpty()) {
+        emit choicesChanged();
+        m_tabs->setCurrentIndex(static_cast<int>(Page::Inputs));
+    } else {
+        QMessageBox::warning(this, windowTitle(), problem);
+    }
 }
 
 QString InputsDialog::helpText() const {

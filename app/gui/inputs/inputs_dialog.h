@@ -38,6 +38,8 @@ signals:
     void openFileRequested();
 
 private:
+    void takeOffer(const InputAddress& offer);
+
     Receiving& m_receiving;
     QTabWidget* m_tabs;
     InputsPage* m_inputs;

@@ -119,6 +119,26 @@ Advice adviceOf(words::Kind kind) {
     }
 }
 
+/// MVN's Isaac Teleop preset has a port of its own; other senders may use the other transport.
+std::optional<InputAddress> offerFor(words::Kind kind, const std::vector<PortState>& ports) {
+    using Found = words::Kind;
+    constexpr std::uint16_t kTeleopPort = 9764;
+    const bool isTransport =
+        kind == Found::TcpKnocked || kind == Found::TcpRefused || kind == Found::OtherTransport;
+    if (ports.empty() || (!isTransport && kind != Found::NoListener)) {
+        return std::nullopt;
+    }
+    InputAddress offer = ports.front().port;
+    offer.groups.clear();
+    if (isTransport) {
+        offer.kind = offer.kind == Kind::Udp ? Kind::TcpListener : Kind::Udp;
+    } else {
+        offer.port = kTeleopPort;
+    }
+    const bool isOpen = std::ranges::find(ports, offer, &PortState::port) != ports.end();
+    return isOpen ? std::nullopt : std::optional(offer);
+}
+
 } // namespace
 
 std::vector<Advice> adviceOn(const ReceivingState& receiving) {
@@ -127,6 +147,7 @@ std::vector<Advice> adviceOn(const ReceivingState& receiving) {
         all.push_back(adviceOf(finding.kind));
         all.back().text = said(finding, words::Form::Sentence);
         all.back().remedy = said(finding, words::Form::Advice);
+        all.back().offer = offerFor(finding.kind, receiving.ports);
     }
     return all;
 }

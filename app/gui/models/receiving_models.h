@@ -57,7 +57,8 @@ struct Advice {
     QString text;
     QString remedy;
     std::optional<HelpTopic> topic{};
-    bool isCertain = false; ///< known of an input, not inferred from silence
+    bool isCertain = false;              ///< known of an input, not inferred from silence
+    std::optional<InputAddress> offer{}; ///< an input that is not open, and would show it
 };
 [[nodiscard]] std::vector<Advice> adviceOn(const ReceivingState& receiving);
 

@@ -12,8 +12,10 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
+#include <QRegularExpression>
 #include <QSignalSpy>
 #include <QTest>
+#include <QTextBrowser>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -315,6 +317,22 @@ TEST_F(InputsDialogTest, ALoopSwitchesItsTargetOffAndIsAnEvent) {
 TEST_F(InputsDialogTest, HelpSaysThatNothingIsListenedTo) {
     dialog.open(InputsDialog::Page::Help);
     EXPECT_TRUE(tickUntil([&] { return dialog.helpText().contains("No port is open."); }));
+}
+
+TEST_F(InputsDialogTest, HelpOffersToListenToTheOtherTransport) {
+    const std::uint16_t port = freePort();
+    type({"127.0.0.1", port});
+    dialog.open(InputsDialog::Page::Help);
+    auto* findings = dialog.findChild<QTextBrowser*>();
+    const auto offer = [&] {
+        return QRegularExpression(QStringLiteral("href=\"(offer:\\d+)\"")).match(findings->toHtml());
+    };
+    ASSERT_TRUE(tickUntil([&] { return offer().hasMatch(); }));
+    emit findings->anchorClicked(QUrl(offer().captured(1)));
+    EXPECT_EQ(ports().back().port, (InputAddress{"127.0.0.1", port, Kind::TcpListener}));
+    EXPECT_EQ(changed.count(), 2);
+    dialog.open(InputsDialog::Page::Help);
+    EXPECT_TRUE(tickUntil([&] { return !offer().hasMatch(); })) << "it is open";
 }
 
 TEST_F(InputsDialogTest, RelaysToTargetsAndRefusesThoseThatWouldComeBack) {
