@@ -61,6 +61,7 @@ enum class Kind : std::uint16_t {
     TimeCodeFrozen,
     TimeCodeWasFrozen,
     TwoSenders,
+    SentTwice,
     Contradiction,
     SendsCounts,
     SendsNoCounts,

@@ -126,6 +126,16 @@ constexpr std::array kTable{
             .sentence = {"Character {id} comes from elsewhere at the same time: {others}."},
             .line = {"Also from {other}"},
             .brief = {"also from {other}"}},
+    Wording{
+        .kind = K::SentTwice,
+        .headline = {"{who} are sent twice, by {address} and also {others}",
+                     "{who} is sent twice, by {address} and also {others}"},
+        .sentence = {"The same datagrams of character {id} also come from {others}: counters and bytes are "
+                     "equal."},
+        .line = {"Also from {other}"},
+        .brief = {"also from {other}"},
+        .advice = {"If MVN sends by two network cards, leave one target in its Network Streamer, or listen "
+                   "on one address."}},
     Wording{.kind = K::Contradiction,
             .headline = {"{who}: {what}"},
             .sentence = {"{what}"},

@@ -209,8 +209,15 @@ bool Claims::meet(log::SenderId sender, const std::string& address) {
 
 void Claims::take(const log::Packet& packet, const wire::Header& header, std::string_view name,
                   Incidents& incidents) {
-    const Claim claim{packet.sender, m_sources[packet.sender].host, packet.stamp, packet.stamp,
-                      name.empty() ? 0 : std::hash<std::string_view>{}(name)};
+    constexpr std::size_t kTelling = 64; // bytes: counters, time code and the first item
+    const Claim claim{packet.sender,
+                      m_sources[packet.sender].host,
+                      packet.stamp,
+                      packet.stamp,
+                      name.empty() ? 0 : std::hash<std::string_view>{}(name),
+                      m_sources.size() < 2
+                          ? 0
+                          : wire::hashOf(packet.bytes.first(std::min(packet.bytes.size(), kTelling)))};
     // One host may send types from several ports.
     std::vector<Claim>& ofType = m_claims[{header.character, header.type()}];
     std::vector<Claim>& ofHosts = m_claimsOfHosts[header.character];
@@ -253,7 +260,13 @@ std::span<const Claims::Claim> Claims::turnOf(std::vector<Claim>& claims, const 
 }
 
 void Claims::report(std::span<const Claim> claims, const log::Packet& packet, std::uint8_t character,
-                    Incidents& incidents) const {
+                    Incidents& incidents) {
+    const Claim& newest = claims.back();
+    for (const Claim& other : claims) {
+        if (other.sender != newest.sender && other.beginning == newest.beginning) {
+            m_sources[other.sender].isTwin = m_sources[newest.sender].isTwin = true;
+        }
+    }
     for (auto own = claims.rbegin(); own != claims.rend(); ++own) {
         std::vector<std::string> others;
         for (const Claim& other : claims) {
@@ -265,7 +278,7 @@ void Claims::report(std::span<const Claim> claims, const log::Packet& packet, st
         std::ranges::sort(others); // so that the fact stays
         Occurrence one = Occurrence::at(IncidentKind::Conflict, own->sender, packet.stamp, packet.number);
         one.character = character;
-        one.detail = {words::Kind::TwoSenders,
+        one.detail = {m_sources[own->sender].isTwin ? words::Kind::SentTwice : words::Kind::TwoSenders,
                       {{"id", std::uint64_t{character}}, {"others", std::move(others)}}};
         incidents.report(one);
     }

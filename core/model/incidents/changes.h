@@ -83,18 +83,20 @@ private:
         log::SenderId sender{};
         std::size_t host = 0;
         log::Stamp stamp{};
-        log::Stamp since{};   ///< its first sample
-        std::size_t name = 0; ///< one number for each; 0 for none
+        log::Stamp since{};        ///< its first sample
+        std::size_t name = 0;      ///< one number for each; 0 for none
+        std::size_t beginning = 0; ///< of its newest datagram
     };
     struct Source {
         std::string address;
         std::size_t host = 0; ///< one number for each
+        bool isTwin = false;  ///< sends what another sends, byte by byte
     };
     template <class Key>
     static std::span<const Claim> turnOf(std::vector<Claim>& claims, const Claim& claim, Key Claim::*key);
     [[nodiscard]] static bool areOthers(const Claim& one, const Claim& other);
     void report(std::span<const Claim> claims, const log::Packet& packet, std::uint8_t character,
-                Incidents& incidents) const;
+                Incidents& incidents);
 
     std::map<log::SenderId, Source> m_sources;
     /// By character and type, each sender once, the newest last.

@@ -229,6 +229,18 @@ TEST_F(IncidentBounds, TwoSendersConflictWhereOneComesBackWithinASecond) {
     EXPECT_EQ(namesIn(conflict.detail, "others"), std::vector<std::string>{"127.0.0.1:40002"});
 }
 
+TEST_F(IncidentBounds, OneSenderWithTwoNetworkCardsIsKnownByItsBytes) {
+    for (std::uint32_t sample = 1; sample <= 400; ++sample, m_at += 10ms) {
+        pose(sample);
+        pose(sample, "127.0.0.2:40001");
+    }
+    const auto conflicts = of(IncidentKind::Conflict);
+    ASSERT_EQ(conflicts.size(), 2U);
+    for (const Incident& one : conflicts) {
+        EXPECT_EQ(one.detail.kind, words::Kind::SentTwice);
+    }
+}
+
 TEST_F(IncidentBounds, TwoSendersMaySendDifferentCharactersOrTypes) {
     for (std::uint32_t sample = 1; sample <= 100; ++sample, m_at += 10ms) {
         pose(sample);
