@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/base/logging.h"
 
-#include <QString>
 
 namespace posewire::gui {
 

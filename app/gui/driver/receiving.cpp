@@ -6,8 +6,6 @@
 #include "app/gui/base/saving.h"
 
 #include <QCoreApplication>
-#include <QFile>
-#include <QFileInfo>
 
 #include <algorithm>
 #include <utility>

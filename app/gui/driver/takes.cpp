@@ -7,7 +7,6 @@
 #include "core/model/session/listed_incidents.h"
 #include "core/words/say.h"
 
-#include <QCoreApplication>
 #include <QDateTime>
 #include <QDir>
 #include <QFile>

@@ -11,7 +11,6 @@
 #include "app/gui/theme/words.h"
 
 #include <QDialogButtonBox>
-#include <QLabel>
 #include <QMessageBox>
 #include <QPushButton>
 #include <QTabWidget>

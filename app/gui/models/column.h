@@ -8,7 +8,6 @@
 #include <QVariant>
 
 #include <algorithm>
-#include <cstdint>
 #include <functional>
 #include <initializer_list>
 #include <type_traits>

@@ -9,7 +9,6 @@
 #include "core/wire/type_table.h"
 
 #include <algorithm>
-#include <array>
 
 namespace posewire::gui {
 

@@ -10,7 +10,6 @@
 #include "core/model/session/roster.h"
 #include "core/wire/text.h"
 
-#include <QDateTime>
 
 #include <algorithm>
 #include <limits>

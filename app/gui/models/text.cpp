@@ -5,7 +5,6 @@
 #include "core/model/text.h"
 #include "core/wire/type_table.h"
 
-#include <QCoreApplication>
 #include <QDateTime>
 
 #include <cmath>

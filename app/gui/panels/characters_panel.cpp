@@ -12,9 +12,7 @@
 #include "core/model/session/verdict.h"
 
 #include <QEvent>
-#include <QHBoxLayout>
 #include <QItemSelectionModel>
-#include <QLabel>
 #include <QMenu>
 #include <QToolButton>
 

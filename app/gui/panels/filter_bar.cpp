@@ -5,7 +5,6 @@
 #include "app/gui/theme/widgets.h"
 
 #include <QAction>
-#include <QHBoxLayout>
 #include <QJsonArray>
 #include <QMenu>
 #include <QProgressBar>

@@ -11,10 +11,8 @@
 #include "core/model/session/messages.h"
 
 #include <QAction>
-#include <QHBoxLayout>
 #include <QMouseEvent>
 #include <QPainter>
-#include <QVBoxLayout>
 
 #include <algorithm>
 

@@ -11,7 +11,6 @@
 #include "core/model/session/roster.h"
 
 #include <QEvent>
-#include <QLabel>
 #include <QPainter>
 #include <QToolButton>
 

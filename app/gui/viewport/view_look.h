@@ -6,7 +6,6 @@
 
 #include <QPointF>
 #include <QRectF>
-#include <QSizeF>
 
 #include <array>
 #include <vector>

@@ -13,7 +13,6 @@
 #include <QDialogButtonBox>
 #include <QDoubleSpinBox>
 #include <QFormLayout>
-#include <QLabel>
 #include <QPushButton>
 #include <QSystemTrayIcon>
 #include <QVBoxLayout>

@@ -28,7 +28,6 @@
 #include <QDir>
 #include <QDockWidget>
 #include <QKeyEvent>
-#include <QLabel>
 #include <QMenu>
 #include <QMenuBar>
 #include <QScreen>

@@ -18,7 +18,6 @@
 #include <QFile>
 #include <QFileInfo>
 #include <QFormLayout>
-#include <QLabel>
 #include <QListWidget>
 #include <QPushButton>
 #include <QTimer>

@@ -11,9 +11,7 @@
 
 #include <QAccessible>
 #include <QAction>
-#include <QLabel>
 #include <QPainter>
-#include <QStyle>
 #include <QToolButton>
 
 #include <algorithm>
