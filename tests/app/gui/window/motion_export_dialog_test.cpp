@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/window/motion_export_dialog.h"
+#include "app/gui/window/export_dialogs.h"
 
 #include "tests/app/gui/models/stage.h"
 

@@ -2,22 +2,20 @@
 #pragma once
 
 #include "app/gui/base/background.h"
+#include "app/gui/base/playback.h"
+#include "app/gui/theme/widgets.h"
+#include "app/gui/viewport/viewport_widget.h"
 #include "core/export/motion/motion_export.h"
 #include "core/model/session/session_view.h"
 
 #include <QDialog>
 
+#include <QListWidget>
+#include <QPushButton>
+#include <QTimer>
 #include <memory>
 
-class QComboBox;
-class QLabel;
-class QListWidget;
-class QPushButton;
-class QTimer;
-
 namespace posewire::gui {
-
-class RangeBox;
 
 /// Writes the motion of characters to files that other programs read. What is received goes on meanwhile; the
 /// window waits only where this is closed before it is done.
@@ -30,7 +28,7 @@ public:
     ~MotionExportDialog() override;
 
     /// Writes, on a thread of its own, what is chosen. A file that is there is replaced.
-    void save(const QString& path);
+    void save(const QString& path) { begin(jobFor(path)); }
 
 private:
     using Result = tl::expected<std::vector<exporting::ExportedMotion>, log::FileError>;
@@ -48,15 +46,20 @@ private:
     void showState(const QString& text);
 
     model::SessionView& m_view;
-    QComboBox* m_format;
-    QLabel* m_about;
-    RangeBox* m_range;
-    QListWidget* m_characters;
-    QLabel* m_state;
-    QPushButton* m_button;
-    QTimer* m_watch;
+    QComboBox* m_format = new ComboBox(this);
+    QLabel* m_about = dimText({}, this);
+    RangeBox* m_range = new RangeBox(this);
+    QListWidget* m_characters = new QListWidget(this);
+    QLabel* m_state = dimText({}, this);
+    QPushButton* m_button = new QPushButton(this);
+    QTimer* m_watch = new QTimer(this);
     std::shared_ptr<Job> m_job; ///< written last, or now
     std::unique_ptr<Background<Result>> m_work;
 };
+
+/// Asks which pictures of the viewport to write as PNG, of this moment or a series of a time, and writes them
+/// until it is closed. The window shows the moments as they are drawn; what is received goes on meanwhile.
+void showPicturesDialog(const Commands& commands, Playback& playback, const ComparisonState& comparison,
+                        const ViewportWidget& viewport, QWidget* parent);
 
 } // namespace posewire::gui
