@@ -63,11 +63,6 @@ bool isToRestore(const Options& options) {
     return options.file.isEmpty() && options.comparedFile.isEmpty() && !asksForInputs;
 }
 
-/// What is asked for; where nothing is, what was shown, if it is still there.
-QString fileToOpen(const Options& options, const Settings& settings) {
-    return isToRestore(options) && QFileInfo(settings.file).isFile() ? settings.file : options.file;
-}
-
 void openComparison(MainWindow& window, const Options& options, const Settings& settings) {
     const QString file = isToRestore(options) ? settings.comparedFile : options.comparedFile;
     if (file.isEmpty()) {
@@ -100,7 +95,9 @@ void openInputs(MainWindow& window, const Options& options, const Settings& sett
     if (options.demoCharacters > 0) {
         driver.demo().setCharacters(options.demoCharacters);
     }
-    const QString file = fileToOpen(options, settings);
+    // What is asked for; where nothing is, what was shown, if it is still there.
+    const QString file =
+        isToRestore(options) && QFileInfo(settings.file).isFile() ? settings.file : options.file;
     if (!file.isEmpty()) {
         window.opening().open(file);
         if (OpenedFile* opened = driver.files().file(); isToRestore(options) && opened != nullptr) {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/theme/theme.h"
 
-#include "app/gui/theme/desktop_theme.h"
-
 #include <QFile>
 #include <QFontDatabase>
 #include <QFontMetrics>
@@ -261,6 +259,37 @@ const HealthLook& lookOf(Health health) {
     return kLooks[static_cast<std::size_t>(health)];
 }
 
+class TintedIcon final : public QIconEngine {
+public:
+    TintedIcon(QByteArray svg, QColor colour) : m_svg(std::move(svg)), m_colour(std::move(colour)) {}
+
+    void paint(QPainter* painter, const QRect& rectangle, QIcon::Mode mode, QIcon::State /*state*/) override {
+        const QColor colour = mode == QIcon::Disabled ? theme().dim : m_colour;
+        QByteArray tinted = m_svg;
+        tinted.replace("currentColor", colour.name().toLatin1());
+        QSvgRenderer renderer(tinted);
+        renderer.render(painter, QRectF(rectangle));
+    }
+
+    QPixmap pixmap(const QSize& size, QIcon::Mode mode, QIcon::State state) override {
+        QPixmap pixmap(size);
+        pixmap.fill(Qt::transparent);
+        QPainter painter(&pixmap);
+        paint(&painter, QRect(QPoint(), size), mode, state);
+        return pixmap;
+    }
+
+    [[nodiscard]] QIconEngine* clone() const override { return new TintedIcon(*this); }
+
+private:
+    QByteArray m_svg;
+    QColor m_colour;
+};
+
+/// Keeps line breaks.
+const QString kBegin = QStringLiteral("<qt><span style=\"white-space:pre-wrap\">");
+const QString kEnd = QStringLiteral("</span></qt>");
+
 } // namespace
 
 const Theme& theme() {
@@ -335,37 +364,6 @@ QString healthText(Health health, const QString& text) {
     return healthSymbol(health) + QLatin1Char(' ') + text;
 }
 
-namespace {
-
-class TintedIcon final : public QIconEngine {
-public:
-    TintedIcon(QByteArray svg, QColor colour) : m_svg(std::move(svg)), m_colour(std::move(colour)) {}
-
-    void paint(QPainter* painter, const QRect& rectangle, QIcon::Mode mode, QIcon::State /*state*/) override {
-        const QColor colour = mode == QIcon::Disabled ? theme().dim : m_colour;
-        QByteArray tinted = m_svg;
-        tinted.replace("currentColor", colour.name().toLatin1());
-        QSvgRenderer renderer(tinted);
-        renderer.render(painter, QRectF(rectangle));
-    }
-
-    QPixmap pixmap(const QSize& size, QIcon::Mode mode, QIcon::State state) override {
-        QPixmap pixmap(size);
-        pixmap.fill(Qt::transparent);
-        QPainter painter(&pixmap);
-        paint(&painter, QRect(QPoint(), size), mode, state);
-        return pixmap;
-    }
-
-    [[nodiscard]] QIconEngine* clone() const override { return new TintedIcon(*this); }
-
-private:
-    QByteArray m_svg;
-    QColor m_colour;
-};
-
-} // namespace
-
 QIcon themedIcon(const QString& name, const QColor& colour) {
     QFile file(QStringLiteral(":/icons/%1.svg").arg(name));
     if (!file.open(QIODevice::ReadOnly)) {
@@ -377,14 +375,6 @@ QIcon themedIcon(const QString& name, const QColor& colour) {
 QIcon applicationIcon() {
     return QIcon(QStringLiteral(":/icons/posewire.svg"));
 }
-
-namespace {
-
-/// Keeps line breaks.
-const QString kBegin = QStringLiteral("<qt><span style=\"white-space:pre-wrap\">");
-const QString kEnd = QStringLiteral("</span></qt>");
-
-} // namespace
 
 QString toolTipText(const QString& plain) {
     return Qt::mightBeRichText(plain) ? kBegin + plain.toHtmlEscaped() + kEnd : plain;

@@ -8,6 +8,8 @@
 #include <QString>
 #include <QVariant>
 
+class QPalette;
+
 namespace posewire::gui {
 
 /// Every colour of the window; no other file has one.
@@ -41,6 +43,9 @@ enum class ThemeChoice { System, Dark, Light };
 /// A colour of text for a selected row: mixed with the text's own until it stands out as 4.5 : 1.
 [[nodiscard]] QColor onSelection(const QColor& colour);
 
+/// What a choice means on a desktop with that palette. One whose texts are black on white, or white on black,
+/// wants high contrast, and gets it where its theme is followed.
+[[nodiscard]] Theme themeFor(ThemeChoice choice, const QPalette& desktop);
 void applyTheme(QApplication& application, ThemeChoice choice);
 
 /// Fonts from the desktop's own, sizes from its metrics.

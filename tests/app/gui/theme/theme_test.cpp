@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/theme/theme.h"
 
-#include "app/gui/theme/desktop_theme.h"
-
 #include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QLineEdit>
