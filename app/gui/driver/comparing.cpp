@@ -28,6 +28,15 @@ Table tableOf(const Table& known, const feed::PoseSource& source, const exportin
     return table ? std::make_shared<const exporting::Timetable>(std::move(*table)) : nullptr;
 }
 
+/// Between the end of one comparison and the begin of the next, if only the moment has moved on; and this
+/// many times as long as it took, so that it never takes more than a tenth of a processor.
+constexpr log::Duration kPause = std::chrono::milliseconds(500);
+constexpr int kRest = 9;
+
+exporting::SampleMoment momentOf(const model::CharacterPose& pose) {
+    return {pose.sample, pose.timeCode, pose.stamp, pose.packet};
+}
+
 } // namespace
 
 ComparisonOutcome compared(const ComparisonOrder& order, const exporting::ExportProgress& progress) {
@@ -63,19 +72,6 @@ std::string writeDifferences(const ComparisonOrder& order,
     const auto written = exporting::writeComparisonCsv(task, segments, path, replacing(), progress);
     return written ? std::string() : written.error().text;
 }
-
-namespace {
-
-/// Between the end of one comparison and the begin of the next, if only the moment has moved on; and this
-/// many times as long as it took, so that it never takes more than a tenth of a processor.
-constexpr log::Duration kPause = std::chrono::milliseconds(500);
-constexpr int kRest = 9;
-
-exporting::SampleMoment momentOf(const model::CharacterPose& pose) {
-    return {pose.sample, pose.timeCode, pose.stamp, pose.packet};
-}
-
-} // namespace
 
 Comparing::Comparing(Commands& commands, const log::Clock& clock, QString cacheFolder)
     : m_commands(commands), m_clock(clock), m_cacheFolder(std::move(cacheFolder)) {
@@ -209,7 +205,10 @@ bool Comparing::follow(log::Duration most) {
     const auto before = m_file->session().choices().cursor;
     const bool hadPartner = m_state.atCursor.has_value();
     followCursor(shown);
-    describe(shown);
+    m_state.isWorking = m_work != nullptr || m_file->isReading();
+    m_state.share = m_file->isReading() ? m_file->share() : m_work != nullptr ? m_work->share() : 0;
+    m_state.problem = problemOf(shown);
+    addNotes();
     if (wasReading && !m_file->isReading()) {
         emit changed();
     }
@@ -351,13 +350,6 @@ void Comparing::followCursor(model::SessionView& shown) {
         differenceOf(*first, *second, choice.frame, difference)) {
         m_state.atCursor = std::move(difference);
     }
-}
-
-void Comparing::describe(model::SessionView& shown) {
-    m_state.isWorking = m_work != nullptr || m_file->isReading();
-    m_state.share = m_file->isReading() ? m_file->share() : m_work != nullptr ? m_work->share() : 0;
-    m_state.problem = problemOf(shown);
-    addNotes();
 }
 
 QString Comparing::problemOf(model::SessionView& shown) const {

@@ -111,7 +111,6 @@ private:
     [[nodiscard]] Subject subjectOf(const model::SessionView& shown) const;
     [[nodiscard]] ComparisonOrder orderFor(const model::SessionView& shown) const;
     void followCursor(model::SessionView& shown);
-    void describe(model::SessionView& shown);
     [[nodiscard]] QString problemOf(model::SessionView& shown) const;
     void addNotes();
 

@@ -49,6 +49,16 @@ ImportResult visitFile(const QString& path, const log::FileVisitor& visit,
     return isRead ? ImportResult(text) : tl::unexpected(text);
 }
 
+/// At once, so that the time that was given is kept to.
+constexpr std::size_t kPacketsInTurn = 1'000;
+
+/// The file is read again if this is too little.
+constexpr std::size_t kMemoryCap = std::size_t{64} << 20;
+
+log::LogLimits limitsOf(const log::Scratch& scratch) {
+    return scratch.hasFile() ? log::LogLimits{.memoryCap = kMemoryCap} : log::LogLimits{};
+}
+
 } // namespace
 
 ImportResult importRawFile(const QString& path, const PacketTaker& take, log::Stamp end,
@@ -226,20 +236,6 @@ std::optional<ImportResult> FileImport::result() const {
     const std::lock_guard lock(m_mutex);
     return m_result;
 }
-
-namespace {
-
-/// At once, so that the time that was given is kept to.
-constexpr std::size_t kPacketsInTurn = 1'000;
-
-/// The file is read again if this is too little.
-constexpr std::size_t kMemoryCap = std::size_t{64} << 20;
-
-log::LogLimits limitsOf(const log::Scratch& scratch) {
-    return scratch.hasFile() ? log::LogLimits{.memoryCap = kMemoryCap} : log::LogLimits{};
-}
-
-} // namespace
 
 OpenedFile::OpenedFile(const log::Clock& clock, QString path, const QString& cacheFolder)
     : m_clock(clock),

@@ -31,13 +31,6 @@
 
 namespace posewire::gui {
 
-class PacketLog;
-class Timeline;
-
-} // namespace posewire::gui
-
-namespace posewire::gui {
-
 /// Read well, with why it was not read to its end, if so; or why it could not be read. For the operator.
 using ImportResult = tl::expected<QString, QString>;
 using PacketTaker = std::function<void(const log::FileRecord& record, const log::SenderInfo& sender,

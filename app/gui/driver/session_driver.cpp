@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/driver/session_driver.h"
 
+#include "app/gui/base/logging.h"
 #include "app/net/datagram_sender.h"
 #include "app/system/process_figures.h"
 #include "core/model/session/roster.h"
+#include "core/model/session/verdict.h"
 #include "core/performer/performer.h"
 #include "core/wire/codec.h"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace posewire::gui {
@@ -50,7 +53,93 @@ void sendDemo(const std::stop_token& stop, int characters, const net::Endpoint& 
     }
 }
 
+std::optional<double> shareOf(const std::optional<double>& before, const std::optional<double>& now,
+                              double seconds) {
+    return before && now ? std::optional((*now - *before) / seconds) : std::nullopt;
+}
+
+constexpr std::chrono::milliseconds kTick(16);
+constexpr std::chrono::milliseconds kSlowestTick(200);
+constexpr log::Duration kTableTick = std::chrono::milliseconds(100);
+constexpr log::Duration kRetry = std::chrono::seconds(2);
+/// A backlog (a file, or a window that was blocked) is followed in pieces, so that the window stays awake: as
+/// many as fit into this time of each tick.
+constexpr std::size_t kPacketsAtOnce = 1'000;
+constexpr log::Duration kFollowTime = std::chrono::milliseconds(12);
+
 } // namespace
+
+Files::Files(Commands& commands, const log::Clock& clock, const QString& cacheFolder)
+    : m_commands(commands),
+      m_clock(clock),
+      m_cacheFolder(cacheFolder),
+      m_comparing(commands, clock, cacheFolder) {}
+
+void Files::open(const QString& path) {
+    close();
+    qCInfo(filesLog).noquote() << "opening" << path;
+    m_file = std::make_unique<OpenedFile>(m_clock, path, m_cacheFolder);
+    m_file->session().setUsual(m_commands.usual());
+    m_file->session().setThresholds(m_commands.live().verdicts().thresholds());
+}
+
+bool Files::follow(log::Duration most) {
+    const bool hasRead = isReading() && read(most);
+    return m_comparing.follow(most) || hasRead;
+}
+
+bool Files::read(log::Duration most) {
+    const bool isFirst = m_file->session().end() == 0;
+    const bool hasNew = m_file->follow(most);
+    if (hasNew && isFirst) {
+        show();
+    }
+    if (const QString failure = m_file->failure(); !failure.isEmpty()) {
+        qCInfo(filesLog).noquote() << "not opened:" << failure;
+        close();
+        emit opened(false, failure);
+    } else if (!m_file->isReading()) {
+        qCInfo(filesLog) << "read," << m_file->session().end() << "packets";
+        emit opened(true, m_file->notes().join(QLatin1Char(' ')));
+    }
+    return hasNew && m_commands.isFileShown();
+}
+
+QString Files::openingText() const {
+    const OpenedFile* file = isReading() ? m_file.get() : m_comparing.file();
+    return isOpening() ? tr("Opening %1: %2 %").arg(file->name()).arg(std::floor(100 * file->share()))
+                       : QString();
+}
+
+void Files::cancelOpening() {
+    if (!isReading()) {
+        m_comparing.stopReading();
+        return;
+    }
+    m_file->stop();
+    const QString text = m_file->notes().join(QLatin1Char(' '));
+    if (m_file->session().end() == 0) {
+        close();
+    } else {
+        show();
+    }
+    emit opened(false, text);
+}
+
+void Files::show() {
+    if (m_file != nullptr && m_file->session().end() != 0) {
+        m_commands.show(m_file->session());
+    }
+}
+
+void Files::close() {
+    if (m_file != nullptr) {
+        m_commands.showLive();
+        emit closing();
+        m_comparing.endOf(m_file->session().log());
+        m_file.reset();
+    }
+}
 
 void Demo::setCharacters(int characters) {
     m_thread = {}; // stops and joins the one that runs
@@ -62,15 +151,6 @@ void Demo::setCharacters(int characters) {
     }
     emit changed();
 }
-
-namespace {
-
-std::optional<double> shareOf(const std::optional<double>& before, const std::optional<double>& now,
-                              double seconds) {
-    return before && now ? std::optional((*now - *before) / seconds) : std::nullopt;
-}
-
-} // namespace
 
 void HealthMeter::add(const Reading& reading) {
     const std::optional<Reading> before = std::exchange(m_before, reading);
@@ -92,19 +172,6 @@ void HealthMeter::add(const Reading& reading) {
     m_health.followShare = log::secondsOf(follow) / seconds;
     m_health.framesPerSecond = static_cast<double>(pictures) / seconds;
 }
-
-namespace {
-
-constexpr std::chrono::milliseconds kTick(16);
-constexpr std::chrono::milliseconds kSlowestTick(200);
-constexpr log::Duration kTableTick = std::chrono::milliseconds(100);
-constexpr log::Duration kRetry = std::chrono::seconds(2);
-/// A backlog (a file, or a window that was blocked) is followed in pieces, so that the window stays awake: as
-/// many as fit into this time of each tick.
-constexpr std::size_t kPacketsAtOnce = 1'000;
-constexpr log::Duration kFollowTime = std::chrono::milliseconds(12);
-
-} // namespace
 
 SessionDriver::SessionDriver(const log::Clock& clock, const QString& cacheFolder, QObject* parent)
     : QObject(parent),

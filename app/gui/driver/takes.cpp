@@ -19,14 +19,12 @@ namespace {
 
 constexpr std::size_t kMostNotes = 1'000;
 
-QDateTime localTime(log::WallTime time) {
-    return QDateTime::fromMSecsSinceEpoch(log::nanosecondsOf(time) / 1'000'000);
-}
-
 log::RecordedMark markOn(const model::SessionView& live, std::uint64_t packet, const std::string& comment) {
     const auto found = live.packet(packet);
     const QString when =
-        found ? localTime(live.wallOf(found->stamp)).toString(QStringLiteral("HH:mm:ss.zzz")) : QString();
+        found ? QDateTime::fromMSecsSinceEpoch(log::nanosecondsOf(live.wallOf(found->stamp)) / 1'000'000)
+                    .toString(QStringLiteral("HH:mm:ss.zzz"))
+              : QString();
     return {packet, when.toStdString(), comment};
 }
 
