@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/inputs/inputs_page.h"
 
-#include "app/gui/theme/widgets.h"
 #include "app/gui/theme/words.h"
 
 #include <QGridLayout>
 #include <QHostAddress>
 #include <QKeyEvent>
 #include <QLabel>
-#include <QLineEdit>
 #include <QRegularExpression>
-#include <QSpinBox>
 
 namespace posewire::gui {
 
@@ -74,13 +71,7 @@ tl::expected<InputAddress, QString> readInput(const InputAddress& typed) {
     return input;
 }
 
-InputForm::InputForm(QWidget* parent)
-    : QWidget(parent),
-      m_protocol(new ComboBox(this)),
-      m_host(new QLineEdit(this)),
-      m_port(new QSpinBox(this)),
-      m_groups(new QLineEdit(this)),
-      m_note(new Note(this)) {
+InputForm::InputForm(QWidget* parent) : QWidget(parent) {
     m_protocol->addItem(tr("UDP"), static_cast<int>(Kind::Udp));
     m_protocol->addItem(tr("TCP, listening"), static_cast<int>(Kind::TcpListener));
     m_protocol->addItem(tr("TCP, connecting"), static_cast<int>(Kind::TcpConnection));

@@ -13,7 +13,6 @@
 #include <QDialogButtonBox>
 #include <QMessageBox>
 #include <QPushButton>
-#include <QTabWidget>
 #include <QTextBrowser>
 #include <QVBoxLayout>
 
@@ -66,8 +65,7 @@ QString htmlOf(const Advice& advice, std::size_t place) {
 class ConnectionPage final : public QWidget {
 public:
     /// `take`: opens an input that an advice offers.
-    ConnectionPage(const std::function<void(const InputAddress&)>& take, QWidget* parent)
-        : QWidget(parent), m_findings(new QTextBrowser(this)) {
+    ConnectionPage(const std::function<void(const InputAddress&)>& take, QWidget* parent) : QWidget(parent) {
         m_findings->setAccessibleName(tr("What was found"));
         m_findings->setOpenLinks(false);
         setFocusProxy(m_findings);
@@ -113,7 +111,7 @@ public:
     [[nodiscard]] const QString& text() const { return m_shown; }
 
 private:
-    QTextBrowser* m_findings;
+    QTextBrowser* m_findings = new QTextBrowser(this);
     std::vector<InputAddress> m_offers; ///< one for each advice
     QString m_html;
     QString m_shown;
@@ -122,7 +120,6 @@ private:
 InputsDialog::InputsDialog(Receiving& receiving, QWidget* parent)
     : QDialog(parent),
       m_receiving(receiving),
-      m_tabs(new QTabWidget(this)),
       m_inputs(new InputsPage(receiving, this)),
       m_relay(new RelayPage(receiving.relaying(), this)),
       m_help(new ConnectionPage([this](const InputAddress& offer) { takeOffer(offer); }, this)) {
@@ -155,10 +152,6 @@ void InputsDialog::takeOffer(const InputAddress& offer) {
     }
 }
 
-QString InputsDialog::helpText() const {
-    return m_help->text();
-}
-
 void InputsDialog::open(Page page) {
     m_tabs->setCurrentIndex(static_cast<int>(page));
     show();
@@ -183,6 +176,10 @@ void InputsDialog::refresh() {
         m_help->refresh(m_receiving.state());
         return;
     }
+}
+
+QString InputsDialog::helpText() const {
+    return m_help->text();
 }
 
 } // namespace posewire::gui

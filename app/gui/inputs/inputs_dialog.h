@@ -4,8 +4,7 @@
 #include "app/gui/driver/receiving.h"
 
 #include <QDialog>
-
-class QTabWidget;
+#include <QTabWidget>
 
 namespace posewire::gui {
 
@@ -41,7 +40,7 @@ private:
     void takeOffer(const InputAddress& offer);
 
     Receiving& m_receiving;
-    QTabWidget* m_tabs;
+    QTabWidget* m_tabs = new QTabWidget(this);
     InputsPage* m_inputs;
     RelayPage* m_relay;
     ConnectionPage* m_help;

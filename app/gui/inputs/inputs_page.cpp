@@ -2,11 +2,8 @@
 #include "app/gui/inputs/inputs_page.h"
 
 #include "app/gui/base/saving.h"
-#include "app/gui/inputs/undo_removal.h"
 #include "app/gui/models/text.h"
-#include "app/gui/panels/table_view.h"
 #include "app/gui/theme/theme.h"
-#include "app/gui/theme/widgets.h"
 #include "app/gui/theme/words.h"
 
 #include <QGridLayout>
@@ -14,8 +11,6 @@
 #include <QItemSelectionModel>
 #include <QKeyEvent>
 #include <QLabel>
-#include <QLineEdit>
-#include <QPushButton>
 #include <QShortcut>
 #include <QToolButton>
 #include <QVBoxLayout>
@@ -70,11 +65,7 @@ std::vector<net::LocalAddress> hostsFor(const InputAddress& input,
 class SenderSettings final : public QWidget {
 public:
     explicit SenderSettings(QWidget* parent)
-        : QWidget(parent),
-          m_grid(new QGridLayout(this)),
-          m_title(plainLabel(this)),
-          m_port(valueLabel(this)),
-          m_protocol(valueLabel(this)) {
+        : QWidget(parent), m_port(valueLabel(this)), m_protocol(valueLabel(this)) {
         m_title->setWordWrap(true);
         m_grid->setContentsMargins(0, 0, 0, 0);
         m_grid->setHorizontalSpacing(fontMetrics().height());
@@ -142,30 +133,16 @@ private:
         }
     }
 
-    QGridLayout* m_grid;
-    QLabel* m_title;
+    QGridLayout* m_grid = new QGridLayout(this);
+    QLabel* m_title = plainLabel(this);
     QLabel* m_port;
     QLabel* m_protocol;
     std::vector<HostRow> m_rows;
 };
 
 InputsPage::InputsPage(Receiving& receiving, QWidget* parent)
-    : QWidget(parent),
-      m_receiving(receiving),
-      m_model(new InputModel(this)),
-      m_table(new TableView(tr("Inputs"), this)),
-      m_form(new InputForm(this)),
-      m_settings(new SenderSettings(this)),
-      m_allowed(new QLineEdit(this)),
-      m_allowedNote(new Note(this)),
-      m_state(plainLabel(this)),
-      m_edit(new QPushButton(tr("&Edit"), this)),
-      m_remove(new QPushButton(tr("&Remove"), this)),
-      m_undo(new UndoRemoval(this)),
-      m_openFile(new QPushButton(tr("&Open file…"), this)),
-      m_submit(new QPushButton(this)),
-      m_cancel(new QPushButton(tr("Cancel"), this)) {
-    m_table->setModel(m_model);
+    : QWidget(parent), m_receiving(receiving), m_settings(new SenderSettings(this)) {
+    m_table->setModel(&m_model);
     m_table->setEmptyText(tr("There are no inputs. Add one below: by default MVN sends to UDP port 9763."));
     layOut();
     setFocusProxy(m_table);
@@ -245,10 +222,6 @@ void InputsPage::applyAllowed() {
     showAllowedNote();
 }
 
-QString InputsPage::allowedNote() const {
-    return m_allowedNote->text();
-}
-
 /// What is wrong with what is typed, else with whose name is looked up, else what the field is for.
 void InputsPage::showAllowedNote() {
     const ReceivingState& state = m_receiving.state();
@@ -266,16 +239,16 @@ void InputsPage::showAllowedNote() {
 }
 
 void InputsPage::refresh() {
-    m_model->refresh(m_receiving.state());
+    m_model.refresh(m_receiving.state());
     showAllowedNote();
-    if (!m_table->currentIndex().isValid() && m_model->rowCount() > 0) {
-        m_table->setCurrentIndex(m_model->index(0, 0));
+    if (!m_table->currentIndex().isValid() && m_model.rowCount() > 0) {
+        m_table->setCurrentIndex(m_model.index(0, 0));
     }
     showChoice();
 }
 
 std::optional<InputAddress> InputsPage::selected() const {
-    return m_model->input(m_table->currentIndex().row());
+    return m_model.input(m_table->currentIndex().row());
 }
 
 void InputsPage::showChoice() {
@@ -290,8 +263,8 @@ void InputsPage::showChoice() {
 }
 
 void InputsPage::select(const InputAddress& input) {
-    if (const int row = m_model->rowOf(input); row >= 0) {
-        m_table->setCurrentIndex(m_model->index(row, 0));
+    if (const int row = m_model.rowOf(input); row >= 0) {
+        m_table->setCurrentIndex(m_model.index(row, 0));
     }
 }
 
@@ -336,7 +309,7 @@ void InputsPage::removeSelected() {
     if (!input) {
         return;
     }
-    const int row = m_model->rowOf(*input);
+    const int row = m_model.rowOf(*input);
     m_undo->carryOut(
         displayText(*input), [this, input = *input] { remove(input); },
         [this, input = *input, row] { putBack(input, row); });

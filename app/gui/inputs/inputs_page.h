@@ -2,27 +2,24 @@
 #pragma once
 
 #include "app/gui/driver/receiving.h"
+#include "app/gui/inputs/undo_removal.h"
 #include "app/gui/models/receiving_models.h"
+#include "app/gui/panels/table_view.h"
+#include "app/gui/theme/widgets.h"
 #include "app/net/endpoint.h"
 
+#include <QLineEdit>
+#include <QPushButton>
+#include <QSpinBox>
 #include <QWidget>
 
 #include <tl/expected.hpp>
 
 #include <vector>
 
-class QLabel;
-class QLineEdit;
-class QPushButton;
-class QSpinBox;
-
 namespace posewire::gui {
 
-class ComboBox;
-class Note;
 class SenderSettings;
-class TableView;
-class UndoRemoval;
 
 /// What the operator typed, made an address; the error says what is wrong with it, in a sentence. Groups may
 /// be separated by commas, semicolons or blanks. Nothing is opened or looked up.
@@ -55,11 +52,11 @@ protected:
 private:
     void changeKind();
 
-    ComboBox* m_protocol;
-    QLineEdit* m_host;
-    QSpinBox* m_port;
-    QLineEdit* m_groups;
-    Note* m_note;
+    ComboBox* m_protocol = new ComboBox(this);
+    QLineEdit* m_host = new QLineEdit(this);
+    QSpinBox* m_port = new QSpinBox(this);
+    QLineEdit* m_groups = new QLineEdit(this);
+    Note* m_note = new Note(this);
     QString m_problem;
 };
 
@@ -86,9 +83,9 @@ public:
 
     [[nodiscard]] InputForm& form() const { return *m_form; }
     [[nodiscard]] QLineEdit& allowedEdit() const { return *m_allowed; }
-    [[nodiscard]] QString allowedNote() const;
+    [[nodiscard]] QString allowedNote() const { return m_allowedNote->text(); }
     [[nodiscard]] TableView& table() const { return *m_table; }
-    [[nodiscard]] const InputModel& model() const { return *m_model; }
+    [[nodiscard]] const InputModel& model() const { return m_model; }
 
 signals:
     void choicesChanged();
@@ -106,20 +103,20 @@ private:
     [[nodiscard]] std::optional<InputAddress> selected() const;
 
     Receiving& m_receiving;
-    InputModel* m_model;
-    TableView* m_table;
-    InputForm* m_form;
+    InputModel m_model;
+    TableView* m_table = new TableView(tr("Inputs"), this);
+    InputForm* m_form = new InputForm(this);
     SenderSettings* m_settings;
-    QLineEdit* m_allowed; ///< hosts and nets to listen to
-    Note* m_allowedNote;
-    QString m_allowedProblem; ///< with what is typed
-    QLabel* m_state;          ///< of the selected one, in full
-    QPushButton* m_edit;
-    QPushButton* m_remove;
-    UndoRemoval* m_undo;
-    QPushButton* m_openFile;
-    QPushButton* m_submit;
-    QPushButton* m_cancel;
+    QLineEdit* m_allowed = new QLineEdit(this); ///< hosts and nets to listen to
+    Note* m_allowedNote = new Note(this);
+    QString m_allowedProblem;           ///< with what is typed
+    QLabel* m_state = plainLabel(this); ///< of the selected one, in full
+    QPushButton* m_edit = new QPushButton(tr("&Edit"), this);
+    QPushButton* m_remove = new QPushButton(tr("&Remove"), this);
+    UndoRemoval* m_undo = new UndoRemoval(this);
+    QPushButton* m_openFile = new QPushButton(tr("&Open file…"), this);
+    QPushButton* m_submit = new QPushButton(this);
+    QPushButton* m_cancel = new QPushButton(tr("Cancel"), this);
     std::optional<InputAddress> m_edited;
 };
 

@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/inputs/relay_page.h"
 
-#include "app/gui/inputs/undo_removal.h"
-#include "app/gui/panels/table_view.h"
-#include "app/gui/theme/widgets.h"
-
 #include <QHBoxLayout>
 #include <QHostAddress>
 #include <QItemSelectionModel>
 #include <QKeyEvent>
-#include <QLineEdit>
-#include <QPushButton>
 #include <QShortcut>
 #include <QVBoxLayout>
 
@@ -48,21 +42,12 @@ tl::expected<RelayChoice, QString> readRelay(const QString& text) {
     return RelayChoice{input->address, input->port};
 }
 
-RelayPage::RelayPage(Relaying& relaying, QWidget* parent)
-    : QWidget(parent),
-      m_relaying(relaying),
-      m_model(new RelayModel(this)),
-      m_table(new TableView(tr("Relay targets"), this)),
-      m_target(new QLineEdit(this)),
-      m_note(new Note(this)),
-      m_add(new QPushButton(tr("&Add target"), this)),
-      m_remove(new QPushButton(tr("&Remove"), this)),
-      m_undo(new UndoRemoval(this)) {
-    m_table->setModel(m_model);
+RelayPage::RelayPage(Relaying& relaying, QWidget* parent) : QWidget(parent), m_relaying(relaying) {
+    m_table->setModel(&m_model);
     m_table->setEmptyText(tr("Nothing is forwarded. Add the host of another program that needs the stream."));
     layOut();
     setFocusProxy(m_target);
-    connect(m_model, &RelayModel::switched, this, &RelayPage::switchTarget, Qt::QueuedConnection);
+    connect(&m_model, &RelayModel::switched, this, &RelayPage::switchTarget, Qt::QueuedConnection);
     connect(m_add, &QPushButton::clicked, this, &RelayPage::submit);
     connect(m_remove, &QPushButton::clicked, this, &RelayPage::removeSelected);
     connect(m_target, &QLineEdit::textChanged, this, [this] { setProblem({}); });
@@ -101,7 +86,7 @@ void RelayPage::layOut() {
 }
 
 void RelayPage::refresh() {
-    m_model->refresh(m_relaying.states());
+    m_model.refresh(m_relaying.states());
     m_remove->setEnabled(m_table->currentIndex().isValid());
     showNote();
 }
@@ -118,7 +103,7 @@ void RelayPage::submit() {
     }
     m_target->clear();
     refresh();
-    m_table->setCurrentIndex(m_model->index(m_model->rowCount() - 1, 0));
+    m_table->setCurrentIndex(m_model.index(m_model.rowCount() - 1, 0));
     emit choicesChanged();
 }
 
@@ -149,7 +134,7 @@ void RelayPage::remove(const RelayChoice& choice) {
 void RelayPage::putBack(const RelayChoice& choice, std::size_t row) {
     if (m_relaying.add(choice, row)) {
         refresh();
-        m_table->setCurrentIndex(m_model->index(static_cast<int>(row), 0));
+        m_table->setCurrentIndex(m_model.index(static_cast<int>(row), 0));
         emit choicesChanged();
     }
 }

@@ -2,18 +2,16 @@
 #pragma once
 
 #include "app/gui/driver/relaying.h"
+#include "app/gui/inputs/undo_removal.h"
 #include "app/gui/models/receiving_models.h"
+#include "app/gui/panels/table_view.h"
+#include "app/gui/theme/widgets.h"
 
+#include <QLineEdit>
+#include <QPushButton>
 #include <QWidget>
 
-class QLineEdit;
-class QPushButton;
-
 namespace posewire::gui {
-
-class Note;
-class TableView;
-class UndoRemoval;
 
 /// The hosts that every datagram is forwarded to, with what they got; adds, switches and removes them.
 class RelayPage final : public QWidget {
@@ -29,7 +27,7 @@ public:
 
     [[nodiscard]] QLineEdit& targetEdit() const { return *m_target; }
     [[nodiscard]] const QString& problem() const { return m_problem; }
-    [[nodiscard]] RelayModel& model() const { return *m_model; }
+    [[nodiscard]] RelayModel& model() { return m_model; }
 
 signals:
     void choicesChanged();
@@ -46,13 +44,13 @@ private:
     void showNote();
 
     Relaying& m_relaying;
-    RelayModel* m_model;
-    TableView* m_table;
-    QLineEdit* m_target;
-    Note* m_note;
-    QPushButton* m_add;
-    QPushButton* m_remove;
-    UndoRemoval* m_undo;
+    RelayModel m_model;
+    TableView* m_table = new TableView(tr("Relay targets"), this);
+    QLineEdit* m_target = new QLineEdit(this);
+    Note* m_note = new Note(this);
+    QPushButton* m_add = new QPushButton(tr("&Add target"), this);
+    QPushButton* m_remove = new QPushButton(tr("&Remove"), this);
+    UndoRemoval* m_undo = new UndoRemoval(this);
     QString m_problem;
 };
 

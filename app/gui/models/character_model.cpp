@@ -8,7 +8,6 @@
 #include "core/model/session/accounts.h"
 #include "core/model/session/messages.h"
 #include "core/model/session/roster.h"
-#include "core/model/session/verdict.h"
 #include "core/wire/type_table.h"
 
 #include <algorithm>
@@ -220,8 +219,8 @@ std::optional<double> NominalRates::of(const model::Stream& stream) const {
     return frameHz ? std::optional(*frameHz / stream.accounting.step()) : std::nullopt;
 }
 
-CharacterModel::CharacterModel(model::SessionView& view, Commands& commands, QObject* parent)
-    : TableModel(columns(view), parent), m_view(view), m_commands(commands) {}
+CharacterModel::CharacterModel(model::SessionView& view, Commands& commands)
+    : TableModel(columns(view)), m_view(view), m_commands(commands) {}
 
 void CharacterModel::refresh() {
     const auto keys = boardOf(m_view, m_order);
@@ -334,8 +333,8 @@ Qt::ItemFlags CharacterModel::flags(const QModelIndex& index) const {
     return flags;
 }
 
-CharacterDetailModel::CharacterDetailModel(model::SessionView& view, QObject* parent)
-    : TableModel(detailColumns(), parent), m_view(view) {}
+CharacterDetailModel::CharacterDetailModel(model::SessionView& view)
+    : TableModel(detailColumns()), m_view(view) {}
 
 void CharacterDetailModel::refresh(const std::optional<model::CharacterKey>& key, const NominalRates& rates) {
     std::vector<DetailRow> rows;
@@ -358,8 +357,7 @@ void CharacterDetailModel::refresh(const std::optional<model::CharacterKey>& key
     setRows(std::move(rows));
 }
 
-EndedSenderModel::EndedSenderModel(model::SessionView& view, QObject* parent)
-    : TableModel(endedColumns(), parent), m_view(view) {}
+EndedSenderModel::EndedSenderModel(model::SessionView& view) : TableModel(endedColumns()), m_view(view) {}
 
 void EndedSenderModel::refresh() {
     std::vector<EndedSender> rows;

@@ -78,7 +78,7 @@ public:
         kPose
     };
 
-    CharacterModel(model::SessionView& view, Commands& commands, QObject* parent = nullptr);
+    CharacterModel(model::SessionView& view, Commands& commands);
 
     void refresh();
     void setOrder(BoardOrder order) { m_order = order; }
@@ -105,7 +105,7 @@ private:
 /// The streams of one character, by type.
 class CharacterDetailModel : public TableModel<DetailRow> {
 public:
-    explicit CharacterDetailModel(model::SessionView& view, QObject* parent = nullptr);
+    explicit CharacterDetailModel(model::SessionView& view);
 
     void refresh(const std::optional<model::CharacterKey>& key, const NominalRates& rates);
 
@@ -124,7 +124,7 @@ struct EndedSender {
 /// Senders that have ended, in order of appearance.
 class EndedSenderModel : public TableModel<EndedSender> {
 public:
-    explicit EndedSenderModel(model::SessionView& view, QObject* parent = nullptr);
+    explicit EndedSenderModel(model::SessionView& view);
 
     void refresh();
 

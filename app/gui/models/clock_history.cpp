@@ -57,6 +57,55 @@ std::optional<double> millisecondsOf(std::string_view text) {
     return ((hours * 60.0 + minutes) * 60.0 + seconds) * 1000.0 + milliseconds;
 }
 
+PropertyValue header(const ClockHistory& clock) {
+    const auto milliseconds = clock.headerMs();
+    return {milliseconds ? tr("%1 · %2 ms").arg(milliClock(*milliseconds), grouped(*milliseconds)) : dash(),
+            Health::Unknown,
+            tr("Time code of every header: since the start of a recording, or the sender's time "
+               "of day when live")};
+}
+
+PropertyValue type25(const ClockHistory& clock) {
+    return {clock.type25() ? shownText(*clock.type25()) : tr("not on the air"), Health::Unknown,
+            tr("Wall clock that the sender sends as text. In MVN: Network Streamer > Time Code (type 25)")};
+}
+
+PropertyValue offset(const ClockHistory& clock) {
+    return {clock.offsetMs() ? clockDifference(*clock.offsetMs()) : dash(), Health::Unknown,
+            tr("Type 25 minus the header time code of the same datagram")};
+}
+
+PropertyValue drift(const ClockHistory& clock) {
+    const auto& found = clock.drift();
+    const QString none = clock.headerMs() ? tr("not yet known") : dash();
+    constexpr double kLeastShown = 0.05;
+    const bool isSeen = found && std::abs(found->skewPpm) >= kLeastShown;
+    const QString text =
+        !found   ? none
+        : isSeen ? tr("%1 ± %2 ppm").arg(signedFixed(found->skewPpm, 1), fixed(found->errorPpm, 1))
+                 : tr("none, ± %1 ppm").arg(fixed(found->errorPpm, 1));
+    return {text, Health::Unknown,
+            tr("How much faster the sender's header clock runs than this computer's, by the least delayed "
+               "samples of the last minute, ± its standard error. Not known as long as delays on the way "
+               "hide it.")};
+}
+
+PropertyValue frameRate(const ClockHistory& clock) {
+    const auto hz = clock.frameHz();
+    return {hz ? tr("%1 Hz").arg(fixed(*hz, 2)) : dash(), Health::Unknown,
+            tr("How far the sample counter moves on in a second of the sender's time code")};
+}
+
+PropertyValue lastJump(const ClockHistory& clock) {
+    const auto& jump = clock.lastJump();
+    const QString none = clock.headerMs() ? tr("none") : dash();
+    return {jump ? tr("%1 at %2").arg(clockDifference(jump->milliseconds), timeOfDay(jump->time).chopped(4))
+                 : none,
+            jump ? Health::Warning : Health::Unknown,
+            tr("The newest place where the time code did not advance with its samples, and when it "
+               "was received")};
+}
+
 } // namespace
 
 bool NominalRate::continues(const Mark& mark) const {
@@ -206,59 +255,6 @@ void ClockHistory::readType25(const model::Message* message) {
 std::optional<std::uint32_t> ClockHistory::headerMs() const {
     return m_newest ? std::optional(m_newest->timeCode) : std::nullopt;
 }
-
-namespace {
-
-PropertyValue header(const ClockHistory& clock) {
-    const auto milliseconds = clock.headerMs();
-    return {milliseconds ? tr("%1 · %2 ms").arg(milliClock(*milliseconds), grouped(*milliseconds)) : dash(),
-            Health::Unknown,
-            tr("Time code of every header: since the start of a recording, or the sender's time "
-               "of day when live")};
-}
-
-PropertyValue type25(const ClockHistory& clock) {
-    return {clock.type25() ? shownText(*clock.type25()) : tr("not on the air"), Health::Unknown,
-            tr("Wall clock that the sender sends as text. In MVN: Network Streamer > Time Code (type 25)")};
-}
-
-PropertyValue offset(const ClockHistory& clock) {
-    return {clock.offsetMs() ? clockDifference(*clock.offsetMs()) : dash(), Health::Unknown,
-            tr("Type 25 minus the header time code of the same datagram")};
-}
-
-PropertyValue drift(const ClockHistory& clock) {
-    const auto& found = clock.drift();
-    const QString none = clock.headerMs() ? tr("not yet known") : dash();
-    constexpr double kLeastShown = 0.05;
-    const bool isSeen = found && std::abs(found->skewPpm) >= kLeastShown;
-    const QString text =
-        !found   ? none
-        : isSeen ? tr("%1 ± %2 ppm").arg(signedFixed(found->skewPpm, 1), fixed(found->errorPpm, 1))
-                 : tr("none, ± %1 ppm").arg(fixed(found->errorPpm, 1));
-    return {text, Health::Unknown,
-            tr("How much faster the sender's header clock runs than this computer's, by the least delayed "
-               "samples of the last minute, ± its standard error. Not known as long as delays on the way "
-               "hide it.")};
-}
-
-PropertyValue frameRate(const ClockHistory& clock) {
-    const auto hz = clock.frameHz();
-    return {hz ? tr("%1 Hz").arg(fixed(*hz, 2)) : dash(), Health::Unknown,
-            tr("How far the sample counter moves on in a second of the sender's time code")};
-}
-
-PropertyValue lastJump(const ClockHistory& clock) {
-    const auto& jump = clock.lastJump();
-    const QString none = clock.headerMs() ? tr("none") : dash();
-    return {jump ? tr("%1 at %2").arg(clockDifference(jump->milliseconds), timeOfDay(jump->time).chopped(4))
-                 : none,
-            jump ? Health::Warning : Health::Unknown,
-            tr("The newest place where the time code did not advance with its samples, and when it "
-               "was received")};
-}
-
-} // namespace
 
 QString clockText(const ClockHistory& clock, ClockChoice choice) {
     const QString none = QStringLiteral("--:--:--.---");

@@ -3,7 +3,6 @@
 
 #include "app/gui/theme/words.h"
 
-#include <algorithm>
 #include <array>
 
 namespace posewire::gui {
@@ -32,8 +31,7 @@ QString cellText(const QModelIndex& index) {
     return suffix.isEmpty() ? text : text + QLatin1Char(' ') + suffix;
 }
 
-PropertyModel::PropertyModel(std::vector<Property> properties, QObject* parent)
-    : TableModel(columns(properties), parent) {
+PropertyModel::PropertyModel(std::vector<Property> properties) : TableModel(columns(properties)) {
     setRows(std::move(properties));
     refresh();
 }

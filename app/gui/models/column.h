@@ -185,8 +185,7 @@ protected:
     [[nodiscard]] virtual ColumnRoom room(int column) const {
         return m_columns[static_cast<std::size_t>(column)].room;
     }
-    explicit ColumnModel(std::vector<TableColumn<Row>> columns, QObject* parent = nullptr)
-        : Base(parent), m_columns(std::move(columns)) {}
+    explicit ColumnModel(std::vector<TableColumn<Row>> columns) : m_columns(std::move(columns)) {}
 
     [[nodiscard]] QVariant cell(const Row& row, int column, int role) const {
         return cellData(m_columns[static_cast<std::size_t>(column)], row, role);
@@ -206,8 +205,7 @@ private:
 template <class Row>
 class TableModel : public ColumnModel<Row> {
 public:
-    explicit TableModel(std::vector<TableColumn<Row>> columns, QObject* parent = nullptr)
-        : ColumnModel<Row>(std::move(columns), parent) {}
+    explicit TableModel(std::vector<TableColumn<Row>> columns) : ColumnModel<Row>(std::move(columns)) {}
 
     [[nodiscard]] const std::vector<Row>& rows() const { return m_rows; }
 
@@ -265,7 +263,7 @@ template <class Source>
 /// A small table of two columns: labels, dim and at the left, and values at the right.
 class PropertyModel : public TableModel<Property> {
 public:
-    explicit PropertyModel(std::vector<Property> properties, QObject* parent = nullptr);
+    explicit PropertyModel(std::vector<Property> properties);
 
     /// Reads all values.
     void refresh();

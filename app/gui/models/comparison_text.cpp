@@ -6,6 +6,7 @@
 #include "app/gui/theme/words.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace posewire::gui {
@@ -20,27 +21,13 @@ QColor between(const QColor& from, const QColor& to, double share) {
 } // namespace
 
 QString alignedByText(exporting::AlignBy by) {
-    switch (by) {
-    case exporting::AlignBy::TimeCode:
-        return tr("Time code");
-    case exporting::AlignBy::Sample:
-        return tr("Sample counter");
-    case exporting::AlignBy::Begin:
-        break;
-    }
-    return tr("Beginnings");
+    const std::array words{tr("Time code"), tr("Sample counter"), tr("Beginnings")}; // by AlignBy
+    return words[static_cast<std::size_t>(by)];
 }
 
 QString frameText(model::DifferenceFrame frame) {
-    switch (frame) {
-    case model::DifferenceFrame::World:
-        return tr("As sent");
-    case model::DifferenceFrame::Heading:
-        return tr("On the spot");
-    case model::DifferenceFrame::Pelvis:
-        break;
-    }
-    return tr("Without the pelvis");
+    const std::array words{tr("As sent"), tr("On the spot"), tr("Without the pelvis")}; // by DifferenceFrame
+    return words[static_cast<std::size_t>(frame)];
 }
 
 QString offsetText(const exporting::Alignment& alignment) {

@@ -17,42 +17,33 @@ using Row = DifferenceRow;
 using DifferenceColumn = TableColumn<Row>;
 using exporting::DifferenceFigures;
 
+using exporting::SegmentFigures;
+
+struct RangeColumn {
+    int column;
+    DifferenceFigures SegmentFigures::*of;
+    double DifferenceFigures::*value;
+};
+
+constexpr RangeColumn kRangeColumns[] = {
+    {DifferenceModel::kMean, &SegmentFigures::millimetres, &DifferenceFigures::mean},
+    {DifferenceModel::kMost, &SegmentFigures::millimetres, &DifferenceFigures::most},
+    {DifferenceModel::kMedian, &SegmentFigures::millimetres, &DifferenceFigures::median},
+    {DifferenceModel::kP95, &SegmentFigures::millimetres, &DifferenceFigures::p95},
+    {DifferenceModel::kMeanTurn, &SegmentFigures::degrees, &DifferenceFigures::mean},
+    {DifferenceModel::kMostTurn, &SegmentFigures::degrees, &DifferenceFigures::most},
+    {DifferenceModel::kMedianTurn, &SegmentFigures::degrees, &DifferenceFigures::median},
+    {DifferenceModel::kP95Turn, &SegmentFigures::degrees, &DifferenceFigures::p95}};
+
 /// NaN for nothing.
 double valueIn(const Row& row, int column) {
     constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
-    const auto now = [&](double model::SegmentDifference::*value) {
-        return row.now ? *row.now.*value : kNothing;
-    };
-    const auto figure = [&](DifferenceFigures exporting::SegmentFigures::*of,
-                            double DifferenceFigures::*value) {
-        return row.range ? *row.range.*of.*value : kNothing;
-    };
-    constexpr auto kDistance = &exporting::SegmentFigures::millimetres;
-    constexpr auto kTurn = &exporting::SegmentFigures::degrees;
-    switch (column) {
-    case DifferenceModel::kNow:
-        return now(&model::SegmentDifference::millimetres);
-    case DifferenceModel::kNowTurn:
-        return now(&model::SegmentDifference::degrees);
-    case DifferenceModel::kMean:
-        return figure(kDistance, &DifferenceFigures::mean);
-    case DifferenceModel::kMost:
-        return figure(kDistance, &DifferenceFigures::most);
-    case DifferenceModel::kMedian:
-        return figure(kDistance, &DifferenceFigures::median);
-    case DifferenceModel::kP95:
-        return figure(kDistance, &DifferenceFigures::p95);
-    case DifferenceModel::kMeanTurn:
-        return figure(kTurn, &DifferenceFigures::mean);
-    case DifferenceModel::kMostTurn:
-        return figure(kTurn, &DifferenceFigures::most);
-    case DifferenceModel::kMedianTurn:
-        return figure(kTurn, &DifferenceFigures::median);
-    case DifferenceModel::kP95Turn:
-        return figure(kTurn, &DifferenceFigures::p95);
-    default:
-        return kNothing;
+    const auto* found = std::ranges::find(kRangeColumns, column, &RangeColumn::column);
+    if (found != std::end(kRangeColumns)) {
+        return row.range ? *row.range.*found->of.*found->value : kNothing;
     }
+    const bool isNow = row.now && column != DifferenceModel::kName;
+    return !isNow ? kNothing : column == DifferenceModel::kNow ? row.now->millimetres : row.now->degrees;
 }
 
 constexpr int kDistanceDecimals = 1; // of mm
@@ -71,8 +62,6 @@ DifferenceColumn numbers(const QString& title, const QString& help, int column, 
 QString segmentOfSlot(int slot) {
     return fromUtf8(model::segmentTitle(model::kAllSegments, slot));
 }
-
-DifferenceModel::DifferenceModel(QObject* parent) : TableModel(columns(), parent) {}
 
 std::vector<DifferenceColumn> DifferenceModel::columns() {
     auto name = DifferenceColumn::words(

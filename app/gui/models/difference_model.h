@@ -33,7 +33,7 @@ public:
         kP95Turn,
     };
 
-    explicit DifferenceModel(QObject* parent = nullptr);
+    DifferenceModel() : TableModel(columns()) {}
 
     void refresh(const ComparisonState& state);
     void sort(int column, Qt::SortOrder direction) override;

@@ -71,9 +71,6 @@ FaultColumn countColumn(int column, const QString& title, const QString& help) {
 
 } // namespace
 
-FaultModel::FaultModel(model::SessionView& view, QObject* parent)
-    : TreeModel(columns(*this), parent), m_view(view) {}
-
 std::vector<TableColumn<FaultRow>> FaultModel::columns(const FaultModel& model) {
     FaultColumn name = FaultColumn::words(
         tr("Character"),
@@ -135,17 +132,6 @@ QVariant FaultModel::marksOf(const FaultRow& row, int role) const {
     return tr("%1 · %2").arg(id, sender);
 }
 
-std::vector<int> FaultModel::parentsOf(const std::vector<FaultRow>& rows) const {
-    std::vector<int> parents;
-    int above = -1;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        const bool isTop = rows[i].kind != FaultRow::Stream;
-        parents.push_back(isTop ? -1 : above);
-        above = isTop ? static_cast<int>(i) : above;
-    }
-    return parents;
-}
-
 void FaultModel::refresh() {
     m_range = m_view.range();
     const model::FaultMatrix matrix = model::faultMatrix(m_view, m_range);
@@ -183,9 +169,11 @@ void FaultModel::refresh() {
     beginResetModel();
     m_rows = std::move(rows);
     clearPlaces();
-    const std::vector<int> parents = parentsOf(m_rows);
-    for (std::size_t i = 0; i < parents.size(); ++i) {
-        place(static_cast<int>(i), parents[i]);
+    int above = -1;
+    for (int row = 0; row < static_cast<int>(m_rows.size()); ++row) {
+        const bool isTop = m_rows[static_cast<std::size_t>(row)].kind != FaultRow::Stream;
+        place(row, isTop ? -1 : above);
+        above = isTop ? row : above;
     }
     endResetModel();
     chooseCauses();

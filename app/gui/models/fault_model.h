@@ -31,7 +31,7 @@ class FaultModel : public TreeModel<FaultRow> {
 public:
     enum Column : int { kName, kThisComputer, kNetwork, kSender, kUnknown, kLost, kExpected };
 
-    explicit FaultModel(model::SessionView& view, QObject* parent = nullptr);
+    explicit FaultModel(model::SessionView& view) : TreeModel(columns(*this)), m_view(view) {}
 
     /// Announces one change, or a reset where rows came or went.
     void refresh();
@@ -58,8 +58,6 @@ private:
     [[nodiscard]] static std::vector<TableColumn<FaultRow>> columns(const FaultModel& model);
     [[nodiscard]] QString nameOf(const FaultRow& row) const;
     [[nodiscard]] QVariant marksOf(const FaultRow& row, int role) const;
-    /// -1 for those at the top.
-    [[nodiscard]] std::vector<int> parentsOf(const std::vector<FaultRow>& rows) const;
 
     void chooseCauses();
 

@@ -4,7 +4,6 @@
 #include "app/gui/models/field_text.h"
 #include "app/gui/models/text.h"
 #include "app/gui/theme/words.h"
-#include "core/model/body/character_pose.h"
 #include "core/model/body/item_names.h"
 #include "core/model/body/joint_angles.h"
 

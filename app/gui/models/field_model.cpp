@@ -19,8 +19,6 @@ bool isStructure(NodeKind kind) {
 
 } // namespace
 
-FieldModel::FieldModel(QObject* parent) : TreeModel(columns(*this), parent) {}
-
 std::vector<TableColumn<std::int32_t>> FieldModel::columns(const FieldModel& model) {
     using Text = QString (*)(const FieldDocument&, std::int32_t);
     const auto here = [&model](Text text) {

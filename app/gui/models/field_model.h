@@ -14,7 +14,7 @@ class FieldModel : public TreeModel<std::int32_t> {
 public:
     enum Column { kField, kValue, kWire, kOther, kDifference, kMeaning, kSection, kColumnCount };
 
-    explicit FieldModel(QObject* parent = nullptr);
+    FieldModel() : TreeModel(columns(*this)) {}
 
     /// Neither may be null.
     void setDocument(std::shared_ptr<const FieldDocument> document);

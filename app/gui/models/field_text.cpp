@@ -156,6 +156,62 @@ QString spacedName(std::string_view name) {
     return text == QStringLiteral("Id") ? QStringLiteral("ID") : text;
 }
 
+using wire::FieldNode;
+using wire::RefersTo;
+
+QString withName(const QString& id, std::string_view name) {
+    return name.empty() ? id : id + QStringLiteral(" · ") + shownText(name);
+}
+
+/// The number that an item is known by; its place where it has none.
+std::uint32_t idOf(const FieldDocument& document, std::int32_t item) {
+    for (const std::int32_t child : document.children(item)) {
+        const FieldNode& field = document.node(child);
+        if (field.refersTo != RefersTo::Nothing && std::isfinite(field.number)) {
+            return static_cast<std::uint32_t>(field.number);
+        }
+    }
+    return document.node(item).index + 1;
+}
+
+/// The name that is sent with an item.
+std::string_view textField(const FieldDocument& document, std::int32_t item) {
+    for (const std::int32_t child : document.children(item)) {
+        const FieldNode& field = document.node(child);
+        if (field.kind == wire::NodeKind::Field && field.scalar == wire::Scalar::Text) {
+            return field.value;
+        }
+    }
+    return {};
+}
+
+QString pointText(const model::PointReference& point) {
+    const QString id = QStringLiteral("%1.%2").arg(point.segmentId).arg(point.localId);
+    const model::AnatomicalPoint* known = model::findPoint(point.segmentId - 1, point.localId);
+    return known != nullptr     ? withName(id, known->name)
+           : point.localId == 0 ? withName(id, model::segmentTitle({}, point.segmentId - 1))
+                                : id;
+}
+
+QString jointTitle(int place) {
+    const bool isKnown = place >= 0 && place < model::kJointCount;
+    const auto name =
+        isKnown ? model::jointDefinitions()[static_cast<std::size_t>(place)].name : std::string_view();
+    return tr("Joint %1").arg(place < 0 ? tr("(unknown)") : withName(QString::number(place + 1), name));
+}
+
+QString pointTitle(const FieldDocument& document, std::int32_t item) {
+    if (const auto id = document.numberOf(item, RefersTo::Point)) {
+        const auto point = document.pointOf(*id);
+        return point ? pointText(*point) : QString::number(*id);
+    }
+    const auto segment = document.numberOf(item, RefersTo::Carrier);
+    const auto local = document.numberOf(item, RefersTo::LocalPoint);
+    const QString id = segment && local ? QStringLiteral("%1.%2").arg(*segment).arg(*local)
+                                        : tr("no. %1").arg(document.node(item).index + 1);
+    return withName(id, textField(document, item));
+}
+
 } // namespace
 
 QString documentTitle(const FieldDocument& document) {
@@ -326,66 +382,6 @@ QString difference(const FieldDocument& document, std::int32_t index, const Fiel
            : a.unit == Unit::Milliseconds ? clockDifference(delta)
                                           : signedFixed(delta, 0);
 }
-
-namespace {
-
-using wire::FieldNode;
-using wire::RefersTo;
-
-QString withName(const QString& id, std::string_view name) {
-    return name.empty() ? id : id + QStringLiteral(" · ") + shownText(name);
-}
-
-/// The number that an item is known by; its place where it has none.
-std::uint32_t idOf(const FieldDocument& document, std::int32_t item) {
-    for (const std::int32_t child : document.children(item)) {
-        const FieldNode& field = document.node(child);
-        if (field.refersTo != RefersTo::Nothing && std::isfinite(field.number)) {
-            return static_cast<std::uint32_t>(field.number);
-        }
-    }
-    return document.node(item).index + 1;
-}
-
-/// The name that is sent with an item.
-std::string_view textField(const FieldDocument& document, std::int32_t item) {
-    for (const std::int32_t child : document.children(item)) {
-        const FieldNode& field = document.node(child);
-        if (field.kind == wire::NodeKind::Field && field.scalar == wire::Scalar::Text) {
-            return field.value;
-        }
-    }
-    return {};
-}
-
-QString pointText(const model::PointReference& point) {
-    const QString id = QStringLiteral("%1.%2").arg(point.segmentId).arg(point.localId);
-    const model::AnatomicalPoint* known = model::findPoint(point.segmentId - 1, point.localId);
-    return known != nullptr     ? withName(id, known->name)
-           : point.localId == 0 ? withName(id, model::segmentTitle({}, point.segmentId - 1))
-                                : id;
-}
-
-QString jointTitle(int place) {
-    const bool isKnown = place >= 0 && place < model::kJointCount;
-    const auto name =
-        isKnown ? model::jointDefinitions()[static_cast<std::size_t>(place)].name : std::string_view();
-    return tr("Joint %1").arg(place < 0 ? tr("(unknown)") : withName(QString::number(place + 1), name));
-}
-
-QString pointTitle(const FieldDocument& document, std::int32_t item) {
-    if (const auto id = document.numberOf(item, RefersTo::Point)) {
-        const auto point = document.pointOf(*id);
-        return point ? pointText(*point) : QString::number(*id);
-    }
-    const auto segment = document.numberOf(item, RefersTo::Carrier);
-    const auto local = document.numberOf(item, RefersTo::LocalPoint);
-    const QString id = segment && local ? QStringLiteral("%1.%2").arg(*segment).arg(*local)
-                                        : tr("no. %1").arg(document.node(item).index + 1);
-    return withName(id, textField(document, item));
-}
-
-} // namespace
 
 QString itemTitle(const FieldDocument& document, std::int32_t item) {
     const FieldNode& node = document.node(item);

@@ -189,8 +189,8 @@ std::vector<IncidentColumn> incidentColumns(model::SessionView& view, const Inci
 
 } // namespace
 
-IncidentModel::IncidentModel(model::SessionView& view, QObject* parent)
-    : KeyedTreeModel(incidentColumns(view, *this), parent), m_view(view) {}
+IncidentModel::IncidentModel(model::SessionView& view)
+    : KeyedTreeModel(incidentColumns(view, *this)), m_view(view) {}
 
 std::optional<IncidentLine> IncidentModel::whole(Key key) const {
     const auto pending = m_pending.find(key);

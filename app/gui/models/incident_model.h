@@ -58,7 +58,7 @@ public:
         friend bool operator==(const Filter&, const Filter&) = default;
     };
 
-    explicit IncidentModel(model::SessionView& view, QObject* parent = nullptr);
+    explicit IncidentModel(model::SessionView& view);
 
     /// Shows what has happened meanwhile: rows come and go where they belong, and one change is announced; a
     /// reset where too many do at once.

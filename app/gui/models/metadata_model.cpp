@@ -218,8 +218,8 @@ std::vector<Property> characterFacts(model::SessionView& view, const std::option
 
 } // namespace
 
-MetadataModel::MetadataModel(model::SessionView& view, QObject* parent)
-    : ColumnModel(metadataColumns(view), parent), m_view(view), m_facts(characterFacts(m_view, m_key)) {}
+MetadataModel::MetadataModel(model::SessionView& view)
+    : ColumnModel(metadataColumns(view)), m_view(view), m_facts(characterFacts(m_view, m_key)) {}
 
 void MetadataModel::refresh() {
     const auto key = shownCharacter(m_view);

@@ -28,7 +28,7 @@ class MetadataModel : public ColumnModel<MetadataRow, QAbstractItemModel> {
 public:
     enum Column : int { kName, kValue, kSent };
 
-    explicit MetadataModel(model::SessionView& view, QObject* parent = nullptr);
+    explicit MetadataModel(model::SessionView& view);
 
     void refresh();
     [[nodiscard]] std::optional<model::CharacterKey> character() const { return m_key; }

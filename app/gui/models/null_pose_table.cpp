@@ -254,18 +254,17 @@ std::vector<TableColumn<SegmentScale>> scaleColumns() {
 
 } // namespace
 
-NullPoseSegmentModel::NullPoseSegmentModel(const NullPoseReading& reading, QObject* parent)
-    : NullPoseTable(reading, segmentColumns(), segmentRows, parent) {}
+NullPoseSegmentModel::NullPoseSegmentModel(const NullPoseReading& reading)
+    : NullPoseTable(reading, segmentColumns(), segmentRows) {}
 
-NullPosePointModel::NullPosePointModel(const NullPoseReading& reading, QObject* parent)
-    : NullPoseTable(reading, pointColumns(), pointRows, parent) {}
+NullPosePointModel::NullPosePointModel(const NullPoseReading& reading)
+    : NullPoseTable(reading, pointColumns(), pointRows) {}
 
-NullPoseLengthModel::NullPoseLengthModel(const NullPoseReading& reading, QObject* parent)
-    : NullPoseTable(
-          reading, lengthColumns(), [](const NullPoseReading& shown) { return shown.measures().lengths; },
-          parent) {}
+NullPoseLengthModel::NullPoseLengthModel(const NullPoseReading& reading)
+    : NullPoseTable(reading, lengthColumns(),
+                    [](const NullPoseReading& shown) { return shown.measures().lengths; }) {}
 
-NullPoseScaleModel::NullPoseScaleModel(const NullPoseReading& reading, QObject* parent)
-    : NullPoseTable(reading, scaleColumns(), scaleRows, parent) {}
+NullPoseScaleModel::NullPoseScaleModel(const NullPoseReading& reading)
+    : NullPoseTable(reading, scaleColumns(), scaleRows) {}
 
 } // namespace posewire::gui

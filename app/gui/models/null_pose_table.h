@@ -27,9 +27,8 @@ template <class Row>
 class NullPoseTable : public TableModel<Row> {
 public:
     using Rows = std::vector<Row> (*)(const NullPoseReading& reading);
-    NullPoseTable(const NullPoseReading& reading, std::vector<TableColumn<Row>> columns, Rows read,
-                  QObject* parent)
-        : TableModel<Row>(withHelpInCells(std::move(columns)), parent), m_reading(reading), m_read(read) {}
+    NullPoseTable(const NullPoseReading& reading, std::vector<TableColumn<Row>> columns, Rows read)
+        : TableModel<Row>(withHelpInCells(std::move(columns))), m_reading(reading), m_read(read) {}
 
     /// The reading has changed.
     void refresh() { this->setRows(m_read(m_reading)); }
@@ -43,21 +42,21 @@ private:
 class NullPoseSegmentModel final : public NullPoseTable<NullPoseSegmentRow> {
 public:
     enum Column : int { kId, kName, kX, kY, kZ, kFromBefore, kFromReference };
-    explicit NullPoseSegmentModel(const NullPoseReading& reading, QObject* parent = nullptr);
+    explicit NullPoseSegmentModel(const NullPoseReading& reading);
 };
 
 /// Type 13, points.
 class NullPosePointModel final : public NullPoseTable<NullPosePointRow> {
 public:
     enum Column : int { kId, kName, kX, kY, kZ, kFlags, kBits };
-    explicit NullPosePointModel(const NullPoseReading& reading, QObject* parent = nullptr);
+    explicit NullPosePointModel(const NullPoseReading& reading);
 };
 
 /// Lengths of the body, left against right.
 class NullPoseLengthModel final : public NullPoseTable<model::SegmentLength> {
 public:
     enum Column : int { kName, kLeft, kRight, kDifference };
-    explicit NullPoseLengthModel(const NullPoseReading& reading, QObject* parent = nullptr);
+    explicit NullPoseLengthModel(const NullPoseReading& reading);
 
     /// The body segment that a length is of.
     [[nodiscard]] int segment(int row) const { return rows()[static_cast<std::size_t>(row)].right; }
@@ -67,7 +66,7 @@ public:
 class NullPoseScaleModel final : public NullPoseTable<wire::SegmentScale> {
 public:
     enum Column : int { kId, kName, kX, kY, kZ, kMatrix };
-    explicit NullPoseScaleModel(const NullPoseReading& reading, QObject* parent = nullptr);
+    explicit NullPoseScaleModel(const NullPoseReading& reading);
 };
 
 } // namespace posewire::gui

@@ -10,7 +10,6 @@
 #include "core/model/session/roster.h"
 #include "core/wire/text.h"
 
-
 #include <algorithm>
 #include <limits>
 #include <utility>
@@ -66,10 +65,40 @@ QVariant sampleColour(const PacketFacts& facts) {
     return warningWhere(digest.isDuplicate || digest.isReordered || digest.isRestart || digest.isInDoubt);
 }
 
-} // namespace
+constexpr std::size_t kBytesInLine = 16;
+constexpr std::size_t kBytesInRow = 12; // of a C array: 72 columns
 
-PacketModel::PacketModel(model::SessionView& view, QObject* parent)
-    : ColumnModel(columns(*this), parent), m_view(view) {}
+QString hexText(wire::Bytes bytes) {
+    QString text;
+    for (std::size_t begin = 0; begin < bytes.size(); begin += kBytesInLine) {
+        const wire::Bytes line = bytes.subspan(begin, std::min(kBytesInLine, bytes.size() - begin));
+        const QString digits = QString::fromLatin1(QByteArrayView(line).toByteArray().toHex(' '));
+        text += QStringLiteral("%1  %2 %3\n")
+                    .arg(begin, 4, 16, QLatin1Char('0'))
+                    .arg(digits.leftJustified(kBytesInLine * 3), readable(line));
+    }
+    return text;
+}
+
+QString cArray(wire::Bytes bytes, std::uint64_t number) {
+    QString text = QStringLiteral("const unsigned char packet%1[%2] = {").arg(number).arg(bytes.size());
+    for (std::size_t i = 0; i < bytes.size(); ++i) {
+        text += i % kBytesInRow == 0 ? QStringLiteral("\n    0x") : QStringLiteral(" 0x");
+        text += QStringLiteral("%1,").arg(std::to_integer<unsigned>(bytes[i]), 2, 16, QLatin1Char('0'));
+    }
+    return text + QStringLiteral("\n};\n");
+}
+
+QString json(model::SessionView& view, const log::Packet& packet) {
+    const auto sender = view.log().senders().find(packet.sender);
+    const exporting::DatagramPlace place{packet.number, 0, view.wallOf(packet.stamp),
+                                         sender == nullptr ? std::nullopt : std::optional(sender->address)};
+    const std::string object = packet.flags.skipped ? exporting::skippedJson(place, packet.bytes.size())
+                                                    : exporting::datagramJson(place, packet.bytes);
+    return QString::fromStdString(object) + QLatin1Char('\n');
+}
+
+} // namespace
 
 std::vector<PacketColumn> PacketModel::columns(const PacketModel& model) {
     const auto sender = [&model](const PacketFacts& facts) { return model.senderText(facts); };
@@ -131,8 +160,16 @@ std::vector<PacketColumn> PacketModel::columns(const PacketModel& model) {
 void PacketModel::refresh() {
     m_facts.reset();
     removeDropped();
-    insertNew();
-    noteSenders();
+    if (const int rows = rowsThere(); rows > m_rows) {
+        beginInsertRows({}, m_rows, rows - 1);
+        m_rows = rows;
+        endInsertRows();
+    }
+    // If everything comes from one sender, its address says nothing, and the note has the room.
+    const bool hasSenders = m_view.roster().senders().size() > 1;
+    if (std::exchange(m_hasSenders, hasSenders) != hasSenders) {
+        emit headerDataChanged(Qt::Horizontal, kSender, kSender);
+    }
     const model::Annotations& annotations = m_view.choices().annotations;
     const model::Cursor& cursor = m_view.choices().cursor;
     const bool isChanged =
@@ -141,14 +178,6 @@ void PacketModel::refresh() {
         m_annotations = annotations;
         m_cursor = cursor;
         announceChange();
-    }
-}
-
-/// If everything comes from one sender, its address says nothing, and the note has the room.
-void PacketModel::noteSenders() {
-    const bool hasSenders = m_view.roster().senders().size() > 1;
-    if (std::exchange(m_hasSenders, hasSenders) != hasSenders) {
-        emit headerDataChanged(Qt::Horizontal, kSender, kSender);
     }
 }
 
@@ -183,14 +212,6 @@ void PacketModel::removeDropped() {
 int PacketModel::rowsThere() const {
     const std::uint64_t all = m_isFiltered ? m_matches.size() : m_view.accounts().digests().end() - m_begin;
     return static_cast<int>(std::min(all, kMostRows));
-}
-
-void PacketModel::insertNew() {
-    if (const int rows = rowsThere(); rows > m_rows) {
-        beginInsertRows({}, m_rows, rows - 1);
-        m_rows = rows;
-        endInsertRows();
-    }
 }
 
 void PacketModel::startAgain(bool isFiltered) {
@@ -320,47 +341,6 @@ QVariant PacketModel::headerData(int section, Qt::Orientation orientation, int r
     }
     return ColumnModel::headerData(section, orientation, role);
 }
-
-namespace {
-
-constexpr std::size_t kBytesInLine = 16;
-constexpr std::size_t kBytesInRow = 12; // of a C array: 72 columns
-
-QString hexByte(std::byte byte) {
-    return QStringLiteral("%1").arg(std::to_integer<unsigned>(byte), 2, 16, QLatin1Char('0'));
-}
-
-QString hexText(wire::Bytes bytes) {
-    QString text;
-    for (std::size_t begin = 0; begin < bytes.size(); begin += kBytesInLine) {
-        const wire::Bytes line = bytes.subspan(begin, std::min(kBytesInLine, bytes.size() - begin));
-        const QString digits = QString::fromLatin1(QByteArrayView(line).toByteArray().toHex(' '));
-        text += QStringLiteral("%1  %2 %3\n")
-                    .arg(begin, 4, 16, QLatin1Char('0'))
-                    .arg(digits.leftJustified(kBytesInLine * 3), readable(line));
-    }
-    return text;
-}
-
-QString cArray(wire::Bytes bytes, std::uint64_t number) {
-    QString text = QStringLiteral("const unsigned char packet%1[%2] = {").arg(number).arg(bytes.size());
-    for (std::size_t i = 0; i < bytes.size(); ++i) {
-        text += i % kBytesInRow == 0 ? QStringLiteral("\n    0x") : QStringLiteral(" 0x");
-        text += hexByte(bytes[i]) + QLatin1Char(',');
-    }
-    return text + QStringLiteral("\n};\n");
-}
-
-QString json(model::SessionView& view, const log::Packet& packet) {
-    const auto sender = view.log().senders().find(packet.sender);
-    const exporting::DatagramPlace place{packet.number, 0, view.wallOf(packet.stamp),
-                                         sender == nullptr ? std::nullopt : std::optional(sender->address)};
-    const std::string object = packet.flags.skipped ? exporting::skippedJson(place, packet.bytes.size())
-                                                    : exporting::datagramJson(place, packet.bytes);
-    return QString::fromStdString(object) + QLatin1Char('\n');
-}
-
-} // namespace
 
 QString packetBytesText(model::SessionView& view, std::uint64_t number, ByteFormat format) {
     const auto packet = view.packet(number);

@@ -24,7 +24,7 @@ public:
     enum class TimeMode { SinceFirst, TimeOfDay };
     enum class DeltaMode { Stream, RowAbove };
 
-    explicit PacketModel(model::SessionView& view, QObject* parent = nullptr);
+    explicit PacketModel(model::SessionView& view) : ColumnModel(columns(*this)), m_view(view) {}
 
     /// Shows what the session has followed meanwhile: at most one removal (packets that the log dropped), one
     /// insertion and one change.
@@ -61,9 +61,7 @@ protected:
 
 private:
     const PacketFacts* facts(int row) const;
-    void noteSenders();
     void removeDropped();
-    void insertNew();
     /// With those that are yet to be inserted.
     [[nodiscard]] int rowsThere() const;
     void startAgain(bool isFiltered);

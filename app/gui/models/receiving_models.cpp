@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace posewire::gui {
 
@@ -46,77 +47,24 @@ PropertyValue peersState(const net::InputStatus& status) {
     return {text + QStringLiteral("; ") + note, Health::Warning, lines.join(QLatin1Char('\n'))};
 }
 
-} // namespace
-
-PropertyValue inputState(const PortState& state) {
-    if (!state.problem.isEmpty()) {
-        return {state.problem, state.id ? Health::Warning : Health::Error, state.problem};
-    }
-    const net::InputStatus& status = state.status;
-    if (!status.problem.empty()) {
-        const QString problem = QString::fromStdString(status.problem);
-        return {problem, Health::Warning, problem};
-    }
-    if (!status.peers.empty() && state.port.kind == Kind::TcpListener) {
-        return peersState(status);
-    }
-    if (status.state == net::InputState::Connected) {
-        return {QString::fromStdString(status.text), Health::Good};
-    }
-    if (state.port.kind == Kind::Udp && state.datagramsPerSecond > 0) {
-        return {tr("receiving"), Health::Good,
-                state.port.groups.isEmpty() ? QString() : QString::fromStdString(status.text)};
-    }
-    const bool saysMore = !state.port.groups.isEmpty() || !status.note.empty();
-    if (status.state == net::InputState::Connecting || saysMore) {
-        return {QString::fromStdString(status.text)};
-    }
-    return {state.port.kind == Kind::TcpListener ? tr("listening, nobody has connected") : tr("listening")};
-}
-
-PropertyValue relayStage(const RelayState& relay) {
-    switch (relay.stage) {
-    case RelayState::Stage::LookingUp:
-        return {tr("looking up %1").arg(relay.target.host)};
-    case RelayState::Stage::Refused:
-        return {relay.problem, Health::Error, relay.problem};
-    case RelayState::Stage::Forwarding:
-        return relay.problem.isEmpty() ? PropertyValue{tr("forwarding"), Health::Good}
-                                       : PropertyValue{relay.problem, Health::Warning, relay.problem};
-    case RelayState::Stage::Off:
-        break;
-    }
-    return {tr("off")};
-}
-
-namespace {
-
 /// Without words.
 Advice adviceOf(words::Kind kind) {
     using Found = words::Kind;
     using Topic = HelpTopic;
-    switch (kind) {
-    case Found::NoInput:
-        return {Health::Warning, {}, {}, Topic::NoInput};
-    case Found::CannotOpen:
-        return {Health::Error, {}, {}, Topic::CannotListen};
-    case Found::AddressGone:
-        return {Health::Error, {}, {}, Topic::NothingArrives, true};
-    case Found::ForeignDatagrams:
-        return {Health::Warning, {}, {}, Topic::NotMxtp};
-    case Found::GarbledPeer:
-        return {Health::Warning, {}, {}, Topic::NotMxtp, true};
-    case Found::NotJoined:
-        return {Health::Warning, {}, {}, Topic::GroupNotJoined};
-    case Found::NotReachable:
-    case Found::SilentPeer:
-        return {Health::Warning, {}, {}, Topic::TcpTrouble, true};
-    case Found::OtherTransport:
-    case Found::FirewallOn:
-        return {Health::Unknown, {}, {}, Topic::NothingArrives};
-    default:
-        return {Health::Warning, {}, {}, Topic::NothingArrives};
-    }
+    static const std::map<Found, Advice> kKnown{
+        {Found::NoInput, {Health::Warning, {}, {}, Topic::NoInput}},
+        {Found::CannotOpen, {Health::Error, {}, {}, Topic::CannotListen}},
+        {Found::AddressGone, {Health::Error, {}, {}, Topic::NothingArrives, true}},
+        {Found::ForeignDatagrams, {Health::Warning, {}, {}, Topic::NotMxtp}},
+        {Found::GarbledPeer, {Health::Warning, {}, {}, Topic::NotMxtp, true}},
+        {Found::NotJoined, {Health::Warning, {}, {}, Topic::GroupNotJoined}},
+        {Found::NotReachable, {Health::Warning, {}, {}, Topic::TcpTrouble, true}},
+        {Found::SilentPeer, {Health::Warning, {}, {}, Topic::TcpTrouble, true}},
+        {Found::OtherTransport, {Health::Unknown, {}, {}, Topic::NothingArrives}},
+        {Found::FirewallOn, {Health::Unknown, {}, {}, Topic::NothingArrives}},
+    };
+    const auto known = kKnown.find(kind);
+    return known == kKnown.end() ? Advice{Health::Warning, {}, {}, Topic::NothingArrives} : known->second;
 }
 
 /// MVN's Isaac Teleop preset has a port of its own; other senders may use the other transport.
@@ -138,21 +86,6 @@ std::optional<InputAddress> offerFor(words::Kind kind, const std::vector<PortSta
     const bool isOpen = std::ranges::find(ports, offer, &PortState::port) != ports.end();
     return isOpen ? std::nullopt : std::optional(offer);
 }
-
-} // namespace
-
-std::vector<Advice> adviceOn(const ReceivingState& receiving) {
-    std::vector<Advice> all;
-    for (const words::Fact& finding : receiving.findings) {
-        all.push_back(adviceOf(finding.kind));
-        all.back().text = said(finding, words::Form::Sentence);
-        all.back().remedy = said(finding, words::Form::Advice);
-        all.back().offer = offerFor(finding.kind, receiving.ports);
-    }
-    return all;
-}
-
-namespace {
 
 /// A figure of an input that is open.
 InputColumn figureColumn(const QString& title, const QString& help, QString (*figure)(const PortState&)) {
@@ -254,7 +187,59 @@ std::vector<RelayColumn> relayColumns() {
 
 } // namespace
 
-InputModel::InputModel(QObject* parent) : TableModel(inputColumns(), parent) {}
+PropertyValue inputState(const PortState& state) {
+    if (!state.problem.isEmpty()) {
+        return {state.problem, state.id ? Health::Warning : Health::Error, state.problem};
+    }
+    const net::InputStatus& status = state.status;
+    if (!status.problem.empty()) {
+        const QString problem = QString::fromStdString(status.problem);
+        return {problem, Health::Warning, problem};
+    }
+    if (!status.peers.empty() && state.port.kind == Kind::TcpListener) {
+        return peersState(status);
+    }
+    if (status.state == net::InputState::Connected) {
+        return {QString::fromStdString(status.text), Health::Good};
+    }
+    if (state.port.kind == Kind::Udp && state.datagramsPerSecond > 0) {
+        return {tr("receiving"), Health::Good,
+                state.port.groups.isEmpty() ? QString() : QString::fromStdString(status.text)};
+    }
+    const bool saysMore = !state.port.groups.isEmpty() || !status.note.empty();
+    if (status.state == net::InputState::Connecting || saysMore) {
+        return {QString::fromStdString(status.text)};
+    }
+    return {state.port.kind == Kind::TcpListener ? tr("listening, nobody has connected") : tr("listening")};
+}
+
+PropertyValue relayStage(const RelayState& relay) {
+    switch (relay.stage) {
+    case RelayState::Stage::LookingUp:
+        return {tr("looking up %1").arg(relay.target.host)};
+    case RelayState::Stage::Refused:
+        return {relay.problem, Health::Error, relay.problem};
+    case RelayState::Stage::Forwarding:
+        return relay.problem.isEmpty() ? PropertyValue{tr("forwarding"), Health::Good}
+                                       : PropertyValue{relay.problem, Health::Warning, relay.problem};
+    case RelayState::Stage::Off:
+        break;
+    }
+    return {tr("off")};
+}
+
+std::vector<Advice> adviceOn(const ReceivingState& receiving) {
+    std::vector<Advice> all;
+    for (const words::Fact& finding : receiving.findings) {
+        all.push_back(adviceOf(finding.kind));
+        all.back().text = said(finding, words::Form::Sentence);
+        all.back().remedy = said(finding, words::Form::Advice);
+        all.back().offer = offerFor(finding.kind, receiving.ports);
+    }
+    return all;
+}
+
+InputModel::InputModel() : TableModel(inputColumns()) {}
 
 std::optional<InputAddress> InputModel::input(int row) const {
     return row >= 0 && row < rowCount() ? std::optional(rows()[static_cast<std::size_t>(row)].port)
@@ -266,7 +251,7 @@ int InputModel::rowOf(const InputAddress& input) const {
     return place == rows().end() ? -1 : static_cast<int>(place - rows().begin());
 }
 
-RelayModel::RelayModel(QObject* parent) : TableModel(relayColumns(), parent) {}
+RelayModel::RelayModel() : TableModel(relayColumns()) {}
 
 bool RelayModel::setData(const QModelIndex& index, const QVariant& value, int role) {
     if (role != Qt::CheckStateRole || index.column() != kHost ||

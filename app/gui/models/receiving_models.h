@@ -16,7 +16,7 @@ class InputModel : public TableModel<PortState> {
 public:
     enum Column : int { kProtocol, kHost, kPort, kState, kRate, kDatagrams, kDropped, kRefused };
 
-    explicit InputModel(QObject* parent = nullptr);
+    InputModel();
 
     void refresh(const ReceivingState& receiving) { setRows(receiving.ports); }
 
@@ -36,7 +36,7 @@ class RelayModel : public TableModel<RelayState> {
 public:
     enum Column : int { kHost, kPort, kState, kSent, kRefused, kSkipped, kBehind };
 
-    explicit RelayModel(QObject* parent = nullptr);
+    RelayModel();
 
     void refresh(const std::vector<RelayState>& relays) { setRows(relays); }
 

@@ -5,7 +5,6 @@
 #include "app/gui/theme/words.h"
 #include "core/model/session/messages.h"
 #include "core/model/session/roster.h"
-#include "core/model/session/verdict.h"
 #include "core/wire/type_table.h"
 
 #include <algorithm>
@@ -46,6 +45,23 @@ QString senderAmong(const model::SessionView& view, const model::CharacterKey& k
         }
     }
     return twins == 0 ? QString() : ofThisHost == twins ? own.mid(portAt(own)) : own;
+}
+
+/// Nothing before a stream is silent.
+PropertyValue ageState(double age, double rateHz) {
+    const double patience = patienceAt(rateHz);
+    if (const QString stale = staleText(age, rateHz); !stale.isEmpty()) {
+        return {stale, Health::Error};
+    }
+    if (age >= std::max(kSilentAge, patience)) {
+        return {tr("silent %1").arg(duration(age)), Health::Warning};
+    }
+    return {};
+}
+
+/// Another sender has taken over: nothing is wrong, and nothing more will come.
+PropertyValue ended() {
+    return {tr("ended")};
 }
 
 } // namespace
@@ -138,36 +154,6 @@ QString staleText(double ageSeconds, double rateHz) {
     return isStale ? tr("stale %1").arg(duration(ageSeconds)) : QString();
 }
 
-namespace {
-
-/// Nothing before a stream is silent.
-PropertyValue ageState(double age, double rateHz) {
-    const double patience = patienceAt(rateHz);
-    if (const QString stale = staleText(age, rateHz); !stale.isEmpty()) {
-        return {stale, Health::Error};
-    }
-    if (age >= std::max(kSilentAge, patience)) {
-        return {tr("silent %1").arg(duration(age)), Health::Warning};
-    }
-    return {};
-}
-
-PropertyValue malformedState(std::uint64_t count) {
-    return {tr("%1 malformed").arg(grouped(count)), Health::Error};
-}
-
-/// Another sender has taken over: nothing is wrong, and nothing more will come.
-PropertyValue ended() {
-    return {tr("ended")};
-}
-
-/// Seconds; at least 0, also when the cursor lies before it.
-double ageOf(model::SessionView& view, log::Stamp stamp) {
-    return std::max(0.0, log::secondsOf(view.cursorStamp() - stamp));
-}
-
-} // namespace
-
 Health healthOf(model::TakeVerdict::State state) {
     constexpr std::array kHealths{Health::Unknown, Health::Good, Health::Warning, Health::Error}; // by State
     return kHealths[static_cast<std::size_t>(state)];
@@ -184,14 +170,14 @@ PropertyValue streamState(model::SessionView& view, const model::Losses& losses,
         return ended();
     }
     if (wire::isSampled(stream.key.type)) {
-        const double age = ageOf(view, stream.accounting.lastStamp());
+        const double age = std::max(0.0, log::secondsOf(view.cursorStamp() - stream.accounting.lastStamp()));
         const PropertyValue state = ageState(age, stream.statistics.rateHz());
         if (state.health != Health::Unknown) {
             return state;
         }
     }
     if (const std::uint64_t malformed = stream.accounting.malformed(); malformed != 0) {
-        return malformedState(malformed);
+        return {tr("%1 malformed").arg(grouped(malformed)), Health::Error};
     }
     const model::LossesByCause byCause = losses.of(stream).byCause;
     const std::uint64_t lost = std::accumulate(byCause.begin(), byCause.end(), std::uint64_t{0});

@@ -130,8 +130,8 @@ int columnOf(model::Figure figure) {
     return found == kColumns.end() ? -1 : static_cast<int>(found - kColumns.begin());
 }
 
-StatisticsModel::StatisticsModel(model::SessionView& view, QObject* parent)
-    : StreamTreeModel(view, columns(*this), parent), m_losses(std::in_place, view, m_range) {}
+StatisticsModel::StatisticsModel(model::SessionView& view)
+    : StreamTreeModel(view, columns(*this)), m_losses(std::in_place, view, m_range) {}
 
 std::vector<TableColumn<StreamRow>> StatisticsModel::columns(const StatisticsModel& model) {
     std::vector<TableColumn<StreamRow>> columns;

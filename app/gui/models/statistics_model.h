@@ -33,7 +33,7 @@ public:
     static constexpr int kCurvePoints = 120;
     static constexpr log::Duration kCurve = std::chrono::seconds(120);
 
-    explicit StatisticsModel(model::SessionView& view, QObject* parent = nullptr);
+    explicit StatisticsModel(model::SessionView& view);
 
     void refresh();
 

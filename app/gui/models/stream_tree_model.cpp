@@ -4,7 +4,6 @@
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
 #include "core/model/session/accounts.h"
-#include "core/model/session/roster.h"
 
 #include <algorithm>
 
@@ -22,9 +21,8 @@ StreamRow characterRow(const model::CharacterKey& key) {
 
 } // namespace
 
-StreamTreeModel::StreamTreeModel(model::SessionView& view, std::vector<TableColumn<StreamRow>> columns,
-                                 QObject* parent)
-    : TreeModel(std::move(columns), parent), m_view(view) {}
+StreamTreeModel::StreamTreeModel(model::SessionView& view, std::vector<TableColumn<StreamRow>> columns)
+    : TreeModel(std::move(columns)), m_view(view) {}
 
 bool StreamTreeModel::insertNew() {
     const std::uint64_t retired = m_view.accounts().retired().senders;
@@ -142,15 +140,10 @@ std::optional<int> StreamTreeModel::parentOf(const StreamRow& row) const {
 
 /// The session may have retired its sender since the rows were made.
 bool StreamTreeModel::isThere(const StreamRow& row) const {
-    switch (row.kind) {
-    case Kind::Sender:
-        return m_view.roster().find(row.key.sender) != nullptr;
-    case Kind::Character:
-        return m_view.roster().find(characterOf(row.key)) != nullptr;
-    case Kind::Stream:
-        break;
-    }
-    return m_view.roster().find(row.key) != nullptr;
+    const model::Roster& roster = m_view.roster();
+    return row.kind == Kind::Sender      ? roster.find(row.key.sender) != nullptr
+           : row.kind == Kind::Character ? roster.find(characterOf(row.key)) != nullptr
+                                         : roster.find(row.key) != nullptr;
 }
 
 const StreamRow& StreamTreeModel::rowOf(const QModelIndex& index) const {

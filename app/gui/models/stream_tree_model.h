@@ -25,8 +25,7 @@ struct StreamRow {
 /// so that rows never jump, streams by their type. What they say is up to the columns.
 class StreamTreeModel : public TreeModel<StreamRow> {
 public:
-    StreamTreeModel(model::SessionView& view, std::vector<TableColumn<StreamRow>> columns,
-                    QObject* parent = nullptr);
+    StreamTreeModel(model::SessionView& view, std::vector<TableColumn<StreamRow>> columns);
 
     /// Nothing above its own level is filled in for senders.
     [[nodiscard]] std::optional<model::CharacterKey> character(const QModelIndex& index) const;

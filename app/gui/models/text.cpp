@@ -5,8 +5,6 @@
 #include "core/model/text.h"
 #include "core/wire/type_table.h"
 
-#include <QDateTime>
-
 #include <cmath>
 
 namespace posewire::gui {

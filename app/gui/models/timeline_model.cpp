@@ -2,26 +2,14 @@
 #include "app/gui/models/timeline_model.h"
 
 #include "app/gui/models/character_model.h"
-#include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
 #include "core/model/session/messages.h"
 #include "core/model/session/roster.h"
 
 #include <algorithm>
 #include <map>
-#include <optional>
 
 namespace posewire::gui {
-
-namespace {
-
-model::RangeParts fineParts(const model::TimeRange& window, std::size_t most) {
-    const log::Duration length = window.to - window.from;
-    const log::Duration width = std::max(log::Duration(1), length / static_cast<std::int64_t>(most));
-    return {window.from, width, most};
-}
-
-} // namespace
 
 void TimelineModel::refresh(const model::TimeRange& window, std::size_t most) {
     log::Duration resolution(1);
@@ -30,9 +18,10 @@ void TimelineModel::refresh(const model::TimeRange& window, std::size_t most) {
     }
     constexpr std::int64_t kLeastBuckets = 2; // per part, or its edges would show
     m_settled.emplace(m_view, window);
-    m_isFine = (window.to - window.from) / static_cast<std::int64_t>(most) < kLeastBuckets * resolution &&
-               m_settled->isWhole() && datagramsIn(window) <= kMostArrivals;
-    m_parts = m_isFine ? fineParts(window, most)
+    const log::Duration width = (window.to - window.from) / static_cast<std::int64_t>(most);
+    m_isFine =
+        width < kLeastBuckets * resolution && m_settled->isWhole() && datagramsIn(window) <= kMostArrivals;
+    m_parts = m_isFine ? model::RangeParts{window.from, std::max(log::Duration(1), width), most}
                        : model::partsOf(window, most, kLeastBuckets * resolution, resolution);
     m_losses.emplace(m_view, std::nullopt);
     m_rows.clear();

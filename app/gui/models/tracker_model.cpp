@@ -28,6 +28,88 @@ bool reaches(const wire::Vec3& vector, float limit) {
     return std::ranges::any_of(vector, [limit](float value) { return std::abs(value) > limit; });
 }
 
+using TrackerColumn = TableColumn<wire::Tracker>;
+
+TrackerColumn normColumn(const QString& title, const QString& help, wire::Vec3 wire::Tracker::*quantity,
+                         int order, std::function<bool()> isSent) {
+    return TrackerColumn::numbers(title, help,
+                                  [quantity, isSent](const wire::Tracker& tracker) {
+                                      return isSent() ? fixed(norm(tracker.*quantity), 2) : dash();
+                                  })
+        .in({.usual = QStringLiteral("99.99"), .order = order});
+}
+
+/// Reads the model only where a cell is asked for.
+std::vector<TrackerColumn> trackerColumns(const TrackerModel& trackers) {
+    const auto always = [] { return true; };
+    const auto isInertial = [&trackers] { return trackers.hasInertialData(); };
+    std::vector<TrackerColumn> columns{
+        TrackerColumn::words(tr("Tracker"), {}, [](const auto& tracker) { return trackerName(tracker.id); })
+            .in({QStringLiteral("Right Upper Arm")}),
+        normColumn(tr("|f| m/s²"), tr("Norm of the free acceleration: gravity taken away, global"),
+                   &wire::Tracker::freeAcceleration, 4, always),
+        normColumn(tr("|a| m/s²"), tr("Norm of the acceleration: 9.81 at rest, in the tracker's axes"),
+                   &wire::Tracker::acceleration, 3, isInertial),
+        normColumn(tr("|ω| rad/s"), tr("Norm of the angular velocity, in the tracker's axes"),
+                   &wire::Tracker::angularVelocity, 2, isInertial),
+        normColumn(tr("|m|"), tr("Norm of the magnetic field, without unit: about 1 where it is undisturbed"),
+                   &wire::Tracker::magneticField, 1, always),
+        valueColumn(
+            TrackerColumn{
+                .title = tr("Flags"),
+                .help =
+                    tr("Magnetic disturbance: the norm is more than 15 % off its own median of the last "
+                       "minute. Saturation: a component of the acceleration was above 156 m/s² or of the "
+                       "angular velocity above 34 rad/s in the last 10 s; full scale is assumed to be 16 g "
+                       "and 2000 °/s."),
+                .room = {.usual = QStringLiteral("▲ magnetic"), .isOpen = true}},
+            [&trackers](const wire::Tracker& tracker) { return trackers.state(tracker); }),
+    };
+    for (TrackerColumn& column : columns) {
+        column.colour = [&trackers, own = column.colour](const wire::Tracker& tracker) {
+            return trackers.isStale() ? QVariant(theme().dim) : own ? own(tracker) : QVariant();
+        };
+    }
+    return columns;
+}
+
+/// Components in columns of equal width, so that they do not dance.
+QString componentText(std::span<const float> values, int decimals) {
+    constexpr qsizetype kWidest = 6; // "−0.276", "−180.0", "−39.24"
+    QStringList texts;
+    for (const float value : values) {
+        texts += fixed(value, decimals).rightJustified(texts.isEmpty() ? 0 : kWidest, QChar(0x2007));
+    }
+    return texts.join(QLatin1Char(' '));
+}
+
+QString eulerText(const wire::Tracker& tracker) {
+    const Eigen::Vector3d radians =
+        model::eulerFromQuaternion(model::normalizedOrIdentity(model::toQuaternion(tracker.orientation)));
+    return componentText(model::toFloats(Eigen::Vector3d(radians * model::kDegreesPerRadian)), 1);
+}
+
+PropertyValue fieldNorm(const TrackerModel& trackers, const wire::Tracker& tracker) {
+    const auto median = trackers.history().magneticMedian(tracker.id);
+    const QString figures =
+        tr("%1 · dip %2°").arg(fixed(norm(tracker.magneticField), 2), fixed(dipDegrees(tracker), 0));
+    const bool isDisturbed = trackers.history().isDisturbed(tracker);
+    const QString toolTip =
+        tr("Dip: angle below the horizontal, by the tracker's orientation. Disturbed where the norm "
+           "is more than 15 % off its median of the last minute%1.")
+            .arg(median ? tr(" (%1)").arg(fixed(*median, 2)) : QString());
+    return {figures, isDisturbed ? Health::Warning : Health::Unknown, toolTip};
+}
+
+PropertyValue flags(const TrackerModel& trackers, const wire::Tracker& tracker) {
+    PropertyValue state = trackers.state(tracker);
+    if (state.text.isEmpty()) {
+        state.text = state.health == Health::Good ? tr("none") : tr("after 1 s");
+    }
+    state.toolTip = trackers.headerData(TrackerModel::kState, Qt::Horizontal, Qt::ToolTipRole).toString();
+    return state;
+}
+
 } // namespace
 
 float norm(const wire::Vec3& vector) {
@@ -88,18 +170,15 @@ void TrackerHistory::add(const model::Message& message, std::uint32_t step) {
             lately.saturated = message.stamp;
         }
         if (tracker.id == m_trackerId) {
-            addPoint(tracker, message.stamp, followsGap);
+            m_points.push_back(
+                {message.stamp, tracker.freeAcceleration, norm(tracker.magneticField), followsGap});
+            while (message.stamp - m_points.front().stamp > kPlot || m_points.size() > kMostMessages) {
+                m_points.pop_front();
+            }
         }
     }
     m_lastStamp = message.stamp;
     m_lastSample = message.datagram.header.sampleCounter;
-}
-
-void TrackerHistory::addPoint(const wire::Tracker& tracker, log::Stamp stamp, bool followsGap) {
-    m_points.push_back({stamp, tracker.freeAcceleration, norm(tracker.magneticField), followsGap});
-    while (stamp - m_points.front().stamp > kPlot || m_points.size() > kMostMessages) {
-        m_points.pop_front();
-    }
 }
 
 void TrackerHistory::addNorm(Lately& lately, log::Stamp stamp, float norm) const {
@@ -141,55 +220,6 @@ bool TrackerHistory::isSaturated(std::uint32_t trackerId) const {
            m_lastStamp - *found->second.saturated < kPlot;
 }
 
-namespace {
-
-using TrackerColumn = TableColumn<wire::Tracker>;
-
-TrackerColumn normColumn(const QString& title, const QString& help, wire::Vec3 wire::Tracker::*quantity,
-                         int order, std::function<bool()> isSent) {
-    return TrackerColumn::numbers(title, help,
-                                  [quantity, isSent](const wire::Tracker& tracker) {
-                                      return isSent() ? fixed(norm(tracker.*quantity), 2) : dash();
-                                  })
-        .in({.usual = QStringLiteral("99.99"), .order = order});
-}
-
-/// Reads the model only where a cell is asked for.
-std::vector<TrackerColumn> trackerColumns(const TrackerModel& trackers) {
-    const auto always = [] { return true; };
-    const auto isInertial = [&trackers] { return trackers.hasInertialData(); };
-    std::vector<TrackerColumn> columns{
-        TrackerColumn::words(tr("Tracker"), {}, [](const auto& tracker) { return trackerName(tracker.id); })
-            .in({QStringLiteral("Right Upper Arm")}),
-        normColumn(tr("|f| m/s²"), tr("Norm of the free acceleration: gravity taken away, global"),
-                   &wire::Tracker::freeAcceleration, 4, always),
-        normColumn(tr("|a| m/s²"), tr("Norm of the acceleration: 9.81 at rest, in the tracker's axes"),
-                   &wire::Tracker::acceleration, 3, isInertial),
-        normColumn(tr("|ω| rad/s"), tr("Norm of the angular velocity, in the tracker's axes"),
-                   &wire::Tracker::angularVelocity, 2, isInertial),
-        normColumn(tr("|m|"), tr("Norm of the magnetic field, without unit: about 1 where it is undisturbed"),
-                   &wire::Tracker::magneticField, 1, always),
-        valueColumn(
-            TrackerColumn{
-                .title = tr("Flags"),
-                .help =
-                    tr("Magnetic disturbance: the norm is more than 15 % off its own median of the last "
-                       "minute. Saturation: a component of the acceleration was above 156 m/s² or of the "
-                       "angular velocity above 34 rad/s in the last 10 s; full scale is assumed to be 16 g "
-                       "and 2000 °/s."),
-                .room = {.usual = QStringLiteral("▲ magnetic"), .isOpen = true}},
-            [&trackers](const wire::Tracker& tracker) { return trackers.state(tracker); }),
-    };
-    for (TrackerColumn& column : columns) {
-        column.colour = [&trackers, own = column.colour](const wire::Tracker& tracker) {
-            return trackers.isStale() ? QVariant(theme().dim) : own ? own(tracker) : QVariant();
-        };
-    }
-    return columns;
-}
-
-} // namespace
-
 QString trackerName(std::uint32_t id) {
     const auto& segments = model::bodySegments();
     if (id == 0 || id > segments.size()) {
@@ -198,8 +228,8 @@ QString trackerName(std::uint32_t id) {
     return fromUtf8(segments[id - 1].displayName);
 }
 
-TrackerModel::TrackerModel(model::SessionView& view, QObject* parent)
-    : TableModel(withHelpInCells(trackerColumns(*this)), parent), m_view(view) {}
+TrackerModel::TrackerModel(model::SessionView& view)
+    : TableModel(withHelpInCells(trackerColumns(*this))), m_view(view) {}
 
 void TrackerModel::refresh() {
     m_key = shownCharacter(m_view);
@@ -246,47 +276,6 @@ PropertyValue TrackerModel::state(const wire::Tracker& tracker) const {
     }
     return {QString(), m_history.magneticMedian(tracker.id) ? Health::Good : Health::Unknown};
 }
-
-namespace {
-
-/// Components in columns of equal width, so that they do not dance.
-QString componentText(std::span<const float> values, int decimals) {
-    constexpr qsizetype kWidest = 6; // "−0.276", "−180.0", "−39.24"
-    QStringList texts;
-    for (const float value : values) {
-        texts += fixed(value, decimals).rightJustified(texts.isEmpty() ? 0 : kWidest, QChar(0x2007));
-    }
-    return texts.join(QLatin1Char(' '));
-}
-
-QString eulerText(const wire::Tracker& tracker) {
-    const Eigen::Vector3d radians =
-        model::eulerFromQuaternion(model::normalizedOrIdentity(model::toQuaternion(tracker.orientation)));
-    return componentText(model::toFloats(Eigen::Vector3d(radians * model::kDegreesPerRadian)), 1);
-}
-
-PropertyValue fieldNorm(const TrackerModel& trackers, const wire::Tracker& tracker) {
-    const auto median = trackers.history().magneticMedian(tracker.id);
-    const QString figures =
-        tr("%1 · dip %2°").arg(fixed(norm(tracker.magneticField), 2), fixed(dipDegrees(tracker), 0));
-    const bool isDisturbed = trackers.history().isDisturbed(tracker);
-    const QString toolTip =
-        tr("Dip: angle below the horizontal, by the tracker's orientation. Disturbed where the norm "
-           "is more than 15 % off its median of the last minute%1.")
-            .arg(median ? tr(" (%1)").arg(fixed(*median, 2)) : QString());
-    return {figures, isDisturbed ? Health::Warning : Health::Unknown, toolTip};
-}
-
-PropertyValue flags(const TrackerModel& trackers, const wire::Tracker& tracker) {
-    PropertyValue state = trackers.state(tracker);
-    if (state.text.isEmpty()) {
-        state.text = state.health == Health::Good ? tr("none") : tr("after 1 s");
-    }
-    state.toolTip = trackers.headerData(TrackerModel::kState, Qt::Horizontal, Qt::ToolTipRole).toString();
-    return state;
-}
-
-} // namespace
 
 std::vector<Property> trackerFacts(const TrackerModel& trackers) {
     using Read = std::function<PropertyValue(const wire::Tracker&)>;

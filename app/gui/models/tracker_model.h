@@ -56,7 +56,6 @@ private:
         std::optional<log::Stamp> saturated;
     };
     void add(const model::Message& message, std::uint32_t step);
-    void addPoint(const wire::Tracker& tracker, log::Stamp stamp, bool followsGap);
     void addNorm(Lately& lately, log::Stamp stamp, float norm) const;
     void computeMedians();
 
@@ -80,7 +79,7 @@ class TrackerModel : public TableModel<wire::Tracker> {
 public:
     enum Column : int { kName, kFree, kAcceleration, kGyro, kMagnetic, kState };
 
-    explicit TrackerModel(model::SessionView& view, QObject* parent = nullptr);
+    explicit TrackerModel(model::SessionView& view);
 
     void refresh();
 
