@@ -92,10 +92,6 @@ void ByteView::scrollTo(std::uint32_t offset) {
     }
 }
 
-int ByteView::rowHeight() const {
-    return QFontMetrics(monospaceFont()).height() + 4;
-}
-
 /// The widest row that fits, the characters beside it first given up.
 void ByteView::fit() {
     m_advance = QFontMetricsF(monospaceFont()).horizontalAdvance(QLatin1Char('0'));
@@ -216,10 +212,6 @@ void ByteView::paintByte(QPainter& painter, std::uint32_t offset) {
         painter.setPen(isPrintable ? colour : theme().dim);
         painter.drawText(text, Qt::AlignCenter, isPrintable ? QString(QChar(value)) : QStringLiteral("·"));
     }
-}
-
-void ByteView::mouseMoveEvent(QMouseEvent* event) {
-    emit hovered(byteAt(event->position().toPoint()));
 }
 
 void ByteView::mousePressEvent(QMouseEvent* event) {

@@ -52,7 +52,7 @@ signals:
 
 protected:
     void paintEvent(QPaintEvent* event) override;
-    void mouseMoveEvent(QMouseEvent* event) override;
+    void mouseMoveEvent(QMouseEvent* event) override { emit hovered(byteAt(event->position().toPoint())); }
     void mousePressEvent(QMouseEvent* event) override;
     void keyPressEvent(QKeyEvent* event) override;
     void contextMenuEvent(QContextMenuEvent* event) override;
@@ -66,7 +66,7 @@ private:
     void paintMarks(QPainter& painter, std::uint32_t offset, const QRectF& cell) const;
     [[nodiscard]] QRectF hexCell(std::uint32_t offset) const;
     [[nodiscard]] QRectF textCell(std::uint32_t offset) const;
-    [[nodiscard]] int rowHeight() const;
+    [[nodiscard]] int rowHeight() const { return QFontMetrics(monospaceFont()).height() + 4; }
     [[nodiscard]] double columnLeft(int column) const;
     [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(m_document->bytes.size()); }
 

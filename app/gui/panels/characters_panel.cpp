@@ -6,7 +6,6 @@
 #include "app/gui/models/text.h"
 #include "app/gui/panels/cell_delegate.h"
 #include "app/gui/theme/theme.h"
-#include "app/gui/theme/widgets.h"
 #include "core/model/session/accounts.h"
 #include "core/model/session/roster.h"
 #include "core/model/session/verdict.h"
@@ -20,18 +19,6 @@
 #include <utility>
 
 namespace posewire::gui {
-
-namespace {
-
-QToolButton* toggle(const QString& name, const QString& text, const QString& toolTip, QWidget* parent) {
-    QToolButton* button = framedButton(text, toolTip, parent);
-    button->setObjectName(name);
-    button->setCheckable(true);
-    button->setFocusPolicy(Qt::StrongFocus);
-    return button;
-}
-
-} // namespace
 
 /// Cells of lines that are lower where all have room then.
 class BoardDelegate final : public CellDelegate {
@@ -54,11 +41,7 @@ private:
 class EndedSenders final : public QWidget {
 public:
     EndedSenders(model::SessionView& view, Commands& commands, QWidget* parent)
-        : QWidget(parent),
-          m_commands(commands),
-          m_model(view),
-          m_toggle(flatButton({}, tr("Senders that others have taken over from"), this)),
-          m_table(new TableView(tr("Ended senders"), this)) {
+        : QWidget(parent), m_commands(commands), m_model(view) {
         m_toggle->setObjectName(QStringLiteral("endedSenders"));
         m_toggle->setCheckable(true);
         m_toggle->setFocusPolicy(Qt::StrongFocus);
@@ -117,11 +100,19 @@ private:
 
     Commands& m_commands;
     EndedSenderModel m_model;
-    QToolButton* m_toggle;
-    TableView* m_table;
+    QToolButton* m_toggle = flatButton({}, tr("Senders that others have taken over from"), this);
+    TableView* m_table = new TableView(tr("Ended senders"), this);
 };
 
 namespace {
+
+QToolButton* toggle(const QString& name, const QString& text, const QString& toolTip, QWidget* parent) {
+    QToolButton* button = framedButton(text, toolTip, parent);
+    button->setObjectName(name);
+    button->setCheckable(true);
+    button->setFocusPolicy(Qt::StrongFocus);
+    return button;
+}
 
 using CharacterDo = ActionsOf<CharactersPanel>;
 
@@ -160,22 +151,24 @@ CharactersPanel::CharactersPanel(model::SessionView& view, Commands& commands,
                                  const ReceivingState& receiving, QWidget* parent)
     : Panel(view, commands, parent),
       m_receiving(receiving),
-      m_model(view, commands),
-      m_detailModel(view),
       m_troubleFirst(toggle(QStringLiteral("troubleFirst"), tr("Trouble first"),
                             tr("The worst verdict on top; else in order of appearance"), this)),
       m_detailToggle(toggle(QStringLiteral("detail"), tr("Detail"),
                             tr("The streams of the selected character, and where they come from"), this)),
       m_span(new ElidedLabel(Qt::AlignRight | Qt::AlignVCenter, this)),
-      m_table(new TableView(tr("Characters"), this)),
       m_rows(new BoardDelegate(m_table)),
-      m_detail(new QWidget(this)),
-      m_history(dimText({}, m_detail)),
-      m_streams(new TableView(tr("Streams of the selected character"), m_detail)),
-      m_ended(new EndedSenders(view, commands, this)),
-      m_message(footMessage(this)) {
+      m_ended(new EndedSenders(view, commands, this)) {
     auto* column = tightColumn(this);
-    addBar();
+    auto* row = spacedRow({8, 3, 8, 3}, 6);
+    row->addWidget(m_troubleFirst);
+    row->addWidget(m_detailToggle);
+    row->addStretch(1);
+    row->addWidget(m_span);
+    m_span->setObjectName(QStringLiteral("span"));
+    row->setStretchFactor(m_span, 1);
+    column->addLayout(row);
+    connect(m_troubleFirst, &QToolButton::clicked, this, &CharactersPanel::setTroubleFirst);
+    connect(m_detailToggle, &QToolButton::clicked, this, &CharactersPanel::setDetailShown);
     m_table->setObjectName(QStringLiteral("board"));
     m_table->setModel(&m_model);
     m_table->setItemDelegate(m_rows);
@@ -199,19 +192,6 @@ CharactersPanel::CharactersPanel(model::SessionView& view, Commands& commands,
             &CharactersPanel::select);
     connect(m_table, &QAbstractItemView::doubleClicked, this, &CharactersPanel::frameSelected);
     connect(m_table, &TableView::menuRequested, this, &CharactersPanel::addActions);
-}
-
-void CharactersPanel::addBar() {
-    auto* row = spacedRow({8, 3, 8, 3}, 6);
-    row->addWidget(m_troubleFirst);
-    row->addWidget(m_detailToggle);
-    row->addStretch(1);
-    row->addWidget(m_span);
-    m_span->setObjectName(QStringLiteral("span"));
-    row->setStretchFactor(m_span, 1);
-    static_cast<QVBoxLayout*>(layout())->addLayout(row);
-    connect(m_troubleFirst, &QToolButton::clicked, this, &CharactersPanel::setTroubleFirst);
-    connect(m_detailToggle, &QToolButton::clicked, this, &CharactersPanel::setDetailShown);
 }
 
 void CharactersPanel::showEmptyState() {
@@ -295,10 +275,6 @@ void CharactersPanel::setTroubleFirst(bool isFirst) {
 void CharactersPanel::setDetailShown(bool isShown) {
     m_detailToggle->setChecked(isShown);
     refresh();
-}
-
-bool CharactersPanel::isDetailShown() const {
-    return m_detailToggle->isChecked();
 }
 
 /// As high as its rows, but no higher than half of the dock.

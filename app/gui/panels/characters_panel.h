@@ -5,9 +5,9 @@
 #include "app/gui/base/program_state.h"
 #include "app/gui/models/character_model.h"
 #include "app/gui/panels/table_view.h"
+#include "app/gui/theme/widgets.h"
 
-class QLabel;
-class QToolButton;
+#include <QWidget>
 
 namespace posewire::gui {
 
@@ -36,7 +36,7 @@ public:
     [[nodiscard]] bool isTroubleFirst() const { return m_model.order() == BoardOrder::TroubleFirst; }
     void toggleTroubleFirst() { setTroubleFirst(!isTroubleFirst()); }
     void setDetailShown(bool isShown);
-    [[nodiscard]] bool isDetailShown() const;
+    [[nodiscard]] bool isDetailShown() const { return m_detailToggle->isChecked(); }
     void toggleDetail() { setDetailShown(!isDetailShown()); }
 
     // Says so if no character is selected.
@@ -53,7 +53,6 @@ protected:
     bool eventFilter(QObject* watched, QEvent* event) override;
 
 private:
-    void addBar();
     void addActions(QMenu& menu, const QModelIndex& index);
     void showEmptyState();
     void showDetail();
@@ -65,18 +64,18 @@ private:
     [[nodiscard]] bool isSolo(const model::CharacterKey& key) const;
 
     const ReceivingState& m_receiving;
-    CharacterModel m_model;
-    CharacterDetailModel m_detailModel;
+    CharacterModel m_model{m_view, m_commands};
+    CharacterDetailModel m_detailModel{m_view};
     QToolButton* m_troubleFirst;
     QToolButton* m_detailToggle;
     ElidedLabel* m_span; ///< the time that losses are of
-    TableView* m_table;
+    TableView* m_table = new TableView(tr("Characters"), this);
     BoardDelegate* m_rows;
-    QWidget* m_detail;
-    QLabel* m_history;
-    TableView* m_streams;
+    QWidget* m_detail = new QWidget(this);
+    QLabel* m_history = dimText({}, m_detail);
+    TableView* m_streams = new TableView(tr("Streams of the selected character"), m_detail);
     EndedSenders* m_ended;
-    PassingMessage* m_message;
+    PassingMessage* m_message = footMessage(this);
     model::Selection m_followed; ///< the selection that the table shows
     bool m_isFollowing = false;
 };

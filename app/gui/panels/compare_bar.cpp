@@ -6,7 +6,6 @@
 #include "core/model/session/roster.h"
 
 #include <QAbstractItemView>
-#include <QDoubleSpinBox>
 #include <QPainter>
 #include <QSignalBlocker>
 
@@ -89,7 +88,6 @@ CompareBar::CompareBar(QWidget* parent)
       m_partner(narrowBox(tr("Compared with"), tr("The character of the second recording"), this)),
       m_by(narrowBox(tr("Aligned by"), tr("What says which samples of the two belong together"), this)),
       m_earlier(framedButton(QStringLiteral("◀"), tr("The second recording a sample earlier ([)"), this)),
-      m_offset(new QDoubleSpinBox(this)),
       m_later(framedButton(QStringLiteral("▶"), tr("The second recording a sample later (])"), this)),
       m_frame(
           narrowBox(tr("Laid over each other"),

@@ -5,9 +5,8 @@
 #include "app/gui/models/comparison_text.h"
 #include "app/gui/theme/widgets.h"
 
+#include <QDoubleSpinBox>
 #include <QWidget>
-
-class QDoubleSpinBox;
 
 namespace posewire::gui {
 
@@ -55,7 +54,7 @@ private:
     ComboBox* m_partner;
     ComboBox* m_by;
     QToolButton* m_earlier;
-    QDoubleSpinBox* m_offset;
+    QDoubleSpinBox* m_offset = new QDoubleSpinBox(this);
     QToolButton* m_later;
     ComboBox* m_frame;
     QToolButton* m_beside;

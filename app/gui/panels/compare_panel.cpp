@@ -80,27 +80,6 @@ constexpr ActionInfo kCompareActions[] = {
      CompareDo::call<&ComparePanel::stopWork>},
 };
 
-} // namespace
-
-std::span<const ActionInfo> ComparePanel::actionTable() {
-    return kCompareActions;
-}
-
-void ComparePanel::save() {
-    const auto& range = comparison().range;
-    if (range == nullptr || range->segments.empty()) {
-        m_comparing.save({}); // says why not
-        return;
-    }
-    const QString path = askWhereToSave(this, tr("Save differences"), QStringLiteral("differences.csv"),
-                                        tr("Comma-separated values (*.csv)"));
-    if (!path.isEmpty()) {
-        m_comparing.save(path);
-    }
-}
-
-namespace {
-
 using exporting::DifferenceCourse;
 
 TimePlot* makePlot(QWidget* parent) {
@@ -140,23 +119,30 @@ std::vector<TimePlot::Gap> gapsOf(const std::vector<float>& parts, double length
 
 } // namespace
 
+std::span<const ActionInfo> ComparePanel::actionTable() {
+    return kCompareActions;
+}
+
+void ComparePanel::save() {
+    const auto& range = comparison().range;
+    if (range == nullptr || range->segments.empty()) {
+        m_comparing.save({}); // says why not
+        return;
+    }
+    const QString path = askWhereToSave(this, tr("Save differences"), QStringLiteral("differences.csv"),
+                                        tr("Comma-separated values (*.csv)"));
+    if (!path.isEmpty()) {
+        m_comparing.save(path);
+    }
+}
+
 ComparePanel::ComparePanel(model::SessionView& view, Commands& commands, Playback& playback,
                            Comparing& comparing, QWidget* parent)
     : Panel(view, commands, parent),
       m_playback(playback),
       m_comparing(comparing),
-      m_empty(new QWidget(this)),
-      m_emptyText(dimText({}, m_empty)),
       m_begin(framedButton(tr("Compare with a recording…"), tr("Open a second recording (Ctrl+Shift+O)"),
                            m_empty)),
-      m_content(new QWidget(this)),
-      m_bar(new CompareBar(m_content)),
-      m_figures(new ElidedLabel(Qt::AlignLeft | Qt::AlignVCenter, m_content)),
-      m_counts(new ElidedLabel(Qt::AlignLeft | Qt::AlignVCenter, m_content)),
-      m_legend(new DifferenceLegend(m_content)),
-      m_stop(framedButton({}, {}, m_content)),
-      m_splitter(new QSplitter(Qt::Vertical, m_content)),
-      m_table(new TableView(tr("Differences by segment"), m_content)),
       m_plot(makePlot(m_content)) {
     setBackgroundRole(QPalette::Base);
     setAutoFillBackground(true);
@@ -238,6 +224,14 @@ void ComparePanel::change(Change change) {
     refresh();
 }
 
+void ComparePanel::clearOffset() {
+    change([](ComparisonChoice& choice) { choice.offset = 0; });
+}
+
+void ComparePanel::toggleBeside() {
+    change([](ComparisonChoice& choice) { choice.isBeside = !choice.isBeside; });
+}
+
 /// An offset is in the unit of what it was chosen with.
 void ComparePanel::alignBy(By by) {
     change([&](ComparisonChoice& choice) {
@@ -255,16 +249,8 @@ void ComparePanel::nudge(int samples) {
     }
 }
 
-void ComparePanel::clearOffset() {
-    change([](ComparisonChoice& choice) { choice.offset = 0; });
-}
-
 void ComparePanel::setFrame(model::DifferenceFrame frame) {
     change([frame](ComparisonChoice& choice) { choice.frame = frame; });
-}
-
-void ComparePanel::toggleBeside() {
-    change([](ComparisonChoice& choice) { choice.isBeside = !choice.isBeside; });
 }
 
 void ComparePanel::refresh() {
@@ -331,11 +317,6 @@ void ComparePanel::showFigures() {
         toolTipText(state.isStopped ? tr("Work out the range") : tr("Give up working out the range")));
 }
 
-int ComparePanel::shownSlot() const {
-    const int row = m_table->currentIndex().row();
-    return row < 0 ? -1 : m_differences.rows()[static_cast<std::size_t>(row)].slot;
-}
-
 void ComparePanel::plot() {
     const ComparisonState& state = comparison();
     if (state.range == nullptr || state.range->pairs == 0) {
@@ -343,7 +324,8 @@ void ComparePanel::plot() {
     }
     const DifferenceCourse& course = state.range->course;
     const double length = log::secondsOf(course.length);
-    const int slot = shownSlot();
+    const int row = m_table->currentIndex().row();
+    const int slot = row < 0 ? -1 : m_differences.rows()[static_cast<std::size_t>(row)].slot;
     if (m_plotted != state.range || m_plottedSlot != slot) {
         m_plotted = state.range;
         m_plottedSlot = slot;
@@ -417,10 +399,7 @@ void ComparePanel::restoreState(const QJsonObject& state) {
 
 void ComparePanel::resizeEvent(QResizeEvent* event) {
     Panel::resizeEvent(event);
-    const Qt::Orientation orientation = width() > height() * 3 / 2 ? Qt::Horizontal : Qt::Vertical;
-    if (orientation != m_splitter->orientation()) {
-        m_splitter->setOrientation(orientation);
-    }
+    m_splitter->setOrientation(width() > height() * 3 / 2 ? Qt::Horizontal : Qt::Vertical);
 }
 
 } // namespace posewire::gui

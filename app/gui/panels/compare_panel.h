@@ -12,6 +12,8 @@
 #include "app/gui/theme/widgets.h"
 
 #include <QSplitter>
+#include <QWidget>
+#include <Qt>
 
 namespace posewire::gui {
 
@@ -60,22 +62,21 @@ private:
     void plot();
     void followSelection();
     void select(const QModelIndex& index);
-    [[nodiscard]] int shownSlot() const;
 
     Playback& m_playback;
     Comparing& m_comparing;
     DifferenceModel m_differences;
-    QWidget* m_empty;
-    QLabel* m_emptyText;
+    QWidget* m_empty = new QWidget(this);
+    QLabel* m_emptyText = dimText({}, m_empty);
     QToolButton* m_begin;
-    QWidget* m_content;
-    CompareBar* m_bar;
-    ElidedLabel* m_figures;
-    ElidedLabel* m_counts;
-    DifferenceLegend* m_legend;
-    QToolButton* m_stop;
-    QSplitter* m_splitter;
-    TableView* m_table;
+    QWidget* m_content = new QWidget(this);
+    CompareBar* m_bar = new CompareBar(m_content);
+    ElidedLabel* m_figures = new ElidedLabel(Qt::AlignLeft | Qt::AlignVCenter, m_content);
+    ElidedLabel* m_counts = new ElidedLabel(Qt::AlignLeft | Qt::AlignVCenter, m_content);
+    DifferenceLegend* m_legend = new DifferenceLegend(m_content);
+    QToolButton* m_stop = framedButton({}, {}, m_content);
+    QSplitter* m_splitter = new QSplitter(Qt::Vertical, m_content);
+    TableView* m_table = new TableView(tr("Differences by segment"), m_content);
     TimePlot* m_plot;
     std::shared_ptr<const exporting::MotionComparison> m_plotted;
     int m_plottedSlot = -2;

@@ -12,12 +12,7 @@
 namespace posewire::gui {
 
 FaultsPanel::FaultsPanel(model::SessionView& view, Commands& commands, QWidget* parent)
-    : Panel(view, commands, parent),
-      m_faults(view),
-      m_span(new ElidedLabel(Qt::AlignLeft | Qt::AlignVCenter, this)),
-      m_choice(new SpanBar(view, commands, this)),
-      m_table(new TableView(tr("Faults"), this)),
-      m_message(footMessage(this)) {
+    : Panel(view, commands, parent) {
     const int margin = CellDelegate::margin(fontMetrics());
     auto* head = spacedRow({margin, margin / 2, margin, margin / 2}, margin);
     head->addWidget(m_span, 1);
@@ -35,11 +30,6 @@ FaultsPanel::FaultsPanel(model::SessionView& view, Commands& commands, QWidget* 
     m_table->setAllColumnsShowFocus(false);
     m_table->setEmptyText(tr("No stream received yet.\nWhat each character lost, and whose fault it was, is "
                              "counted here: this computer, the network, the sender, or not known."));
-    connectParts();
-    refresh();
-}
-
-void FaultsPanel::connectParts() {
     connect(m_table, &QAbstractItemView::activated, this,
             [this](const QModelIndex& cell) { showPackets(cell, PacketLook::InContext); });
     connect(m_table, &QAbstractItemView::clicked, this, &FaultsPanel::select);
@@ -47,6 +37,7 @@ void FaultsPanel::connectParts() {
     connect(&m_faults, &QAbstractItemModel::modelAboutToBeReset, this, &FaultsPanel::keepPlace);
     connect(&m_faults, &QAbstractItemModel::modelReset, this, &FaultsPanel::restorePlace);
     m_table->installEventFilter(this);
+    refresh();
 }
 
 void FaultsPanel::refresh() {

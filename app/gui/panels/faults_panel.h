@@ -7,6 +7,8 @@
 #include "app/gui/panels/table_view.h"
 #include "app/gui/theme/widgets.h"
 
+#include <Qt>
+
 #include <optional>
 #include <vector>
 
@@ -32,17 +34,16 @@ protected:
     bool eventFilter(QObject* watched, QEvent* event) override;
 
 private:
-    void connectParts();
     void addActions(QMenu& menu, const QModelIndex& index);
     void select(const QModelIndex& index);
     void keepPlace();
     void restorePlace();
 
-    FaultModel m_faults;
-    ElidedLabel* m_span;
-    SpanBar* m_choice;
-    TableView* m_table;
-    PassingMessage* m_message;
+    FaultModel m_faults{m_view};
+    ElidedLabel* m_span = new ElidedLabel(Qt::AlignLeft | Qt::AlignVCenter, this);
+    SpanBar* m_choice = new SpanBar(m_view, m_commands, this);
+    TableView* m_table = new TableView(tr("Faults"), this);
+    PassingMessage* m_message = footMessage(this);
     // While the model is reset:
     std::vector<FaultRow> m_opened;
     std::optional<FaultRow> m_current;

@@ -2,13 +2,10 @@
 #include "app/gui/panels/filter_bar.h"
 
 #include "app/gui/theme/theme.h"
-#include "app/gui/theme/widgets.h"
 
 #include <QAction>
 #include <QJsonArray>
 #include <QMenu>
-#include <QProgressBar>
-#include <QPushButton>
 
 namespace posewire::gui {
 
@@ -30,15 +27,7 @@ std::vector<FilterBar::Saved> defaultFilters() {
         {FilterBar::tr("Meta && scale"), QStringLiteral("type in {10, 11, 12, 13}")}};
 }
 
-FilterBar::FilterBar(QWidget* parent)
-    : QWidget(parent),
-      m_problem(plainLabel(this)),
-      m_line(new FilterLine(m_problem, this)),
-      m_buttons(new CommandBar(this)),
-      m_progressRow(new QWidget(this)),
-      m_progress(new QProgressBar(this)),
-      m_jumpRow(new QWidget(this)),
-      m_back(new QPushButton(m_jumpRow)) {
+FilterBar::FilterBar(QWidget* parent) : QWidget(parent), m_line(new FilterLine(m_problem, this)) {
     layOut();
     connect(m_back, &QPushButton::clicked, this, &FilterBar::backRequested);
     setSaved(defaultFilters());

@@ -2,21 +2,20 @@
 #pragma once
 
 #include "app/gui/panels/filter_line.h"
+#include "app/gui/theme/widgets.h"
 
 #include <QElapsedTimer>
 #include <QJsonObject>
+#include <QProgressBar>
+#include <QPushButton>
 #include <QWidget>
 
 #include <optional>
 #include <vector>
 
 class QMenu;
-class QProgressBar;
-class QPushButton;
 
 namespace posewire::gui {
-
-class CommandBar;
 
 /// The line of the display filter, buttons for filters that were saved, and what else is to be said about the
 /// filter: what is wrong with it, that a jump put it there, how far it has come.
@@ -64,14 +63,14 @@ private:
     void askAbout(std::size_t index, const QPoint& place);
     [[nodiscard]] QString askForName(const QString& title, const QString& accept, QString before);
 
-    QLabel* m_problem;
+    QLabel* m_problem = plainLabel(this);
     FilterLine* m_line;
-    CommandBar* m_buttons;
-    QWidget* m_progressRow;
-    QProgressBar* m_progress;
+    CommandBar* m_buttons = new CommandBar(this);
+    QWidget* m_progressRow = new QWidget(this);
+    QProgressBar* m_progress = new QProgressBar(this);
     QElapsedTimer m_busySince; ///< valid while a filter is on its way
-    QWidget* m_jumpRow;
-    QPushButton* m_back;
+    QWidget* m_jumpRow = new QWidget(this);
+    QPushButton* m_back = new QPushButton(m_jumpRow);
     std::vector<Saved> m_saved;
 };
 

@@ -7,11 +7,9 @@
 #include "app/gui/theme/widgets.h"
 #include "core/filter/completion.h"
 
-#include <QCompleter>
 #include <QInputMethodEvent>
 #include <QKeyEvent>
 #include <QListView>
-#include <QStandardItemModel>
 #include <QTextCharFormat>
 
 #include <algorithm>
@@ -34,11 +32,7 @@ int placeOf(const QString& text, std::size_t byte) {
 
 } // namespace
 
-FilterLine::FilterLine(QLabel* problem, QWidget* parent)
-    : QLineEdit(parent),
-      m_problem(problem),
-      m_offers(new QStandardItemModel(this)),
-      m_completer(new QCompleter(m_offers, this)) {
+FilterLine::FilterLine(QLabel* problem, QWidget* parent) : QLineEdit(parent), m_problem(problem) {
     setObjectName(QStringLiteral("displayFilter"));
     setAccessibleName(tr("Display filter"));
     setPlaceholderText(tr("Filter packets, such as type == 02 && gap > 0"));

@@ -3,13 +3,13 @@
 
 #include "core/filter/filter.h"
 
+#include <QCompleter>
 #include <QLineEdit>
+#include <QStandardItemModel>
 
 #include <optional>
 
-class QCompleter;
 class QLabel;
-class QStandardItemModel;
 
 namespace posewire::gui {
 
@@ -60,8 +60,8 @@ private:
     void insertOffer(const QModelIndex& offer);
 
     QLabel* m_problem;
-    QStandardItemModel* m_offers;
-    QCompleter* m_completer;
+    QStandardItemModel* m_offers = new QStandardItemModel(this);
+    QCompleter* m_completer = new QCompleter(m_offers, this);
     bool m_hasChosen = false; ///< one of the offers, by the arrows
     QStringList m_history;
     QString m_applied;

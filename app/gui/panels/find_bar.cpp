@@ -4,10 +4,8 @@
 #include "app/gui/models/packet_model.h"
 #include "app/gui/models/text.h"
 #include "app/gui/theme/theme.h"
-#include "app/gui/theme/widgets.h"
 
 #include <QKeyEvent>
-#include <QLineEdit>
 
 namespace posewire::gui {
 
@@ -17,8 +15,7 @@ constexpr int kBytes = 1; ///< of the kinds
 
 } // namespace
 
-FindBar::FindBar(QWidget* parent)
-    : QWidget(parent), m_kind(new ComboBox(this)), m_edit(new QLineEdit(this)), m_answer(plainLabel(this)) {
+FindBar::FindBar(QWidget* parent) : QWidget(parent) {
     m_kind->addItems({tr("Text"), tr("Bytes")});
     m_kind->setAccessibleName(tr("What to find"));
     m_edit->setAccessibleName(tr("Find in packets"));
@@ -58,10 +55,6 @@ void FindBar::open() {
 void FindBar::close() {
     hide();
     emit closed();
-}
-
-void FindBar::setText(const QString& text) {
-    m_edit->setText(text);
 }
 
 void FindBar::find(const log::PacketLog& log, const PacketModel& list, std::uint64_t from,
@@ -115,10 +108,6 @@ void FindBar::say(const QString& text, bool isProblem) {
     setTextColour(*m_answer, isProblem ? theme().error : theme().dim);
     m_answer->setText(isProblem ? healthText(Health::Error, text) : text);
     m_answer->setToolTip(toolTipText(text));
-}
-
-QString FindBar::said() const {
-    return m_answer->text();
 }
 
 void FindBar::keyPressEvent(QKeyEvent* event) {

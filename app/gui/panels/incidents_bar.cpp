@@ -26,7 +26,7 @@ std::size_t placeOf(model::IncidentSeverity severity) {
 
 } // namespace
 
-IncidentBar::IncidentBar(QWidget* parent) : QWidget(parent), m_commands(new CommandBar(this)) {
+IncidentBar::IncidentBar(QWidget* parent) : QWidget(parent) {
     auto* row = spacedRow({8, 6, 8, 6}, 6, this);
     auto* group = new QActionGroup(this);
     m_current = addToggle("currentEvents", tr("Current"), tr("Only what still goes on, or may"));

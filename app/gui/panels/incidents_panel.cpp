@@ -4,7 +4,6 @@
 #include "app/gui/base/saving.h"
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
-#include "app/gui/panels/table_view.h"
 #include "app/gui/theme/help_link.h"
 #include "core/model/session/verdict.h"
 
@@ -13,7 +12,6 @@
 #include <QJsonArray>
 #include <QKeyEvent>
 #include <QMenu>
-#include <QPushButton>
 #include <QScopedValueRollback>
 #include <QScrollBar>
 
@@ -54,36 +52,26 @@ void listCurrent(IncidentsPanel& panel) {
     panel.setFilter(filter);
 }
 
-template <Severity severity>
-bool listsSeverity(const IncidentsPanel& panel) {
-    return panel.filter().severities[static_cast<std::size_t>(severity)];
+constexpr auto kSeverityFlags = &IncidentModel::Filter::severities;
+constexpr auto kGroupFlags = &IncidentModel::Filter::groups;
+
+template <auto flags, auto which>
+bool lists(const IncidentsPanel& panel) {
+    return (panel.filter().*flags)[static_cast<std::size_t>(which)];
 }
 
-template <Severity severity>
-void toggleSeverity(IncidentsPanel& panel) {
+template <auto flags, auto which>
+void toggle(IncidentsPanel& panel) {
     IncidentModel::Filter filter = panel.filter();
-    bool& isListed = filter.severities[static_cast<std::size_t>(severity)];
+    bool& isListed = (filter.*flags)[static_cast<std::size_t>(which)];
     isListed = !isListed;
     panel.setFilter(filter);
 }
 
-template <Group group>
-bool listsGroup(const IncidentsPanel& panel) {
-    return panel.filter().groups[static_cast<std::size_t>(group)];
-}
-
-template <Group group>
-void toggleGroup(IncidentsPanel& panel) {
-    IncidentModel::Filter filter = panel.filter();
-    bool& isListed = filter.groups[static_cast<std::size_t>(group)];
-    isListed = !isListed;
-    panel.setFilter(filter);
-}
-
-template <Group group>
-constexpr ActionInfo groupEntry(const char* id, const char* text) {
+template <auto flags, auto which>
+constexpr ActionInfo flagEntry(const char* id, const char* menu, const char* text) {
     using Do = ActionsOf<IncidentsPanel>;
-    return {id, kGroups, text, "", Do::call<toggleGroup<group>>, Do::is<listsGroup<group>>};
+    return {id, menu, text, "", Do::call<toggle<flags, which>>, Do::is<lists<flags, which>>};
 }
 
 constexpr const char* kList = QT_TRANSLATE_NOOP("Action", "&View/&Incidents");
@@ -97,12 +85,7 @@ bool asksForNewest(const QEvent& event) {
 } // namespace
 
 IncidentsPanel::IncidentsPanel(model::SessionView& view, Commands& commands, QWidget* parent)
-    : Panel(view, commands, parent),
-      m_incidents(view),
-      m_bar(new IncidentBar(this)),
-      m_table(new TableView(tr("Incidents"), this)),
-      m_chip(new QPushButton(m_table)),
-      m_message(footMessage(this)) {
+    : Panel(view, commands, parent) {
     auto* column = tightColumn(this);
     column->addWidget(m_bar);
     column->addWidget(new Line(this));
@@ -126,17 +109,20 @@ std::span<const ActionInfo> IncidentsPanel::actionTable() {
         {"incidentHistory", kList, QT_TRANSLATE_NOOP("Action", "&History"), "", Do::call<listCurrent<false>>,
          Do::is<listsCurrent, false>},
         lineIn(kList),
-        {"listErrors", kList, QT_TRANSLATE_NOOP("Action", "&Errors"), "",
-         Do::call<toggleSeverity<Severity::Error>>, Do::is<listsSeverity<Severity::Error>>},
-        {"listWarnings", kList, QT_TRANSLATE_NOOP("Action", "&Warnings"), "",
-         Do::call<toggleSeverity<Severity::Warning>>, Do::is<listsSeverity<Severity::Warning>>},
-        {"listNotes", kList, QT_TRANSLATE_NOOP("Action", "&Notes"), "",
-         Do::call<toggleSeverity<Severity::Info>>, Do::is<listsSeverity<Severity::Info>>},
+        flagEntry<kSeverityFlags, Severity::Error>("listErrors", kList,
+                                                   QT_TRANSLATE_NOOP("Action", "&Errors")),
+        flagEntry<kSeverityFlags, Severity::Warning>("listWarnings", kList,
+                                                     QT_TRANSLATE_NOOP("Action", "&Warnings")),
+        flagEntry<kSeverityFlags, Severity::Info>("listNotes", kList, QT_TRANSLATE_NOOP("Action", "&Notes")),
         lineIn(kList),
-        groupEntry<Group::Sender>("listSenderIncidents", QT_TRANSLATE_NOOP("Action", "&Sender")),
-        groupEntry<Group::Loss>("listLossIncidents", QT_TRANSLATE_NOOP("Action", "&Loss")),
-        groupEntry<Group::Content>("listContentIncidents", QT_TRANSLATE_NOOP("Action", "&Content")),
-        groupEntry<Group::Limit>("listLimitIncidents", QT_TRANSLATE_NOOP("Action", "L&imit")),
+        flagEntry<kGroupFlags, Group::Sender>("listSenderIncidents", kGroups,
+                                              QT_TRANSLATE_NOOP("Action", "&Sender")),
+        flagEntry<kGroupFlags, Group::Loss>("listLossIncidents", kGroups,
+                                            QT_TRANSLATE_NOOP("Action", "&Loss")),
+        flagEntry<kGroupFlags, Group::Content>("listContentIncidents", kGroups,
+                                               QT_TRANSLATE_NOOP("Action", "&Content")),
+        flagEntry<kGroupFlags, Group::Limit>("listLimitIncidents", kGroups,
+                                             QT_TRANSLATE_NOOP("Action", "L&imit")),
         {"markIncidentsSeen", kList, QT_TRANSLATE_NOOP("Action", "&Mark all as seen"), "",
          Do::call<&IncidentsPanel::markSeen>},
         {"exportEvents", QT_TRANSLATE_NOOP("Action", "&File"),

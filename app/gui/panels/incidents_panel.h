@@ -3,18 +3,18 @@
 
 #include "app/gui/base/panel.h"
 #include "app/gui/models/incident_model.h"
+#include "app/gui/panels/table_view.h"
 #include "app/gui/theme/widgets.h"
+
+#include <QPushButton>
 
 #include <array>
 #include <optional>
 
 class QLineEdit;
 class QMenu;
-class QPushButton;
 
 namespace posewire::gui {
-
-class TableView;
 
 class IncidentBar final : public QWidget {
     Q_OBJECT
@@ -42,7 +42,7 @@ private:
     void change();
     void paintSeverities();
 
-    CommandBar* m_commands;
+    CommandBar* m_commands = new CommandBar(this);
     QAction* m_current = nullptr;
     QAction* m_history = nullptr;
     std::array<QAction*, 3> m_severities{}; ///< by IncidentSeverity
@@ -97,11 +97,11 @@ private:
     void keepCurrent();
     void showEmptyState();
 
-    IncidentModel m_incidents;
-    IncidentBar* m_bar;
-    TableView* m_table;
-    QPushButton* m_chip;
-    PassingMessage* m_message;
+    IncidentModel m_incidents{m_view};
+    IncidentBar* m_bar = new IncidentBar(this);
+    TableView* m_table = new TableView(tr("Incidents"), this);
+    QPushButton* m_chip = new QPushButton(m_table);
+    PassingMessage* m_message = footMessage(this);
     std::uint64_t m_requests = 0;           ///< that were carried out
     std::optional<std::uint64_t> m_current; ///< of the current row, kept while rows come and go
     int m_missed = 0;                       ///< came since following ended

@@ -7,7 +7,6 @@
 #include "app/gui/models/text.h"
 #include "app/gui/panels/cell_delegate.h"
 #include "app/gui/theme/theme.h"
-#include "app/gui/theme/widgets.h"
 #include "core/model/session/accounts.h"
 #include "core/model/session/roster.h"
 
@@ -70,18 +69,8 @@ ByteRange rangeOf(const FieldDocument& document, std::int32_t node) {
 
 InspectorPanel::InspectorPanel(model::SessionView& view, Commands& commands, QWidget* parent)
     : Panel(view, commands, parent),
-      m_title(new ElidedLabel(Qt::AlignLeft, this)),
-      m_previous(flatButton(QStringLiteral("‹"), tr("Previous packet of this stream"), this)),
-      m_next(flatButton(QStringLiteral("›"), tr("Next packet of this stream"), this)),
       m_hold(flatButton(tr("Hold"), tr("Keep showing this packet while the stream continues"), this)),
-      m_compare(flatButton(tr("Compare ▾"), tr("Compare with another packet of the same type"), this)),
-      m_problems(richLabel(this)),
-      m_problemLine(new Line(this)),
-      m_splitter(new QSplitter(Qt::Vertical, this)),
-      m_fields(new FieldView(m_model, commands, this)),
-      m_bytes(new ByteView(this)),
-      m_detail(richLabel(this)),
-      m_detailLine(new Line(this)) {
+      m_compare(flatButton(tr("Compare ▾"), tr("Compare with another packet of the same type"), this)) {
     layOut();
     connect(m_fields, &FieldView::nodeEntered, this, &InspectorPanel::hover);
     connect(m_fields, &FieldView::nodeSelected, this, &InspectorPanel::select);
@@ -485,10 +474,6 @@ void InspectorPanel::fillCompareMenu() {
 
 void InspectorPanel::toggleOnlyDifferences() {
     m_fields->change([this] { m_model.setOnlyDifferences(!m_model.isOnlyDifferences()); });
-}
-
-bool InspectorPanel::isHeld() const {
-    return m_view.choices().selection.packet.has_value();
 }
 
 } // namespace posewire::gui

@@ -9,6 +9,7 @@
 #include "app/gui/theme/widgets.h"
 
 #include <QSplitter>
+#include <Qt>
 
 #include <memory>
 #include <optional>
@@ -34,7 +35,7 @@ public:
     void setReference();
     /// Keeps showing the packet that is shown, or follows the stream again.
     void toggleHold();
-    [[nodiscard]] bool isHeld() const;
+    [[nodiscard]] bool isHeld() const { return m_view.choices().selection.packet.has_value(); }
 
 protected:
     void resizeEvent(QResizeEvent* event) override;
@@ -73,18 +74,18 @@ private:
     QStringList m_sequence; ///< what is odd about the packet's place in its stream
     bool m_isShown = false;
 
-    ElidedLabel* m_title;
-    QToolButton* m_previous;
-    QToolButton* m_next;
+    ElidedLabel* m_title = new ElidedLabel(Qt::AlignLeft, this);
+    QToolButton* m_previous = flatButton(QStringLiteral("‹"), tr("Previous packet of this stream"), this);
+    QToolButton* m_next = flatButton(QStringLiteral("›"), tr("Next packet of this stream"), this);
     QToolButton* m_hold;
     QToolButton* m_compare;
-    QLabel* m_problems;
-    Line* m_problemLine;
-    QSplitter* m_splitter;
-    FieldView* m_fields;
-    ByteView* m_bytes;
-    QLabel* m_detail;
-    Line* m_detailLine;
+    QLabel* m_problems = richLabel(this);
+    Line* m_problemLine = new Line(this);
+    QSplitter* m_splitter = new QSplitter(Qt::Vertical, this);
+    FieldView* m_fields = new FieldView(m_model, m_commands, this);
+    ByteView* m_bytes = new ByteView(this);
+    QLabel* m_detail = richLabel(this);
+    Line* m_detailLine = new Line(this);
 };
 
 } // namespace posewire::gui

@@ -89,7 +89,6 @@ DetectionBar::DetectionBar(model::SessionView& view, Commands& commands, QWidget
     : QWidget(parent),
       m_view(view),
       m_commands(commands),
-      m_contradictions(plainLabel(this)),
       m_revision(addChoice<Revision>(tr("Protocol revision assumed for this sender"),
                                      &SenderOverride::revision,
                                      {{tr("automatic"), std::nullopt},
@@ -182,10 +181,7 @@ void DetectionBar::showContradictions(const model::Sender& sender) {
 }
 
 MetadataPanel::MetadataPanel(model::SessionView& view, Commands& commands, QWidget* parent)
-    : Panel(view, commands, parent),
-      m_model(view),
-      m_table(new TableView(tr("Metadata"), this)),
-      m_detection(new DetectionBar(view, commands, this)) {
+    : Panel(view, commands, parent) {
     auto* layout = tightColumn(this);
     layout->addWidget(m_table, 1);
     layout->addWidget(m_detection);

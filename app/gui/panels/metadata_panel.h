@@ -38,7 +38,7 @@ private:
     model::SessionView& m_view;
     Commands& m_commands;
     std::optional<log::SenderId> m_sender;
-    QLabel* m_contradictions;
+    QLabel* m_contradictions = plainLabel(this);
     Choice m_revision;
     Choice m_unit;
     Choice m_up;
@@ -58,9 +58,9 @@ public:
     [[nodiscard]] DetectionBar& detection() const { return *m_detection; }
 
 private:
-    MetadataModel m_model;
-    TableView* m_table;
-    DetectionBar* m_detection;
+    MetadataModel m_model{m_view};
+    TableView* m_table = new TableView(tr("Metadata"), this);
+    DetectionBar* m_detection = new DetectionBar(m_view, m_commands, this);
 };
 
 } // namespace posewire::gui

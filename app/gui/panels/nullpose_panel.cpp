@@ -2,12 +2,10 @@
 #include "app/gui/panels/nullpose_panel.h"
 
 #include "app/gui/base/help_topics.h"
-#include "app/gui/base/saving.h"
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
 #include "app/gui/panels/cell_delegate.h"
 #include "app/gui/theme/help_link.h"
-#include "app/gui/theme/widgets.h"
 #include "core/model/session/roster.h"
 
 #include <QItemSelectionModel>
@@ -80,26 +78,10 @@ void NullPoseNotices::changeEvent(QEvent* event) {
 
 NullPosePanel::NullPosePanel(model::SessionView& view, Commands& commands, QWidget* parent)
     : Panel(view, commands, parent),
-      m_reading(view),
-      m_segments(m_reading),
-      m_points(m_reading),
-      m_lengths(m_reading),
-      m_scale(m_reading),
       m_facts(nullPoseFacts(m_reading)),
-      m_notices(new NullPoseNotices(this)),
-      m_splitter(new QSplitter(Qt::Vertical, this)),
-      m_overview(new QSplitter(Qt::Horizontal, this)),
-      m_figure(new NullPoseFigure(m_reading, this)),
-      m_factTable(new TableView(tr("Scale messages"), this)),
-      m_tabs(new QTabWidget(this)),
-      m_segmentTable(new TableView(tr("Segments of the null pose"), this)),
-      m_pointTable(new TableView(tr("Points of the null pose"), this)),
-      m_lengthTable(new TableView(tr("Lengths, left and right"), this)),
-      m_scaleTable(new TableView(tr("Scale information, type 10"), this)),
       m_ghost(framedButton(tr("Ghost"), tr("Show the null pose over the live figure (Shift+G)"), this)),
       m_export(framedButton(tr("Export ▾"), tr("Save or copy what was sent, as CSV or JSON"), this)),
-      m_comparison(new ElidedLabel(Qt::AlignRight | Qt::AlignVCenter, this)),
-      m_noticeLine(new Line(this)) {
+      m_comparison(new ElidedLabel(Qt::AlignRight | Qt::AlignVCenter, this)) {
     makeTables();
     makeButtons();
     layOut();
@@ -362,22 +344,6 @@ std::span<const ActionInfo> NullPosePanel::actionTable() {
 
 void NullPosePanel::exportFile() {
     chooseFile(exporting::formats<exporting::NullPoseSheet>()[0], fileFilters<exporting::NullPoseSheet>());
-}
-
-void NullPosePanel::copyCsv() {
-    copyAs(exporting::formatFor<exporting::NullPoseSheet>(".csv"));
-}
-
-void NullPosePanel::copyJson() {
-    copyAs(exporting::formatFor<exporting::NullPoseSheet>(".json"));
-}
-
-void NullPosePanel::copyAs(const SheetFormat& format) {
-    copyText(QString::fromStdString(format.write(sheet())));
-}
-
-void NullPosePanel::copyContradictions() {
-    copyText(findingsText(m_reading.findings()));
 }
 
 void NullPosePanel::chooseFile(const SheetFormat& format, const QString& filters) {

@@ -2,16 +2,19 @@
 #pragma once
 
 #include "app/gui/base/panel.h"
+#include "app/gui/base/saving.h"
 #include "app/gui/models/column.h"
 #include "app/gui/models/null_pose_table.h"
 #include "app/gui/panels/null_pose_figure.h"
 #include "app/gui/panels/table_view.h"
+#include "app/gui/theme/widgets.h"
 #include "core/export/formats.h"
 
 #include <QSplitter>
 #include <QTabWidget>
 #include <QTextBrowser>
 #include <QToolButton>
+#include <Qt>
 
 namespace posewire::gui {
 
@@ -61,9 +64,9 @@ public:
     [[nodiscard]] QString save(const QString& path) const;
     [[nodiscard]] static std::span<const ActionInfo> actionTable();
     void exportFile();
-    void copyCsv();
-    void copyJson();
-    void copyContradictions();
+    void copyCsv() { copyAs(exporting::formatFor<exporting::NullPoseSheet>(".csv")); }
+    void copyJson() { copyAs(exporting::formatFor<exporting::NullPoseSheet>(".json")); }
+    void copyContradictions() { copyText(findingsText(m_reading.findings())); }
 
 protected:
     void resizeEvent(QResizeEvent* event) override;
@@ -80,31 +83,31 @@ private:
     void selectPoint(int point);
     /// Asks for a name that ends as the format's files do.
     void chooseFile(const SheetFormat& format, const QString& filters);
-    void copyAs(const SheetFormat& format);
+    void copyAs(const SheetFormat& format) { copyText(QString::fromStdString(format.write(sheet()))); }
     [[nodiscard]] exporting::NullPoseSheet sheet() const;
     void showContent();
     [[nodiscard]] QString emptyText() const;
 
-    NullPoseReading m_reading;
-    NullPoseSegmentModel m_segments;
-    NullPosePointModel m_points;
-    NullPoseLengthModel m_lengths;
-    NullPoseScaleModel m_scale;
+    NullPoseReading m_reading{m_view};
+    NullPoseSegmentModel m_segments{m_reading};
+    NullPosePointModel m_points{m_reading};
+    NullPoseLengthModel m_lengths{m_reading};
+    NullPoseScaleModel m_scale{m_reading};
     PropertyModel m_facts;
-    NullPoseNotices* m_notices;
-    QSplitter* m_splitter;
-    QSplitter* m_overview;
-    NullPoseFigure* m_figure;
-    TableView* m_factTable;
-    QTabWidget* m_tabs;
-    TableView* m_segmentTable;
-    TableView* m_pointTable;
-    TableView* m_lengthTable;
-    TableView* m_scaleTable;
+    NullPoseNotices* m_notices = new NullPoseNotices(this);
+    QSplitter* m_splitter = new QSplitter(Qt::Vertical, this);
+    QSplitter* m_overview = new QSplitter(Qt::Horizontal, this);
+    NullPoseFigure* m_figure = new NullPoseFigure(m_reading, this);
+    TableView* m_factTable = new TableView(tr("Scale messages"), this);
+    QTabWidget* m_tabs = new QTabWidget(this);
+    TableView* m_segmentTable = new TableView(tr("Segments of the null pose"), this);
+    TableView* m_pointTable = new TableView(tr("Points of the null pose"), this);
+    TableView* m_lengthTable = new TableView(tr("Lengths, left and right"), this);
+    TableView* m_scaleTable = new TableView(tr("Scale information, type 10"), this);
     QToolButton* m_ghost;
     QToolButton* m_export;
     ElidedLabel* m_comparison; ///< with what "Δ ref" compares
-    QWidget* m_noticeLine;
+    QWidget* m_noticeLine = new Line(this);
     int m_point = -1;
     bool m_isFollowing = false;
     bool m_isRoomy = true;    ///< the overview has its own room, else it is a tab

@@ -11,7 +11,6 @@
 
 #include <QContextMenuEvent>
 #include <QPainter>
-#include <QPushButton>
 #include <QScopedValueRollback>
 #include <QScrollBar>
 
@@ -62,9 +61,7 @@ QFont packetFont() {
 }
 
 PacketView::PacketView(const QString& name, QWidget* parent)
-    : QAbstractItemView(parent),
-      m_header(new FittingHeader(this, packetFont, 2, FittingHeader::Kept::Open)),
-      m_newest(new QPushButton(this)) {
+    : QAbstractItemView(parent), m_header(new FittingHeader(this, packetFont, 2, FittingHeader::Kept::Open)) {
     installPacketAccessible();
     setAccessibleName(name);
     setFrameShape(QFrame::NoFrame);
@@ -118,14 +115,6 @@ void PacketView::setEmptyText(const QString& text) {
         m_emptyText = text;
         layOut();
     }
-}
-
-int PacketView::topRow() const {
-    return verticalScrollBar()->value();
-}
-
-int PacketView::wholeRows() const {
-    return std::max(1, viewport()->height() / m_rowHeight);
 }
 
 /// After a change of the rows.
@@ -249,10 +238,6 @@ QModelIndex PacketView::moveCursor(CursorAction action, Qt::KeyboardModifiers /*
     }
     const bool isBack = action == MoveLeft || action == MovePrevious;
     return model()->index(row, m_header->columnBeside(column, isBack ? -1 : 1));
-}
-
-int PacketView::horizontalOffset() const {
-    return m_header->offset();
 }
 
 void PacketView::setSelection(const QRect& rect, QItemSelectionModel::SelectionFlags flags) {

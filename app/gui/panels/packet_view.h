@@ -2,8 +2,7 @@
 #pragma once
 
 #include <QAbstractItemView>
-
-class QPushButton;
+#include <QPushButton>
 
 namespace posewire::gui {
 
@@ -32,8 +31,8 @@ public:
     /// Makes a row the current and only selected one and shows it.
     void showRow(int row);
     [[nodiscard]] bool isShown(const QModelIndex& index) const;
-    [[nodiscard]] int topRow() const;
-    [[nodiscard]] int wholeRows() const;
+    [[nodiscard]] int topRow() const { return verticalScrollBar()->value(); }
+    [[nodiscard]] int wholeRows() const { return std::max(1, viewport()->height() / m_rowHeight); }
     [[nodiscard]] FittingHeader& header() const { return *m_header; }
 
     void setModel(QAbstractItemModel* model) override;
@@ -53,7 +52,7 @@ protected:
     void scrollContentsBy(int dx, int dy) override;
     void updateGeometries() override;
     [[nodiscard]] QModelIndex moveCursor(CursorAction action, Qt::KeyboardModifiers modifiers) override;
-    [[nodiscard]] int horizontalOffset() const override;
+    [[nodiscard]] int horizontalOffset() const override { return m_header->offset(); }
     [[nodiscard]] int verticalOffset() const override { return 0; }
     [[nodiscard]] bool isIndexHidden(const QModelIndex& /*index*/) const override { return false; }
     void setSelection(const QRect& rect, QItemSelectionModel::SelectionFlags flags) override;
@@ -73,7 +72,7 @@ private:
 
     FittingHeader* m_header;
     QString m_emptyText;
-    QPushButton* m_newest;
+    QPushButton* m_newest = new QPushButton(this);
     int m_rowHeight = 1;
     bool m_isFollowing = true;
     bool m_isAdjusting = false; ///< the scroll bar moves because rows come or go, not because anybody scrolls

@@ -2,10 +2,8 @@
 #include "app/gui/panels/packets_panel.h"
 
 #include "app/gui/models/text.h"
-#include "app/gui/panels/filter_bar.h"
 #include "app/gui/panels/fitting_header.h"
 
-#include <QPushButton>
 #include <QScopedValueRollback>
 #include <QShortcut>
 
@@ -14,14 +12,7 @@
 namespace posewire::gui {
 
 PacketsPanel::PacketsPanel(model::SessionView& view, Commands& commands, QWidget* parent)
-    : Panel(view, commands, parent),
-      m_packets(view),
-      m_filter(view, m_packets),
-      m_filterBar(new FilterBar(this)),
-      m_find(new FindBar(this)),
-      m_list(new PacketView(tr("Packets"), this)),
-      m_clear(new QPushButton(tr("Clear the filter"), m_list)),
-      m_message(footMessage(this)) {
+    : Panel(view, commands, parent), m_filter(view, m_packets) {
     auto* column = tightColumn(this);
     column->addWidget(m_filterBar);
     column->addWidget(m_find);

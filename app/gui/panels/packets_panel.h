@@ -4,15 +4,14 @@
 #include "app/gui/base/panel.h"
 #include "app/gui/models/display_filter.h"
 #include "app/gui/models/packet_search.h"
+#include "app/gui/panels/filter_bar.h"
 #include "app/gui/panels/find_bar.h"
 #include "app/gui/panels/packet_view.h"
 #include "app/gui/theme/widgets.h"
 
-class QPushButton;
+#include <QPushButton>
 
 namespace posewire::gui {
-
-class FilterBar;
 
 /// Dock `packets`: every packet of the log, or those that the display filter lets through.
 class PacketsPanel : public Panel {
@@ -67,14 +66,14 @@ private:
     [[nodiscard]] QString cellFilter() const;
     void applyCell(FilterJoin join);
 
-    PacketModel m_packets;
+    PacketModel m_packets{m_view};
     ListFilter m_filter;
     std::optional<std::uint64_t> m_stoppedAt; ///< the packet at which the cursor is paused
-    FilterBar* m_filterBar;
-    FindBar* m_find;
-    PacketView* m_list;
-    QPushButton* m_clear;
-    PassingMessage* m_message;
+    FilterBar* m_filterBar = new FilterBar(this);
+    FindBar* m_find = new FindBar(this);
+    PacketView* m_list = new PacketView(tr("Packets"), this);
+    QPushButton* m_clear = new QPushButton(tr("Clear the filter"), m_list);
+    PassingMessage* m_message = footMessage(this);
     bool m_isHeld = false;      ///< at a packet, or with the display in the past
     bool m_isFollowing = false; ///< the selection: nobody selected anything here
 };

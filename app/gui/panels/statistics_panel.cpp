@@ -7,7 +7,6 @@
 #include "core/model/session/roster.h"
 
 #include <QMenu>
-#include <QSplitter>
 
 namespace posewire::gui {
 
@@ -20,16 +19,17 @@ constexpr int kFactsShown = 4;
 StatisticsPanel::StatisticsPanel(model::SessionView& view, Commands& commands,
                                  const ReceivingState& receiving, const MonitorHealth& health,
                                  QWidget* parent)
-    : Panel(view, commands, parent),
-      m_streams(view),
-      m_computer(computerFacts(view, receiving, health)),
-      m_range(new RangeBar(view, commands, this)),
-      m_table(new TableView(tr("Statistics of streams"), this)),
-      m_facts(new TableView(tr("This computer"), this)),
-      m_filterToRange(new QAction(tr("Show only the packets of this range"), this)),
-      m_parts(new QSplitter(Qt::Vertical, this)),
-      m_message(footMessage(this)) {
-    setUpStreams();
+    : Panel(view, commands, parent), m_computer(computerFacts(view, receiving, health)) {
+    m_table->setObjectName(QStringLiteral("streams"));
+    m_table->setModel(&m_streams);
+    m_table->setRootIsDecorated(true);
+    m_table->setEmptyText(
+        tr("No stream received yet.\nRates, jitter and losses of every stream appear here."));
+    m_table->expandNew();
+    connect(m_table, &QAbstractItemView::clicked, this, &StatisticsPanel::select);
+    connect(m_table, &QAbstractItemView::activated, this,
+            [this](const QModelIndex& cell) { showPackets(cell); });
+    connect(m_table, &TableView::menuRequested, this, &StatisticsPanel::addActions);
     m_facts->showFacts(m_computer);
     m_facts->setMinimumHeight(m_facts->heightForRows(1));
     m_facts->setMaximumHeight(m_facts->heightForRows(m_computer.rowCount()));
@@ -49,19 +49,6 @@ StatisticsPanel::StatisticsPanel(model::SessionView& view, Commands& commands,
     m_range->setContextMenuPolicy(Qt::ActionsContextMenu);
     m_range->addAction(m_filterToRange);
     connect(m_filterToRange, &QAction::triggered, this, &StatisticsPanel::filterToRange);
-}
-
-void StatisticsPanel::setUpStreams() {
-    m_table->setObjectName(QStringLiteral("streams"));
-    m_table->setModel(&m_streams);
-    m_table->setRootIsDecorated(true);
-    m_table->setEmptyText(
-        tr("No stream received yet.\nRates, jitter and losses of every stream appear here."));
-    m_table->expandNew();
-    connect(m_table, &QAbstractItemView::clicked, this, &StatisticsPanel::select);
-    connect(m_table, &QAbstractItemView::activated, this,
-            [this](const QModelIndex& cell) { showPackets(cell); });
-    connect(m_table, &TableView::menuRequested, this, &StatisticsPanel::addActions);
 }
 
 void StatisticsPanel::refresh() {

@@ -10,9 +10,11 @@
 #include "app/gui/panels/table_view.h"
 #include "app/gui/theme/widgets.h"
 
-#include <set>
+#include <QAction>
+#include <QSplitter>
+#include <Qt>
 
-class QSplitter;
+#include <set>
 
 namespace posewire::gui {
 
@@ -35,20 +37,19 @@ public:
     void filterToRange();
 
 private:
-    void setUpStreams();
     void foldEnded();
     void select(const QModelIndex& index);
     void addActions(QMenu& menu, const QModelIndex& index);
 
-    StatisticsModel m_streams;
+    StatisticsModel m_streams{m_view};
     std::set<log::SenderId> m_folded; ///< senders that had ended
     PropertyModel m_computer;
-    RangeBar* m_range;
-    TableView* m_table;
-    TableView* m_facts;
-    QAction* m_filterToRange;
-    QSplitter* m_parts;
-    PassingMessage* m_message;
+    RangeBar* m_range = new RangeBar(m_view, m_commands, this);
+    TableView* m_table = new TableView(tr("Statistics of streams"), this);
+    TableView* m_facts = new TableView(tr("This computer"), this);
+    QAction* m_filterToRange = new QAction(tr("Show only the packets of this range"), this);
+    QSplitter* m_parts = new QSplitter(Qt::Vertical, this);
+    PassingMessage* m_message = footMessage(this);
 };
 
 } // namespace posewire::gui

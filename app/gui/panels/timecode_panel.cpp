@@ -83,10 +83,7 @@ void ClockWidget::keyPressEvent(QKeyEvent* event) {
 }
 
 TimecodePanel::TimecodePanel(model::SessionView& view, Commands& commands, QWidget* parent)
-    : Panel(view, commands, parent),
-      m_facts(clockFacts(m_clock)),
-      m_large(new ClockWidget(this)),
-      m_table(new TableView(tr("Clocks of the sender"), this)) {
+    : Panel(view, commands, parent), m_facts(clockFacts(m_clock)) {
     setBackgroundRole(QPalette::Base);
     setAutoFillBackground(true);
     auto* layout = tightColumn(this);

@@ -81,8 +81,8 @@ private:
     ClockChoice m_choice = ClockChoice::Header;
     std::map<ClockChoice, QToolButton*> m_buttons;
     PropertyModel m_facts;
-    ClockWidget* m_large;
-    TableView* m_table;
+    ClockWidget* m_large = new ClockWidget(this);
+    TableView* m_table = new TableView(tr("Clocks of the sender"), this);
     std::unique_ptr<ClockWidget> m_fullScreen; ///< a window of its own
 };
 

@@ -84,113 +84,105 @@ std::vector<double> heightsOf(const std::vector<model::RangePart>& parts,
 
 class TimelinePainter {
 public:
-    explicit TimelinePainter(TimelineView& timeline) : m_timeline(timeline), m_painter(timeline.viewport()) {}
+    explicit TimelinePainter(TimelineView& timeline) : m_timeline(timeline) {}
 
     void paint() {
-        m_painter.fillRect(m_timeline.viewport()->rect(), theme().panel);
-        if (!m_timeline.m_model.span() || m_timeline.m_model.rows().empty()) {
+        m_painter.fillRect(m_room, theme().panel);
+        if (!m_model.span() || m_model.rows().empty()) {
             drawEmptyText(
                 *m_timeline.viewport(),
                 TimelineView::tr("No stream received yet.\nWhat each character sends appears here: when, how "
                                  "much, and what was lost."));
             return;
         }
-        for (std::size_t row = 0; row < m_timeline.m_model.rows().size(); ++row) {
+        for (std::size_t row = 0; row < m_model.rows().size(); ++row) {
             const QRect rect = rowRect(row);
-            if (rect.bottom() >= m_timeline.rulerHeight() && rect.top() < m_timeline.viewport()->height()) {
+            if (rect.bottom() >= m_ruler && rect.top() < m_room.height()) {
                 paintRow(row);
             }
         }
-        m_painter.setClipRect(m_timeline.namesWidth(), 0, m_timeline.stripWidth(),
-                              m_timeline.viewport()->height());
+        m_painter.setClipRect(m_strips);
         paintRange();
         m_painter.setClipping(false);
         paintRuler();
-        m_painter.setClipRect(m_timeline.namesWidth(), 0, m_timeline.stripWidth(),
-                              m_timeline.viewport()->height());
+        m_painter.setClipRect(m_strips);
         paintIncidents();
         paintCursor();
         if (m_timeline.hasFocus()) {
             m_painter.setClipping(false);
             m_painter.setPen(theme().accent);
             m_painter.setBrush(Qt::NoBrush);
-            m_painter.drawRect(QRectF(m_timeline.viewport()->rect()).adjusted(0.5, 0.5, -0.5, -0.5));
+            m_painter.drawRect(QRectF(m_room).adjusted(0.5, 0.5, -0.5, -0.5));
         }
     }
 
 private:
     [[nodiscard]] QRect rowRect(std::size_t row) const {
-        const int top = m_timeline.rulerHeight() + static_cast<int>(row) * m_timeline.rowHeight() -
+        const int top = m_ruler + static_cast<int>(row) * m_timeline.rowHeight() -
                         m_timeline.verticalScrollBar()->value();
-        return {0, top, m_timeline.viewport()->width(), m_timeline.rowHeight()};
+        return {0, top, m_room.width(), m_timeline.rowHeight()};
     }
 
     void paintRuler() {
-        const QRect ruler(0, 0, m_timeline.viewport()->width(), m_timeline.rulerHeight());
+        const QRect ruler(0, 0, m_room.width(), m_ruler);
         m_painter.fillRect(ruler, theme().header);
         m_painter.setPen(theme().line);
         m_painter.drawLine(0, ruler.bottom(), ruler.right(), ruler.bottom());
-        m_painter.drawLine(m_timeline.namesWidth(), 0, m_timeline.namesWidth(),
-                           m_timeline.viewport()->height());
+        m_painter.drawLine(m_names, 0, m_names, m_room.height());
         m_painter.setFont(tabularFont());
         const QFontMetrics metrics = m_painter.fontMetrics();
-        const auto length = m_timeline.m_window.to - m_timeline.m_window.from;
+        const auto length = m_window.to - m_window.from;
         const auto stepFor = [&](const QString& text) {
             return roundStep(length * metrics.horizontalAdvance(text) / m_timeline.stripWidth());
         };
         const log::Duration coarse = stepFor(QStringLiteral("00:00:00.000   "));
         const log::Duration step = coarse < 1ms ? stepFor(QStringLiteral("00:00:00.000000   ")) : coarse;
-        const int lane = m_timeline.fontMetrics().height();
-        m_painter.setClipRect(m_timeline.namesWidth(), 0, m_timeline.stripWidth(),
-                              m_timeline.viewport()->height());
+        const int lane = m_metrics.height();
+        m_painter.setClipRect(m_strips);
         // Ticks stand at round times of day, which is the local one.
-        const auto wall = m_timeline.m_view.wallOf(m_timeline.m_window.from).time_since_epoch();
+        const auto wall = m_view.wallOf(m_window.from).time_since_epoch();
         const auto seconds = std::chrono::floor<std::chrono::seconds>(wall).count();
         const std::chrono::seconds offset(QDateTime::fromSecsSinceEpoch(seconds).offsetFromUtc());
-        for (log::Stamp tick = m_timeline.m_window.from - (wall + offset) % step;
-             tick < m_timeline.m_window.to; tick += step) {
+        for (log::Stamp tick = m_window.from - (wall + offset) % step; tick < m_window.to; tick += step) {
             const double x = m_timeline.placeOf(tick);
             m_painter.setPen(theme().line);
-            m_painter.drawLine(QPointF(x, lane * 0.3), QPointF(x, m_timeline.rulerHeight()));
-            if (x < m_timeline.namesWidth()) {
+            m_painter.drawLine(QPointF(x, lane * 0.3), QPointF(x, m_ruler));
+            if (x < m_names) {
                 continue; // half a label says nothing
             }
             m_painter.setPen(theme().dim);
             m_painter.drawText(QPointF(x + 4, lane * 0.3 + metrics.ascent()),
-                               tickText(m_timeline.m_view.wallOf(tick), step));
+                               tickText(m_view.wallOf(tick), step));
         }
         m_painter.setClipping(false);
         m_painter.setFont(m_timeline.font());
         m_painter.setPen(theme().dim);
-        const int margin = CellDelegate::margin(m_timeline.fontMetrics());
-        m_painter.drawText(QRect(margin, 0, m_timeline.namesWidth() - margin, ruler.height()),
+        const int margin = CellDelegate::margin(m_metrics);
+        m_painter.drawText(QRect(margin, 0, m_names - margin, ruler.height()),
                            Qt::AlignVCenter | Qt::AlignLeft,
                            TimelineView::tr("%1 in sight").arg(inSight(length)));
     }
 
     void paintIncidents() {
-        const double y = m_timeline.rulerHeight() - m_timeline.fontMetrics().height() / 2.0;
-        const double size = m_timeline.fontMetrics().height() * 0.28;
+        const double y = m_ruler - m_metrics.height() / 2.0;
+        const double size = m_metrics.height() * 0.28;
         m_painter.setRenderHint(QPainter::Antialiasing);
         m_painter.setPen(Qt::NoPen);
         double last = -2 * size;
-        for (const model::Incident* one : worstLast(m_timeline.m_view.verdicts().incidents().all())) {
+        for (const model::Incident* one : worstLast(m_view.verdicts().incidents().all())) {
             const model::Incident& incident = *one;
             const double x = m_timeline.placeOf(incident.firstStamp);
             const bool goesOn = incident.isCurrent && incident.kind == model::IncidentKind::Outage;
             const double end = std::min<double>(
-                m_timeline.placeOf(goesOn ? m_timeline.m_view.cursorStamp() : incident.lastStamp),
-                m_timeline.viewport()->width());
+                m_timeline.placeOf(goesOn ? m_view.cursorStamp() : incident.lastStamp), m_room.width());
             const Health health = healthOf(incident.severity());
             const bool isNote = incident.severity() == model::IncidentSeverity::Info;
             m_painter.setBrush(isNote ? theme().dim : healthColour(health));
-            if (!isNote && end > m_timeline.namesWidth() &&
-                x < m_timeline.viewport()->width()) { // how long it lasted
-                m_painter.drawRect(QRectF(std::max<double>(x, m_timeline.namesWidth()),
-                                          m_timeline.rulerHeight() - 2.5, std::max(0.0, end - x), 2));
+            if (!isNote && end > m_names && x < m_room.width()) { // how long it lasted
+                m_painter.drawRect(
+                    QRectF(std::max<double>(x, m_names), m_ruler - 2.5, std::max(0.0, end - x), 2));
             }
-            const bool isSeen = x >= m_timeline.namesWidth() && x <= m_timeline.viewport()->width() &&
-                                std::abs(x - last) >= 1;
+            const bool isSeen = x >= m_names && x <= m_room.width() && std::abs(x - last) >= 1;
             if (!isSeen) {
                 continue;
             }
@@ -207,21 +199,19 @@ private:
     }
 
     void paintRow(std::size_t row) {
-        const TimelineModel::Row& shown = m_timeline.m_model.shown(row);
+        const TimelineModel::Row& shown = m_model.shown(row);
         const QRect rect = rowRect(row);
-        const int margin = CellDelegate::margin(m_timeline.fontMetrics());
+        const int margin = CellDelegate::margin(m_metrics);
         if (row % 2 == 1) {
             m_painter.fillRect(rect, withAlpha(theme().raised, 0.5));
         }
-        const bool isSelected = m_timeline.m_view.roster().isSelected(shown.character) && !shown.type;
+        const bool isSelected = m_view.roster().isSelected(shown.character) && !shown.type;
         if (isSelected) {
-            m_painter.fillRect(QRect(rect.left(), rect.top(), m_timeline.namesWidth(), rect.height()),
-                               theme().selection);
+            m_painter.fillRect(QRect(rect.left(), rect.top(), m_names, rect.height()), theme().selection);
         }
-        m_painter.setClipRect(0, m_timeline.rulerHeight(), m_timeline.namesWidth(),
-                              m_timeline.viewport()->height());
-        QRect name(rect.left() + margin, rect.top(), m_timeline.namesWidth() - 2 * margin, rect.height());
-        const int indent = m_timeline.fontMetrics().height();
+        m_painter.setClipRect(0, m_ruler, m_names, m_room.height());
+        QRect name(rect.left() + margin, rect.top(), m_names - 2 * margin, rect.height());
+        const int indent = m_metrics.height();
         m_painter.setPen(shown.type ? theme().dim : theme().text);
         if (shown.type) {
             name.setLeft(name.left() + 2 * indent);
@@ -233,11 +223,9 @@ private:
             m_painter.setPen(theme().text);
         }
         m_painter.drawText(name, Qt::AlignLeft | Qt::AlignVCenter,
-                           m_timeline.fontMetrics().elidedText(shown.name, Qt::ElideRight, name.width()));
-        const QRect strip(m_timeline.namesWidth() + 1, rect.top(), m_timeline.stripWidth() - 1,
-                          rect.height());
-        m_painter.setClipRect(strip.intersected(QRect(
-            0, m_timeline.rulerHeight(), m_timeline.viewport()->width(), m_timeline.viewport()->height())));
+                           m_metrics.elidedText(shown.name, Qt::ElideRight, name.width()));
+        const QRect strip(m_names + 1, rect.top(), m_timeline.stripWidth() - 1, rect.height());
+        m_painter.setClipRect(strip.intersected(QRect(0, m_ruler, m_room.width(), m_room.height())));
         paintStrip(shown, strip);
         m_painter.setClipping(false);
     }
@@ -245,7 +233,7 @@ private:
     /// As high as the part with most, with the share that was lost at the bottom; hatched if nothing came for
     /// longer than usual.
     void paintStrip(const TimelineModel::Row& row, const QRect& strip) {
-        const model::RangeParts& parts = m_timeline.m_model.parts();
+        const model::RangeParts& parts = m_model.parts();
         const std::vector<TimelineModel::Gap> gaps = TimelineModel::gapsIn(row.parts);
         const std::vector<double> heights = heightsOf(row.parts, gaps);
         const double most = heights.empty() ? 1 : std::max(1e-9, std::ranges::max(heights));
@@ -277,14 +265,14 @@ private:
     }
 
     void paintRange() {
-        const auto range = m_timeline.m_view.range();
-        if (!range || !m_timeline.m_view.choices().range.fixed) {
+        const auto range = m_view.range();
+        if (!range || !m_view.choices().range.fixed) {
             return;
         }
         const QRectF shade(
             QPointF(m_timeline.placeOf(range->from), 0),
             QPointF(std::max(m_timeline.placeOf(range->to), m_timeline.placeOf(range->from) + 1),
-                    m_timeline.viewport()->height()));
+                    m_room.height()));
         m_painter.fillRect(shade, withAlpha(theme().accent, 0.16));
         m_painter.setPen(theme().accent);
         m_painter.drawLine(shade.topLeft(), shade.bottomLeft());
@@ -292,11 +280,11 @@ private:
     }
 
     void paintCursor() {
-        const double x = m_timeline.placeOf(m_timeline.m_view.cursorStamp());
-        const double head = m_timeline.fontMetrics().height() * 0.35;
+        const double x = m_timeline.placeOf(m_view.cursorStamp());
+        const double head = m_metrics.height() * 0.35;
         m_painter.setRenderHint(QPainter::Antialiasing);
         m_painter.setPen(QPen(theme().text, 1.5));
-        m_painter.drawLine(QPointF(x, head), QPointF(x, m_timeline.viewport()->height()));
+        m_painter.drawLine(QPointF(x, head), QPointF(x, m_room.height()));
         m_painter.setPen(Qt::NoPen);
         m_painter.setBrush(theme().text);
         m_painter.drawPolygon(QPolygonF({{x - head, 0}, {x + head, 0}, {x, head * 1.4}}));
@@ -304,7 +292,15 @@ private:
     }
 
     TimelineView& m_timeline;
-    QPainter m_painter;
+    model::SessionView& m_view = m_timeline.m_view;
+    TimelineModel& m_model = m_timeline.m_model;
+    const model::TimeRange& m_window = m_timeline.m_window;
+    const QRect m_room = m_timeline.viewport()->rect();
+    const int m_names = m_timeline.namesWidth();
+    const int m_ruler = m_timeline.rulerHeight();
+    const QRect m_strips{m_names, 0, m_timeline.stripWidth(), m_room.height()};
+    const QFontMetrics m_metrics = m_timeline.fontMetrics();
+    QPainter m_painter{m_timeline.viewport()};
 };
 
 void TimelineView::paintEvent(QPaintEvent* /*event*/) {

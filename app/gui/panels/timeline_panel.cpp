@@ -6,7 +6,6 @@
 #include "app/gui/panels/cell_delegate.h"
 #include "app/gui/panels/range_bar.h"
 #include "app/gui/theme/theme.h"
-#include "app/gui/theme/widgets.h"
 #include "core/model/body/character_pose.h"
 #include "core/model/session/messages.h"
 
@@ -20,11 +19,7 @@ namespace posewire::gui {
 
 TimelinePanel::TimelinePanel(model::SessionView& view, Commands& commands, Playback& playback,
                              QWidget* parent)
-    : Panel(view, commands, parent),
-      m_timeline(new TimelineView(view, commands, playback, this)),
-      m_thumbnail(new TimelineThumbnail(view, *m_timeline, this)),
-      m_commandBar(new CommandBar(this)),
-      m_moment(new ElidedLabel(Qt::AlignRight | Qt::AlignVCenter, this)) {
+    : Panel(view, commands, parent), m_timeline(new TimelineView(view, commands, playback, this)) {
     const int margin = CellDelegate::margin(fontMetrics());
     auto* head = spacedRow({margin, margin / 2, margin, margin / 2}, margin / 2);
     auto* column = tightColumn(this);
@@ -119,10 +114,6 @@ TimelineThumbnail::TimelineThumbnail(model::SessionView& view, TimelineView& tim
     setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
     setToolTip(tr("All there is, with losses marked; drag to move what the timeline shows"));
     connect(&timeline, &TimelineView::windowChanged, this, [this] { update(); });
-}
-
-QSize TimelineThumbnail::sizeHint() const {
-    return {0, fontMetrics().height() * 3 / 2};
 }
 
 void TimelineThumbnail::refresh() {

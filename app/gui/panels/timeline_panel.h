@@ -4,15 +4,14 @@
 #include "app/gui/base/panel.h"
 #include "app/gui/models/statistics_model.h"
 #include "app/gui/panels/timeline_view.h"
+#include "app/gui/theme/widgets.h"
 
 #include <QWidget>
+#include <Qt>
 
 class QAction;
 
 namespace posewire::gui {
-
-class CommandBar;
-class ElidedLabel;
 
 class TimelineView;
 
@@ -30,7 +29,7 @@ public:
     [[nodiscard]] QRectF strip() const;
     [[nodiscard]] QRectF lens() const;
 
-    [[nodiscard]] QSize sizeHint() const override;
+    [[nodiscard]] QSize sizeHint() const override { return {0, fontMetrics().height() * 3 / 2}; }
     [[nodiscard]] QSize minimumSizeHint() const override { return {0, sizeHint().height()}; }
 
 protected:
@@ -68,9 +67,9 @@ private:
     [[nodiscard]] QString momentText() const;
 
     TimelineView* m_timeline;
-    TimelineThumbnail* m_thumbnail;
-    CommandBar* m_commandBar;
-    ElidedLabel* m_moment;
+    TimelineThumbnail* m_thumbnail = new TimelineThumbnail(m_view, *m_timeline, this);
+    CommandBar* m_commandBar = new CommandBar(this);
+    ElidedLabel* m_moment = new ElidedLabel(Qt::AlignRight | Qt::AlignVCenter, this);
     QAction* m_live;
     QAction* m_range;
 };

@@ -42,20 +42,8 @@ TimelineView::TimelineView(model::SessionView& view, Commands& commands, Playbac
     connect(verticalScrollBar(), &QScrollBar::valueChanged, viewport(), qOverload<>(&QWidget::update));
 }
 
-int TimelineView::rowHeight() const {
-    return fontMetrics().height() * 3 / 2;
-}
-
-int TimelineView::rulerHeight() const {
-    return fontMetrics().height() * 5 / 2;
-}
-
 int TimelineView::namesWidth() const {
     return std::min(fontMetrics().averageCharWidth() * 24, viewport()->width() / 3);
-}
-
-int TimelineView::stripWidth() const {
-    return std::max(1, viewport()->width() - namesWidth());
 }
 
 double TimelineView::placeOf(log::Stamp stamp) const {

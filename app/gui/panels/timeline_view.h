@@ -37,8 +37,8 @@ public:
     [[nodiscard]] double placeOf(log::Stamp stamp) const;
     [[nodiscard]] log::Stamp stampAt(double place) const;
     [[nodiscard]] const TimelineModel& model() const { return m_model; }
-    [[nodiscard]] int rulerHeight() const;
-    [[nodiscard]] int rowHeight() const;
+    [[nodiscard]] int rulerHeight() const { return fontMetrics().height() * 5 / 2; }
+    [[nodiscard]] int rowHeight() const { return fontMetrics().height() * 3 / 2; }
     [[nodiscard]] int namesWidth() const;
 
 signals:
@@ -60,7 +60,7 @@ private:
     enum class Drag { None, Cursor, Range, Window };
 
     void readRows();
-    [[nodiscard]] int stripWidth() const;
+    [[nodiscard]] int stripWidth() const { return std::max(1, viewport()->width() - namesWidth()); }
     [[nodiscard]] std::optional<std::size_t> rowAt(const QPoint& place) const;
     [[nodiscard]] const model::Incident* incidentAt(const QPoint& place) const;
     [[nodiscard]] QString helpAt(const QPoint& place);

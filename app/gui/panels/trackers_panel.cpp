@@ -59,14 +59,7 @@ void plotHistory(TimePlot& plot, const TrackerHistory& history) {
 } // namespace
 
 TrackersPanel::TrackersPanel(model::SessionView& view, Commands& commands, QWidget* parent)
-    : Panel(view, commands, parent),
-      m_trackers(view),
-      m_facts(trackerFacts(m_trackers)),
-      m_splitter(new QSplitter(Qt::Vertical, this)),
-      m_table(new TableView(tr("Trackers"), this)),
-      m_detail(new QWidget(this)),
-      m_factTable(new TableView(tr("Selected tracker"), this)),
-      m_plots(makeTrackerPlot(this)) {
+    : Panel(view, commands, parent), m_facts(trackerFacts(m_trackers)), m_plots(makeTrackerPlot(this)) {
     tightColumn(this)->addWidget(m_splitter);
     auto* detail = tightColumn(m_detail);
     detail->addWidget(m_plots, 1);
@@ -107,15 +100,11 @@ void TrackersPanel::refresh() {
         m_plots->setPast(m_trackers.staleText());
         plotHistory(*m_plots, m_trackers.history());
     }
-    followSelection();
-    m_isFollowing = false;
-}
-
-void TrackersPanel::followSelection() {
     const int row = m_trackers.shownRow();
     if (row != m_table->currentIndex().row()) {
         m_table->setCurrentIndex(m_trackers.index(row, 0));
     }
+    m_isFollowing = false;
 }
 
 void TrackersPanel::select(const QModelIndex& index) {

@@ -7,6 +7,8 @@
 #include "app/gui/plots/time_plot.h"
 
 #include <QSplitter>
+#include <QWidget>
+#include <Qt>
 
 namespace posewire::gui {
 
@@ -26,15 +28,14 @@ protected:
     void resizeEvent(QResizeEvent* event) override;
 
 private:
-    void followSelection();
     void select(const QModelIndex& index);
 
-    TrackerModel m_trackers;
+    TrackerModel m_trackers{m_view};
     PropertyModel m_facts;
-    QSplitter* m_splitter;
-    TableView* m_table;
-    QWidget* m_detail;
-    TableView* m_factTable;
+    QSplitter* m_splitter = new QSplitter(Qt::Vertical, this);
+    TableView* m_table = new TableView(tr("Trackers"), this);
+    QWidget* m_detail = new QWidget(this);
+    TableView* m_factTable = new TableView(tr("Selected tracker"), this);
     TimePlot* m_plots;
     bool m_isFollowing = false;
     bool m_isDivided = false; ///< from then on the operator's division counts
