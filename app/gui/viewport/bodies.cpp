@@ -23,6 +23,30 @@ std::shared_ptr<const MannequinMeshes> loadMeshes(render::Detail detail) {
     return meshes;
 }
 
+constexpr float kAbsent = std::numeric_limits<float>::quiet_NaN();
+constexpr model::SegmentLayout kWithFingers{model::kBodySegmentCount, 0, model::kFingerSegmentCount};
+static_assert(render::kHandSegmentCount == model::kHandSegmentCount);
+
+/// Finger, by its name in scale messages.
+const std::map<std::string_view, std::size_t>& fingersByName() {
+    static const std::map<std::string_view, std::size_t> kFingers = [] {
+        std::map<std::string_view, std::size_t> fingers;
+        for (std::size_t finger = 0; finger < render::kFingerJointCount; ++finger) {
+            fingers.emplace(
+                model::segmentName(kWithFingers, model::kBodySegmentCount + static_cast<int>(finger)),
+                finger);
+        }
+        return fingers;
+    }();
+    return kFingers;
+}
+
+const model::NullPose::Segment* find(const model::NullPose& pose, std::string_view name) {
+    const auto found = std::ranges::find_if(
+        pose.segments, [&](const auto& segment) { return segment.name.exact() == name; });
+    return found == pose.segments.end() ? nullptr : &*found;
+}
+
 } // namespace
 
 std::shared_ptr<const FigureBody> BodyFits::of(const render::NullPose& performer,
@@ -147,34 +171,6 @@ std::size_t OwnFigures::mostBytes() const {
     }
     return kMost * 2 * largest;
 }
-
-namespace {
-
-constexpr float kAbsent = std::numeric_limits<float>::quiet_NaN();
-constexpr model::SegmentLayout kWithFingers{model::kBodySegmentCount, 0, model::kFingerSegmentCount};
-static_assert(render::kHandSegmentCount == model::kHandSegmentCount);
-
-/// Finger, by its name in scale messages.
-const std::map<std::string_view, std::size_t>& fingersByName() {
-    static const std::map<std::string_view, std::size_t> kFingers = [] {
-        std::map<std::string_view, std::size_t> fingers;
-        for (std::size_t finger = 0; finger < render::kFingerJointCount; ++finger) {
-            fingers.emplace(
-                model::segmentName(kWithFingers, model::kBodySegmentCount + static_cast<int>(finger)),
-                finger);
-        }
-        return fingers;
-    }();
-    return kFingers;
-}
-
-const model::NullPose::Segment* find(const model::NullPose& pose, std::string_view name) {
-    const auto found = std::ranges::find_if(
-        pose.segments, [&](const auto& segment) { return segment.name.exact() == name; });
-    return found == pose.segments.end() ? nullptr : &*found;
-}
-
-} // namespace
 
 render::FingerPose PosedHands::left() const {
     constexpr std::size_t kCount = render::kHandSegmentCount;

@@ -19,15 +19,6 @@ namespace posewire::gui {
 
 namespace {
 
-/// 0 if no pose is shown.
-double poseRateHz(model::SessionView& session, const model::CharacterKey& key) {
-    const model::CharacterPose* pose = session.messages().pose(key);
-    const model::Stream* stream =
-        pose == nullptr ? nullptr
-                        : session.roster().find(log::StreamKey{key.sender, key.character, pose->type});
-    return stream == nullptr ? 0 : stream->statistics.rateHz();
-}
-
 /// "47 45 54 20   GET ", of the first half: a line that fits.
 QString bytesText(std::span<const std::byte> bytes) {
     constexpr std::size_t kShown = 8;
@@ -213,7 +204,11 @@ PropertyValue characterHealth(model::SessionView& session, const model::Characte
     if (session.messages().pose(key) == nullptr) {
         return {tr("no pose"), Health::Good};
     }
-    const double rateHz = poseRateHz(session, key);
+    const model::CharacterPose* pose = session.messages().pose(key);
+    const model::Stream* stream =
+        pose == nullptr ? nullptr
+                        : session.roster().find(log::StreamKey{key.sender, key.character, pose->type});
+    const double rateHz = stream == nullptr ? 0 : stream->statistics.rateHz();
     return {rateHz <= 0 ? tr("one sample") : tr("%1 Hz").arg(rateHz, 0, 'f', 0), Health::Good};
 }
 

@@ -19,11 +19,6 @@ constexpr std::chrono::milliseconds kStillAfter(250);
 /// The longest that a step which leaves out every other picture waits.
 constexpr std::chrono::milliseconds kLongestPause(150);
 
-bool hasCameraMoved(const SceneFrame& frame, const SceneFrame& before) {
-    return frame.camera != before.camera ||
-           !std::ranges::equal(frame.panes, before.panes, {}, &SceneFrame::camera, &SceneFrame::camera);
-}
-
 double secondsOf(SteadyClock::duration duration) {
     return std::chrono::duration<double>(duration).count();
 }
@@ -77,7 +72,10 @@ private:
         if (isBest) {
             quality = render::stillQuality(m_interactive, frame.width, frame.height);
         } else {
-            const bool isMoving = m_last != nullptr && hasCameraMoved(frame, *m_last);
+            const bool isMoving =
+                m_last != nullptr && (frame.camera != m_last->camera ||
+                                      !std::ranges::equal(frame.panes, m_last->panes, {}, &SceneFrame::camera,
+                                                          &SceneFrame::camera));
             quality.plainFloor = isMoving && step != Simplification::None;
         }
         m_renderer.renderer().setQuality(quality);

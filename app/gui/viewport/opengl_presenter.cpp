@@ -137,7 +137,7 @@ private:
 
 class OpenGlPresenter final : public Presenter {
 public:
-    explicit OpenGlPresenter(QWidget* parent) : Presenter(parent), m_view(new View(this)) {
+    explicit OpenGlPresenter(QWidget* parent) : Presenter(parent) {
         connect(m_view, &QOpenGLWidget::frameSwapped, this, &Presenter::presented);
     }
 
@@ -158,7 +158,7 @@ protected:
     void resizeEvent(QResizeEvent* event) override { m_view->setGeometry(QRect(QPoint(), event->size())); }
 
 private:
-    View* m_view;
+    View* m_view = new View(this);
 };
 
 } // namespace

@@ -82,30 +82,6 @@ void drawArc(const OverlaySubject& subject, int segment, SceneFrame& frame) {
         {at + 1.4F * kRadius * glm::normalize(along + bone + glm::vec3(0, 0, 1e-3F)), text, theme().warning});
 }
 
-} // namespace
-
-void drawSegmentNames(const OverlaySubject& subject, SceneFrame& frame) {
-    for (std::size_t i = 0; subject.isAlone && i < subject.pose.segments.size(); ++i) {
-        if (i < kBody + static_cast<std::size_t>(subject.pose.layout.props) && subject.pose.isPresent(i)) {
-            const auto name = model::segmentTitle(subject.pose.layout, static_cast<int>(i));
-            frame.texts.push_back({pointOf(subject.pose.segments[i].position), fromUtf8(name), theme().text});
-        }
-    }
-}
-
-void drawJointAngles(const OverlaySubject& subject, SceneFrame& frame) {
-    if (subject.segment >= 0 && subject.segment < model::kBodySegmentCount) {
-        drawArc(subject, subject.segment, frame);
-        return;
-    }
-    for (const int segment : {model::segment::kRightForeArm, model::segment::kLeftForeArm,
-                              model::segment::kRightLowerLeg, model::segment::kLeftLowerLeg}) {
-        drawArc(subject, segment, frame);
-    }
-}
-
-namespace {
-
 constexpr float kOnFloor = 0.004F; ///< metres: above the lines of the grid
 
 glm::vec3 onFloor(const glm::vec3& place) {
@@ -150,6 +126,26 @@ std::optional<Eigen::Vector3d> positionIn(const wire::Body& body, std::size_t se
 }
 
 } // namespace
+
+void drawSegmentNames(const OverlaySubject& subject, SceneFrame& frame) {
+    for (std::size_t i = 0; subject.isAlone && i < subject.pose.segments.size(); ++i) {
+        if (i < kBody + static_cast<std::size_t>(subject.pose.layout.props) && subject.pose.isPresent(i)) {
+            const auto name = model::segmentTitle(subject.pose.layout, static_cast<int>(i));
+            frame.texts.push_back({pointOf(subject.pose.segments[i].position), fromUtf8(name), theme().text});
+        }
+    }
+}
+
+void drawJointAngles(const OverlaySubject& subject, SceneFrame& frame) {
+    if (subject.segment >= 0 && subject.segment < model::kBodySegmentCount) {
+        drawArc(subject, subject.segment, frame);
+        return;
+    }
+    for (const int segment : {model::segment::kRightForeArm, model::segment::kLeftForeArm,
+                              model::segment::kRightLowerLeg, model::segment::kLeftLowerLeg}) {
+        drawArc(subject, segment, frame);
+    }
+}
 
 void drawMarkers(const OverlaySubject& subject, SceneFrame& frame) {
     const auto* sent = freshBody<wire::PointPositions>(subject);

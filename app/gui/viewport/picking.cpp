@@ -34,6 +34,33 @@ std::optional<PickedSegment> pickOrigin(const SceneFrame& frame, const QPointF& 
     return picked;
 }
 
+/// Nothing where the head is behind the eye.
+std::optional<ViewportLabel> labelOf(const Figure& figure, const render::Camera& camera,
+                                     model::SessionView& session, const QSizeF& size) {
+    constexpr float kAboveHead = 0.05F; // metres, and the head below that
+    constexpr float kHeadHeight = 0.3F;
+    const glm::vec3 top = figure.labelPosition - glm::vec3(0, 0, kAboveHead);
+    const auto anchor = camera.project(figure.labelPosition, aspectOf(size));
+    const auto crown = camera.project(top, aspectOf(size));
+    const auto chin = camera.project(top - kHeadHeight * camera.up(), aspectOf(size));
+    if (!anchor || !crown || !chin) {
+        return std::nullopt;
+    }
+    ViewportLabel label;
+    label.key = figure.key;
+    label.anchor = pointerAt(*anchor, size);
+    const QPointF above = pointerAt(*crown, size);
+    const qreal height = std::abs(pointerAt(*chin, size).y() - above.y());
+    label.head = QRectF(above.x() - 0.4 * height, above.y(), 0.8 * height, height);
+    label.depth = glm::dot(figure.labelPosition - camera.eye(), camera.forward());
+    label.mark = {QColor::fromRgbF(figure.look.colour.r, figure.look.colour.g, figure.look.colour.b),
+                  figure.key.character};
+    label.name = nameApart(session, figure.key);
+    label.state = characterHealth(session, figure.key);
+    label.isSelected = session.roster().isSelected(figure.key);
+    return label;
+}
+
 } // namespace
 
 std::optional<PickedSegment> pickIn(const SceneFrame& frame, const QPointF& pointer, const QSizeF& view) {
@@ -85,37 +112,6 @@ QRectF roomOf(const SceneFrame& frame, const model::CharacterKey& key, const QSi
     const QRectF room(pointerAt({box.least.x, box.most.y}, view), pointerAt({box.most.x, box.least.y}, view));
     return box.isAllInFront ? room & QRectF(QPointF(), view) : QRectF();
 }
-
-namespace {
-
-/// Nothing where the head is behind the eye.
-std::optional<ViewportLabel> labelOf(const Figure& figure, const render::Camera& camera,
-                                     model::SessionView& session, const QSizeF& size) {
-    constexpr float kAboveHead = 0.05F; // metres, and the head below that
-    constexpr float kHeadHeight = 0.3F;
-    const glm::vec3 top = figure.labelPosition - glm::vec3(0, 0, kAboveHead);
-    const auto anchor = camera.project(figure.labelPosition, aspectOf(size));
-    const auto crown = camera.project(top, aspectOf(size));
-    const auto chin = camera.project(top - kHeadHeight * camera.up(), aspectOf(size));
-    if (!anchor || !crown || !chin) {
-        return std::nullopt;
-    }
-    ViewportLabel label;
-    label.key = figure.key;
-    label.anchor = pointerAt(*anchor, size);
-    const QPointF above = pointerAt(*crown, size);
-    const qreal height = std::abs(pointerAt(*chin, size).y() - above.y());
-    label.head = QRectF(above.x() - 0.4 * height, above.y(), 0.8 * height, height);
-    label.depth = glm::dot(figure.labelPosition - camera.eye(), camera.forward());
-    label.mark = {QColor::fromRgbF(figure.look.colour.r, figure.look.colour.g, figure.look.colour.b),
-                  figure.key.character};
-    label.name = nameApart(session, figure.key);
-    label.state = characterHealth(session, figure.key);
-    label.isSelected = session.roster().isSelected(figure.key);
-    return label;
-}
-
-} // namespace
 
 std::vector<ViewportLabel> labelsOf(const SceneFrame& frame, model::SessionView& session,
                                     const QSizeF& size) {

@@ -8,6 +8,7 @@
 #include <QStringList>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <utility>
 
@@ -156,25 +157,10 @@ constexpr double kSlow = 0.1;
 
 /// Beside what the steps before it leave out.
 QString leftOut(Simplification step) {
-    switch (step) {
-    case Simplification::LowShadows:
-        return tr("coarse shadows");
-    case Simplification::SmallShadows:
-        return tr("small shadows");
-    case Simplification::LowBodies:
-        return tr("coarse bodies");
-    case Simplification::HardSelfShadows:
-        return tr("hard shadows");
-    case Simplification::RawEdges:
-        return tr("raw edges");
-    case Simplification::FewAxes:
-        return tr("fewer axes");
-    case Simplification::HalfRate:
-        return tr("half rate");
-    case Simplification::None:
-        break;
-    }
-    return tr("full quality");
+    const std::array words{tr("full quality"),  tr("coarse shadows"), tr("small shadows"),
+                           tr("coarse bodies"), tr("hard shadows"),   tr("raw edges"),
+                           tr("fewer axes"),    tr("half rate")}; // by Simplification
+    return words[static_cast<std::size_t>(step)];
 }
 
 QString milliseconds(double seconds) {

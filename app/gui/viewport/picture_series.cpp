@@ -3,7 +3,6 @@
 
 #include "app/gui/base/saving.h"
 #include "app/gui/viewport/drawing_thread.h"
-#include "app/gui/viewport/viewport_overlay.h"
 
 #include <QBuffer>
 #include <QFileInfo>
@@ -41,7 +40,6 @@ PictureSeries::PictureSeries(model::SessionView& session, Playback& playback, co
       m_look(look),
       m_request(std::move(request)),
       m_builder(session, render::Detail::High),
-      m_overlay(new ViewportOverlay(&m_host)),
       m_wasLive(session.choices().cursor.mode == model::Cursor::Mode::Following),
       m_shownBefore(session.cursorStamp()),
       m_thread(std::make_unique<DrawingThread>([this] {

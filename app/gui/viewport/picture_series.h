@@ -3,6 +3,7 @@
 
 #include "app/gui/base/playback.h"
 #include "app/gui/viewport/view_look.h"
+#include "app/gui/viewport/viewport_overlay.h"
 #include "core/log/time.h"
 #include "core/model/session/session_view.h"
 
@@ -19,7 +20,6 @@
 namespace posewire::gui {
 
 class DrawingThread;
-class ViewportOverlay;
 
 struct PictureRequest {
     log::Stamp first{};
@@ -73,7 +73,7 @@ private:
     PictureRequest m_request;
     SceneBuilder m_builder;
     QWidget m_host; ///< of the overlay; never shown
-    ViewportOverlay* m_overlay;
+    ViewportOverlay* m_overlay = new ViewportOverlay(&m_host);
     bool m_wasLive;
     log::Stamp m_shownBefore;
     int m_shown = 0; ///< moments so far

@@ -2,7 +2,6 @@
 #include "app/gui/viewport/pose_banner.h"
 
 #include "app/gui/models/text.h"
-#include "app/gui/theme/widgets.h"
 #include "app/gui/theme/words.h"
 #include "app/gui/viewport/viewport_overlay.h"
 #include "core/model/body/character_pose.h"
@@ -83,7 +82,6 @@ std::vector<PoseNote> poseNotes(const model::SessionView& session, std::size_t m
 
 PoseBanner::PoseBanner(Commands& commands, QWidget* parent)
     : QWidget(parent),
-      m_text(richLabel(this)),
       m_floor(framedButton(tr("Place on the floor"),
                            tr("Lift these by the height of their pelvis above the soles"), this)) {
     setObjectName(QStringLiteral("poseBanner"));

@@ -3,14 +3,12 @@
 
 #include "app/gui/base/commands.h"
 #include "app/gui/theme/theme.h"
+#include "app/gui/theme/widgets.h"
 #include "core/model/session/session_view.h"
 
 #include <QWidget>
 
 #include <vector>
-
-class QLabel;
-class QToolButton;
 
 namespace posewire::gui {
 
@@ -50,7 +48,7 @@ private:
 
     std::vector<PoseNote> m_notes;
     std::vector<model::CharacterKey> m_below; ///< the floor
-    QLabel* m_text;
+    QLabel* m_text = richLabel(this);
     QToolButton* m_floor;
 };
 

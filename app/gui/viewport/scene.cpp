@@ -12,7 +12,6 @@
 #include "core/model/body/reference_body.h"
 #include "core/model/session/messages.h"
 #include "core/model/session/prop_names.h"
-#include "core/model/session/roster.h"
 
 #include <algorithm>
 #include <cmath>

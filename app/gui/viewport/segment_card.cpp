@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/viewport/segment_card.h"
 
-#include "app/gui/theme/widgets.h"
 #include "app/gui/theme/words.h"
 #include "app/gui/viewport/viewport_overlay.h"
 
@@ -61,14 +60,7 @@ QString tableOf(const SegmentFacts& known) {
 
 } // namespace
 
-SegmentCard::SegmentCard(QWidget* parent, const QWidget& banner)
-    : QWidget(parent),
-      m_banner(banner),
-      m_segment(plainLabel(this)),
-      m_mark(new QWidget(this)),
-      m_character(new ElidedLabel(Qt::AlignLeft | Qt::AlignVCenter, this)),
-      m_source(plainLabel(this)),
-      m_table(richLabel(this)) {
+SegmentCard::SegmentCard(QWidget* parent, const QWidget& banner) : QWidget(parent), m_banner(banner) {
     setObjectName(QStringLiteral("segmentCard"));
     setAttribute(Qt::WA_TransparentForMouseEvents);
     QVBoxLayout* column = tightColumn(this);
@@ -117,14 +109,6 @@ void SegmentCard::showFacts() {
     update();
 }
 
-/// As wide as the table, a little wider for a long name.
-QSize SegmentCard::wantedSize() const {
-    const int table = m_table->sizeHint().width();
-    const int title = layout()->itemAt(0)->sizeHint().width();
-    const int width = std::clamp(title, table, table * 13 / 10) + 2 * kMargin;
-    return {width, layout()->totalHeightForWidth(width)};
-}
-
 QRect SegmentCard::cornerFor(const QSize& size, bool isLeft) const {
     const QRect room = parentWidget()->rect().adjusted(kEdge, kEdge, -kEdge, -kEdge);
     QRect card(QPoint(), size);
@@ -147,7 +131,11 @@ void SegmentCard::place() {
     constexpr double kMost = 0.6;
     constexpr double kBetter = 0.5; // of what it covers: a figure that moves does not make it jump
     layout()->activate();           // rows remember the height of their last text otherwise
-    const QSize size = wantedSize();
+    // As wide as the table, a little wider for a long name.
+    const int table = m_table->sizeHint().width();
+    const int title = layout()->itemAt(0)->sizeHint().width();
+    const int width = std::clamp(title, table, table * 13 / 10) + 2 * kMargin;
+    const QSize size(width, layout()->totalHeightForWidth(width));
     const QRect room = parentWidget()->rect().adjusted(kEdge, kEdge, -kEdge, -kEdge);
     const auto covered = [&](bool isLeft) {
         const QRectF common = QRectF(cornerFor(size, isLeft)) & m_seen;

@@ -1,19 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/gui/theme/widgets.h"
 #include "app/gui/viewport/segment_facts.h"
 
 #include <QPoint>
 #include <QRectF>
 #include <QWidget>
+#include <Qt>
 
 #include <optional>
 
-class QLabel;
-
 namespace posewire::gui {
-
-class ElidedLabel;
 
 class SegmentCard final : public QWidget {
     Q_OBJECT
@@ -38,18 +36,17 @@ protected:
     void changeEvent(QEvent* event) override;
 
 private:
-    [[nodiscard]] QSize wantedSize() const;
     /// At the lower edge, above the banner if that is in the way.
     [[nodiscard]] QRect cornerFor(const QSize& size, bool isLeft) const;
     void showFacts();
 
     const QWidget& m_banner;
     std::optional<SegmentFacts> m_facts;
-    QLabel* m_segment;
-    QWidget* m_mark; ///< where the mark is painted
-    ElidedLabel* m_character;
-    QLabel* m_source;
-    QLabel* m_table;
+    QLabel* m_segment = plainLabel(this);
+    QWidget* m_mark = new QWidget(this); ///< where the mark is painted
+    ElidedLabel* m_character = new ElidedLabel(Qt::AlignLeft | Qt::AlignVCenter, this);
+    QLabel* m_source = plainLabel(this);
+    QLabel* m_table = richLabel(this);
     QRectF m_seen;
     std::optional<QPoint> m_pointer;
     bool m_isLeft = false;

@@ -10,7 +10,6 @@
 #include "core/model/session/roster.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace posewire::gui {

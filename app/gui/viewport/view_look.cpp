@@ -23,164 +23,6 @@ constexpr int kGap = 2;
 constexpr std::array kUsualViews{render::StandardView::ThreeQuarter, render::StandardView::Front,
                                  render::StandardView::Left, render::StandardView::Top};
 
-} // namespace
-
-void ViewPanes::split(int count, float heading) {
-    m_count = count >= kMost ? kMost : std::clamp(count, 1, 2);
-    for (int pane = 1; pane < m_count; ++pane) {
-        const auto index = static_cast<std::size_t>(pane);
-        if (std::exchange(m_wasShown[index], true)) {
-            continue;
-        }
-        CameraMotion& motion = m_motions[index];
-        motion.face(kUsualViews[index]);
-        motion.turn(heading);
-        motion.setProjection(render::Projection::Orthographic);
-    }
-    activate(m_active);
-}
-
-void ViewPanes::activate(int pane) {
-    m_active = std::clamp(pane, 0, m_count - 1);
-}
-
-QRect ViewPanes::place(int pane) const {
-    if (m_count == 1) {
-        return {{}, m_view};
-    }
-    const int width = std::max(1, (m_view.width() - kGap) / 2);
-    const int height = m_count == 2 ? m_view.height() : std::max(1, (m_view.height() - kGap) / 2);
-    return {(pane % 2) * (m_view.width() - width), (pane / 2) * (m_view.height() - height), width, height};
-}
-
-float ViewPanes::aspect() const {
-    return static_cast<float>(std::max(1, place().width())) /
-           static_cast<float>(std::max(1, place().height()));
-}
-
-int ViewPanes::paneAt(const QPointF& point) const {
-    for (int pane = 0; pane < m_count; ++pane) {
-        if (place(pane).contains(point.toPoint())) {
-            return pane;
-        }
-    }
-    return m_active;
-}
-
-QString ViewPanes::name(int pane) const {
-    const CameraMotion& motion = m_motions[static_cast<std::size_t>(pane)];
-    const bool isFlat = motion.camera().projection == render::Projection::Orthographic;
-    const QString otherwise = isFlat ? tr("Orthographic") : tr("Perspective");
-    if (!motion.standardView()) {
-        return otherwise;
-    }
-    switch (*motion.standardView()) {
-    case render::StandardView::Front:
-        return tr("Front");
-    case render::StandardView::Back:
-        return tr("Back");
-    case render::StandardView::Left:
-        return tr("Left side");
-    case render::StandardView::Right:
-        return tr("Right side");
-    case render::StandardView::Top:
-        return tr("Top");
-    case render::StandardView::ThreeQuarter:
-        break;
-    }
-    return otherwise;
-}
-
-QJsonObject ViewPanes::state() const {
-    QJsonArray cameras;
-    for (int pane = 0; pane < kMost; ++pane) {
-        const auto index = static_cast<std::size_t>(pane);
-        cameras.append(m_wasShown[index] ? stateOf(m_motions[index]) : QJsonObject());
-    }
-    return {{"count", m_count}, {"active", m_active}, {"cameras", cameras}};
-}
-
-void ViewPanes::restoreState(const QJsonObject& state) {
-    const QJsonArray cameras = state["cameras"].toArray();
-    for (int pane = 0; pane < kMost; ++pane) {
-        const auto index = static_cast<std::size_t>(pane);
-        const QJsonObject camera = cameras.at(pane).toObject();
-        if (!camera.isEmpty()) {
-            m_wasShown[index] = true;
-            restore(m_motions[index], camera);
-        }
-    }
-    split(state["count"].toInt(m_count), 0);
-    activate(state["active"].toInt(m_active));
-}
-
-void ViewLook::fill(SceneBuilder& builder, double seconds, SceneFrame& frame) {
-    builder.setWardrobe(wardrobe);
-    builder.build(axes, overlays, frame);
-    aim(panes.motion(), seconds, frame);
-}
-
-void ViewLook::fillPanes(SceneBuilder& builder, double seconds, SceneFrame& frame) {
-    builder.setWardrobe(wardrobe);
-    builder.build(axes, overlays, frame);
-    std::vector<SceneFrame> all(static_cast<std::size_t>(panes.count()), frame);
-    const auto pixels = [&](int logical) {
-        return static_cast<int>(std::lround(static_cast<float>(logical) * frame.pixelRatio));
-    };
-    for (int pane = 0; pane < panes.count(); ++pane) {
-        SceneFrame& one = all[static_cast<std::size_t>(pane)];
-        const QRect place = panes.place(pane);
-        one.x = pixels(place.x());
-        one.y = pixels(place.y());
-        one.width = std::max(1, pixels(place.width()));
-        one.height = std::max(1, pixels(place.height()));
-        aim(panes.motionOf(pane), seconds, one);
-    }
-    frame.camera = panes.motion().camera();
-    frame.panes = std::move(all);
-}
-
-bool ViewLook::isGliding() const {
-    bool isAny = false;
-    for (int pane = 0; pane < panes.count(); ++pane) {
-        isAny = isAny || panes.motionOf(pane).isGliding();
-    }
-    return isAny;
-}
-
-void ViewLook::aim(CameraMotion& motion, double seconds, SceneFrame& frame) const {
-    motion.follow(boxesOf(frame), aspectOf(frame), seconds);
-    frame.camera = motion.camera();
-    sizeAxes(frame);
-    if (hasScale) {
-        addFloorScale(frame);
-    }
-}
-
-render::Bounds paddedBounds(const Figure& figure) {
-    constexpr float kMargin = 0.22F; // metres
-    render::Bounds bounds = figure.bounds;
-    bounds.min -= glm::vec3(kMargin, kMargin, 0.5F * kMargin);
-    bounds.max += glm::vec3(kMargin, kMargin, 1.6F * kMargin);
-    return bounds;
-}
-
-std::vector<render::Bounds> boxesOf(const SceneFrame& frame) {
-    std::vector<render::Bounds> boxes;
-    for (const Figure& figure : frame.figures) {
-        if (!figure.bounds.isEmpty()) {
-            boxes.push_back(paddedBounds(figure));
-        }
-    }
-    return boxes;
-}
-
-float aspectOf(const SceneFrame& frame) {
-    return static_cast<float>(frame.width) / static_cast<float>(frame.height);
-}
-
-namespace {
-
 constexpr double kNumbersApart = 64;    ///< logical pixels between two numbers, at the least
 constexpr float kLevel = 0.02F;         ///< radians: a view along the floor
 constexpr int kMostNumbers = 14;        ///< on each side of the origin
@@ -309,6 +151,141 @@ void addRules(SceneFrame& frame) {
 }
 
 } // namespace
+
+void ViewPanes::split(int count, float heading) {
+    m_count = count >= kMost ? kMost : std::clamp(count, 1, 2);
+    for (int pane = 1; pane < m_count; ++pane) {
+        const auto index = static_cast<std::size_t>(pane);
+        if (std::exchange(m_wasShown[index], true)) {
+            continue;
+        }
+        CameraMotion& motion = m_motions[index];
+        motion.face(kUsualViews[index]);
+        motion.turn(heading);
+        motion.setProjection(render::Projection::Orthographic);
+    }
+    activate(m_active);
+}
+
+QRect ViewPanes::place(int pane) const {
+    if (m_count == 1) {
+        return {{}, m_view};
+    }
+    const int width = std::max(1, (m_view.width() - kGap) / 2);
+    const int height = m_count == 2 ? m_view.height() : std::max(1, (m_view.height() - kGap) / 2);
+    return {(pane % 2) * (m_view.width() - width), (pane / 2) * (m_view.height() - height), width, height};
+}
+
+float ViewPanes::aspect() const {
+    return static_cast<float>(std::max(1, place().width())) /
+           static_cast<float>(std::max(1, place().height()));
+}
+
+int ViewPanes::paneAt(const QPointF& point) const {
+    for (int pane = 0; pane < m_count; ++pane) {
+        if (place(pane).contains(point.toPoint())) {
+            return pane;
+        }
+    }
+    return m_active;
+}
+
+QString ViewPanes::name(int pane) const {
+    const CameraMotion& motion = m_motions[static_cast<std::size_t>(pane)];
+    const bool isFlat = motion.camera().projection == render::Projection::Orthographic;
+    const std::array names{tr("Front"), tr("Back"), tr("Left side"), tr("Right side"), tr("Top")};
+    const auto view = static_cast<std::size_t>(
+        motion.standardView().value_or(render::StandardView::ThreeQuarter)); // which has no name of its own
+    return view < names.size() ? names[view] : isFlat ? tr("Orthographic") : tr("Perspective");
+}
+
+QJsonObject ViewPanes::state() const {
+    QJsonArray cameras;
+    for (int pane = 0; pane < kMost; ++pane) {
+        const auto index = static_cast<std::size_t>(pane);
+        cameras.append(m_wasShown[index] ? stateOf(m_motions[index]) : QJsonObject());
+    }
+    return {{"count", m_count}, {"active", m_active}, {"cameras", cameras}};
+}
+
+void ViewPanes::restoreState(const QJsonObject& state) {
+    const QJsonArray cameras = state["cameras"].toArray();
+    for (int pane = 0; pane < kMost; ++pane) {
+        const auto index = static_cast<std::size_t>(pane);
+        const QJsonObject camera = cameras.at(pane).toObject();
+        if (!camera.isEmpty()) {
+            m_wasShown[index] = true;
+            restore(m_motions[index], camera);
+        }
+    }
+    split(state["count"].toInt(m_count), 0);
+    activate(state["active"].toInt(m_active));
+}
+
+void ViewLook::fill(SceneBuilder& builder, double seconds, SceneFrame& frame) {
+    builder.setWardrobe(wardrobe);
+    builder.build(axes, overlays, frame);
+    aim(panes.motion(), seconds, frame);
+}
+
+void ViewLook::fillPanes(SceneBuilder& builder, double seconds, SceneFrame& frame) {
+    builder.setWardrobe(wardrobe);
+    builder.build(axes, overlays, frame);
+    std::vector<SceneFrame> all(static_cast<std::size_t>(panes.count()), frame);
+    const auto pixels = [&](int logical) {
+        return static_cast<int>(std::lround(static_cast<float>(logical) * frame.pixelRatio));
+    };
+    for (int pane = 0; pane < panes.count(); ++pane) {
+        SceneFrame& one = all[static_cast<std::size_t>(pane)];
+        const QRect place = panes.place(pane);
+        one.x = pixels(place.x());
+        one.y = pixels(place.y());
+        one.width = std::max(1, pixels(place.width()));
+        one.height = std::max(1, pixels(place.height()));
+        aim(panes.motionOf(pane), seconds, one);
+    }
+    frame.camera = panes.motion().camera();
+    frame.panes = std::move(all);
+}
+
+bool ViewLook::isGliding() const {
+    bool isAny = false;
+    for (int pane = 0; pane < panes.count(); ++pane) {
+        isAny = isAny || panes.motionOf(pane).isGliding();
+    }
+    return isAny;
+}
+
+void ViewLook::aim(CameraMotion& motion, double seconds, SceneFrame& frame) const {
+    motion.follow(boxesOf(frame), aspectOf(frame), seconds);
+    frame.camera = motion.camera();
+    sizeAxes(frame);
+    if (hasScale) {
+        addFloorScale(frame);
+    }
+}
+
+render::Bounds paddedBounds(const Figure& figure) {
+    constexpr float kMargin = 0.22F; // metres
+    render::Bounds bounds = figure.bounds;
+    bounds.min -= glm::vec3(kMargin, kMargin, 0.5F * kMargin);
+    bounds.max += glm::vec3(kMargin, kMargin, 1.6F * kMargin);
+    return bounds;
+}
+
+std::vector<render::Bounds> boxesOf(const SceneFrame& frame) {
+    std::vector<render::Bounds> boxes;
+    for (const Figure& figure : frame.figures) {
+        if (!figure.bounds.isEmpty()) {
+            boxes.push_back(paddedBounds(figure));
+        }
+    }
+    return boxes;
+}
+
+float aspectOf(const SceneFrame& frame) {
+    return static_cast<float>(frame.width) / static_cast<float>(frame.height);
+}
 
 double scaleStep(double metresPerPixel, double pixels) {
     const double least = metresPerPixel * pixels;

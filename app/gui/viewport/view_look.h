@@ -28,7 +28,7 @@ public:
     /// 1, 2 or 4. Views that were never shown look level from the front, the left and the top, about
     /// `heading` (radians) as a character's.
     void split(int count, float heading);
-    void activate(int pane);
+    void activate(int pane) { m_active = std::clamp(pane, 0, m_count - 1); }
 
     /// The active one's.
     [[nodiscard]] CameraMotion& motion() { return motionOf(m_active); }

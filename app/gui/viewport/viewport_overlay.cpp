@@ -111,12 +111,8 @@ class ViewportButtons final : public QWidget {
 public:
     explicit ViewportButtons(ViewportWidget* viewport)
         : QWidget(viewport),
-          m_axes(framedButton({}, tr("Local axes of the segments: x red, y green, z blue"), this)),
-          m_overlays(framedButton(tr("Overlays ▾"), tr("What is drawn over the figures"), this)),
           m_frame(
-              framedButton(tr("Frame  F"), tr("Show all characters, and keep them in the picture"), this)),
-          m_projection(framedButton({}, tr("Perspective or orthographic"), this)),
-          m_more(framedButton(QStringLiteral("»"), tr("More"), this)) {
+              framedButton(tr("Frame  F"), tr("Show all characters, and keep them in the picture"), this)) {
         setObjectName(kButtons);
         auto* row = spacedRow({12, 12, 12, 12}, kApart, this);
         for (QToolButton* each : {m_axes, m_overlays, m_frame, m_projection, m_more}) {
@@ -193,11 +189,11 @@ private:
         }
     }
 
-    QToolButton* m_axes;
-    QToolButton* m_overlays;
+    QToolButton* m_axes = framedButton({}, tr("Local axes of the segments: x red, y green, z blue"), this);
+    QToolButton* m_overlays = framedButton(tr("Overlays ▾"), tr("What is drawn over the figures"), this);
     QToolButton* m_frame;
-    QToolButton* m_projection;
-    QToolButton* m_more;
+    QToolButton* m_projection = framedButton({}, tr("Perspective or orthographic"), this);
+    QToolButton* m_more = framedButton(QStringLiteral("»"), tr("More"), this);
 };
 
 } // namespace
@@ -215,11 +211,7 @@ void addViewportButtons(ViewportWidget& viewport) {
 /// A few words and a way into the guide over a picture that shows no character.
 class MessageCard final : public QWidget {
 public:
-    explicit MessageCard(QWidget* parent)
-        : QWidget(parent),
-          m_title(plainLabel(this)),
-          m_text(plainLabel(this)),
-          m_help(framedButton(tr("Help"), tr("What this means, and what to do about it"), this)) {
+    explicit MessageCard(QWidget* parent) : QWidget(parent) {
         m_help->setObjectName(QStringLiteral("cardHelp"));
         m_help->setAccessibleName(tr("Help on this message"));
         m_help->setFocusPolicy(Qt::TabFocus);
@@ -282,9 +274,9 @@ protected:
     }
 
 private:
-    QLabel* m_title;
-    QLabel* m_text;
-    QToolButton* m_help;
+    QLabel* m_title = plainLabel(this);
+    QLabel* m_text = plainLabel(this);
+    QToolButton* m_help = framedButton(tr("Help"), tr("What this means, and what to do about it"), this);
     QColor m_border;
     EmptyState m_state;
 };

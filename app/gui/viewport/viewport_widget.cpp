@@ -4,9 +4,6 @@
 #include "app/gui/models/shown_character.h"
 #include "app/gui/theme/theme.h"
 #include "app/gui/viewport/captions.h"
-#include "app/gui/viewport/pose_banner.h"
-#include "app/gui/viewport/segment_card.h"
-#include "app/gui/viewport/viewport_overlay.h"
 #include "core/model/session/messages.h"
 #include "core/model/session/roster.h"
 
@@ -92,12 +89,8 @@ ViewportWidget::ViewportWidget(model::SessionView& session, Commands& commands, 
     : QWidget(parent),
       m_session(&session),
       m_commands(commands),
-      m_choice(new ViewChoice(this)),
       m_pictures(new PictureLoop(session, m_choice->look(), this)),
-      m_overlay(new ViewportOverlay(this)),
-      m_paneFrame(new PaneFrame(this)),
-      m_banner(new PoseBanner(commands, this)),
-      m_card(new SegmentCard(this, *m_banner)) {
+      m_paneFrame(new PaneFrame(this)) {
     for (ViewportOverlay*& overlay : m_paneOverlays) {
         overlay = new ViewportOverlay(this);
         overlay->hide();

@@ -4,7 +4,10 @@
 #include "app/gui/base/commands.h"
 #include "app/gui/viewport/picking.h"
 #include "app/gui/viewport/picture_loop.h"
+#include "app/gui/viewport/pose_banner.h"
+#include "app/gui/viewport/segment_card.h"
 #include "app/gui/viewport/view_choice.h"
+#include "app/gui/viewport/viewport_overlay.h"
 
 #include <array>
 #include <optional>
@@ -12,9 +15,6 @@
 namespace posewire::gui {
 
 class PaneFrame;
-class PoseBanner;
-class SegmentCard;
-class ViewportOverlay;
 
 /// The characters in space: their picture, what lies over it, and what the pointer does to it.
 class ViewportWidget final : public QWidget {
@@ -64,13 +64,13 @@ private:
     model::SessionView* m_session;
     QString m_file; ///< that the session is of; empty for none
     Commands& m_commands;
-    ViewChoice* m_choice;
+    ViewChoice* m_choice = new ViewChoice(this);
     PictureLoop* m_pictures;
-    ViewportOverlay* m_overlay;
+    ViewportOverlay* m_overlay = new ViewportOverlay(this);
     std::array<ViewportOverlay*, ViewPanes::kMost> m_paneOverlays{}; ///< shown while the view is split
     PaneFrame* m_paneFrame;
-    PoseBanner* m_banner;
-    SegmentCard* m_card;
+    PoseBanner* m_banner = new PoseBanner(m_commands, this);
+    SegmentCard* m_card = new SegmentCard(this, *m_banner);
     log::Stamp m_wordsStamp{}; ///< of what banner and card were made from
     model::Selection m_wordsSelection;
     ReceivingState m_receiving;
