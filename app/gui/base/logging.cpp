@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/base/logging.h"
 
-
 namespace posewire::gui {
 
 Q_LOGGING_CATEGORY(inputsLog, "posewire.inputs", QtWarningMsg)

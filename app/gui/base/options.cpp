@@ -204,6 +204,21 @@ std::string outputProblem(const Options& options) {
     return problem;
 }
 
+/// The parser would take whatever follows "--demo" for its value: only a number is, else there are two
+/// characters.
+std::vector<std::string> withDemoCompleted(QStringList arguments) {
+    for (qsizetype i = 0; i < arguments.size(); ++i) {
+        if (arguments[i] == QLatin1String("--demo")) {
+            bool hasNumber = false;
+            static_cast<void>(arguments.value(i + 1).toInt(&hasNumber));
+            arguments[i] += QLatin1Char('=') + (hasNumber ? arguments.takeAt(i + 1) : QStringLiteral("2"));
+        }
+    }
+    std::vector<std::string> texts;
+    std::ranges::transform(arguments, std::back_inserter(texts), &QString::toStdString);
+    return texts;
+}
+
 } // namespace
 
 usage::Program programUsage() {
@@ -240,25 +255,6 @@ std::vector<InputAddress> inputsToOpen(const Options& options, const InputChoice
 QStringList allowedAtStart(const Options& options, const InputChoices& choices) {
     return options.allowed.isEmpty() ? choices.allowed : options.allowed;
 }
-
-namespace {
-
-/// The parser would take whatever follows "--demo" for its value: only a number is, else there are two
-/// characters.
-std::vector<std::string> withDemoCompleted(QStringList arguments) {
-    for (qsizetype i = 0; i < arguments.size(); ++i) {
-        if (arguments[i] == QLatin1String("--demo")) {
-            bool hasNumber = false;
-            static_cast<void>(arguments.value(i + 1).toInt(&hasNumber));
-            arguments[i] += QLatin1Char('=') + (hasNumber ? arguments.takeAt(i + 1) : QStringLiteral("2"));
-        }
-    }
-    std::vector<std::string> texts;
-    std::ranges::transform(arguments, std::back_inserter(texts), &QString::toStdString);
-    return texts;
-}
-
-} // namespace
 
 tl::expected<Options, usage::EarlyExit> parseOptions(const QStringList& arguments,
                                                      const std::function<std::string()>& libraries) {

@@ -48,25 +48,16 @@ std::optional<log::StreamKey> steppedStream(const model::SessionView& session,
     return std::nullopt;
 }
 
-/// The newest packet of the moment is inspected then.
-void unselectPacket(Commands& commands) {
-    model::Selection selection = commands.session().choices().selection;
-    if (selection.packet) {
-        selection.packet.reset();
-        commands.select(selection);
-    }
-}
-
 } // namespace
 
 void Playback::stopAt(std::uint64_t packet) {
-    unselectPacket(m_commands);
+    m_commands.unselectPacket(); // the newest one of the moment is inspected then
     m_commands.setCursor(stoppedAt(packet));
 }
 
 void Playback::goLive() {
     m_commands.showLive();
-    unselectPacket(m_commands);
+    m_commands.unselectPacket();
     m_commands.setCursor({});
 }
 
@@ -135,7 +126,7 @@ void Playback::begin(double speed) {
     if (isAtEnd) { // it was played to its end: once more
         from = session.firstStamp();
     }
-    unselectPacket(m_commands);
+    m_commands.unselectPacket();
     m_playing.emplace(from, m_clock.monotonic(), speed, loop);
     model::Cursor cursor = stoppedAt(shownPacket(session));
     cursor.speed = m_playing->speed();

@@ -34,6 +34,36 @@ QString noFile(const QString& path) {
     return info.exists() && !info.isFile() ? tr("it is a folder, a pipe or a device, not a file") : QString();
 }
 
+QJsonValue small(const QJsonValue& value, int depth);
+
+QJsonObject small(const QJsonObject& object, int depth) {
+    QJsonObject result;
+    for (auto entry = object.begin(); entry != object.end() && result.size() < kMostJsonEntries; ++entry) {
+        if (entry.key().size() <= kLongestJsonText) {
+            result.insert(entry.key(), small(entry.value(), depth + 1));
+        }
+    }
+    return result;
+}
+
+QJsonArray small(const QJsonArray& array, int depth) {
+    QJsonArray result;
+    for (auto entry = array.begin(); entry != array.end() && result.size() < kMostJsonEntries; ++entry) {
+        result.append(small(*entry, depth + 1));
+    }
+    return result;
+}
+
+QJsonValue small(const QJsonValue& value, int depth) {
+    const bool isText = value.isString();
+    if (depth > kDeepestJson || (isText && value.toString().size() > kLongestJsonText)) {
+        return {};
+    }
+    return value.isObject()  ? QJsonValue(small(value.toObject(), depth))
+           : value.isArray() ? QJsonValue(small(value.toArray(), depth))
+                             : value;
+}
+
 } // namespace
 
 bool wantsToReplace(QWidget* parent, const QString& title, const QString& path) {
@@ -128,40 +158,6 @@ tl::expected<QByteArray, QString> readSmallFile(const QString& path) {
     }
     return content;
 }
-
-namespace {
-
-QJsonValue small(const QJsonValue& value, int depth);
-
-QJsonObject small(const QJsonObject& object, int depth) {
-    QJsonObject result;
-    for (auto entry = object.begin(); entry != object.end() && result.size() < kMostJsonEntries; ++entry) {
-        if (entry.key().size() <= kLongestJsonText) {
-            result.insert(entry.key(), small(entry.value(), depth + 1));
-        }
-    }
-    return result;
-}
-
-QJsonArray small(const QJsonArray& array, int depth) {
-    QJsonArray result;
-    for (auto entry = array.begin(); entry != array.end() && result.size() < kMostJsonEntries; ++entry) {
-        result.append(small(*entry, depth + 1));
-    }
-    return result;
-}
-
-QJsonValue small(const QJsonValue& value, int depth) {
-    const bool isText = value.isString();
-    if (depth > kDeepestJson || (isText && value.toString().size() > kLongestJsonText)) {
-        return {};
-    }
-    return value.isObject()  ? QJsonValue(small(value.toObject(), depth))
-           : value.isArray() ? QJsonValue(small(value.toArray(), depth))
-                             : value;
-}
-
-} // namespace
 
 tl::expected<QJsonObject, QString> parseSmallObject(const QByteArray& json) {
     QJsonParseError error;

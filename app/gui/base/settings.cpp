@@ -49,75 +49,6 @@ int newestTakeIn(const QDir& folder, const QString& pattern) {
     return newest;
 }
 
-} // namespace
-
-RecordingChoice recordingChoiceOf(const QJsonObject& object) {
-    RecordingChoice choice;
-    choice.folder = object["folder"].toString();
-    choice.pattern = object["pattern"].toString();
-    if (!patternProblem(choice.pattern).isEmpty()) {
-        choice.pattern.clear();
-    }
-    choice.preRollSeconds = numberOf(object, "preRollSeconds", 0, RecordingChoice::kMostPreRoll);
-    choice.fileMegabytes = numberOf(object, "fileMegabytes", 0, RecordingChoice::kMostMegabytes);
-    choice.fileMinutes = numberOf(object, "fileMinutes", 0, RecordingChoice::kMostMinutes);
-    choice.freeMegabytes =
-        numberOf(object, "freeMegabytes", choice.freeMegabytes, RecordingChoice::kMostMegabytes);
-    return choice;
-}
-
-QJsonObject jsonOf(const RecordingChoice& choice) {
-    return {{"folder", choice.folder},
-            {"pattern", choice.pattern},
-            {"preRollSeconds", choice.preRollSeconds},
-            {"fileMegabytes", choice.fileMegabytes},
-            {"fileMinutes", choice.fileMinutes},
-            {"freeMegabytes", choice.freeMegabytes}};
-}
-
-QString recordingFolder(const RecordingChoice& choice) {
-    return !choice.folder.isEmpty() ? choice.folder
-                                    : QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation) +
-                                          QStringLiteral("/Posewire");
-}
-
-QString nextTakePath(const RecordingChoice& choice, const QDateTime& begin) {
-    const QString pattern =
-        choice.pattern.isEmpty() ? QLatin1String(RecordingChoice::kDefaultPattern) : choice.pattern;
-    const QDir folder(recordingFolder(choice));
-    // The number counts takes: a time in the name must not make each the first.
-    const auto named = [&](const QString& take, const QString& day, const QString& moment) {
-        QString name = pattern;
-        name.replace(QLatin1String("{date}"), day).replace(QLatin1String("{time}"), moment);
-        return name.replace(QLatin1String("{take}"), take) + QStringLiteral(".pcapng");
-    };
-    const bool isNumbered = pattern.contains(QLatin1String("{take}"));
-    const int take = isNumbered ? newestTakeIn(folder, pattern) + 1 : 1;
-    const QString path = folder.filePath(named(QStringLiteral("%1").arg(take, 3, 10, QLatin1Char('0')),
-                                               begin.toString(QStringLiteral("yyyy-MM-dd")),
-                                               begin.toString(QStringLiteral("HH-mm-ss"))));
-    if (!QFileInfo::exists(path)) {
-        return path;
-    }
-    int copy = 2;
-    const QString stem = path.chopped(7);
-    while (QFileInfo::exists(QStringLiteral("%1 (%2).pcapng").arg(stem).arg(copy))) {
-        ++copy;
-    }
-    return QStringLiteral("%1 (%2).pcapng").arg(stem).arg(copy);
-}
-
-QString patternProblem(const QString& pattern) {
-    const bool isPath = pattern.contains(QLatin1Char('/')) || pattern.contains(QLatin1Char('\\'));
-    const bool hasOdd = std::ranges::any_of(pattern, [](QChar letter) {
-        return letter < QLatin1Char(' ') || QStringLiteral("<>:\"|?*").contains(letter);
-    });
-    return isPath || hasOdd ? tr("A name has none of / \\ < > : \" | ? *; the folder is chosen above.")
-                            : QString();
-}
-
-namespace {
-
 /// Raised when the meaning of something in the file changes, with a step for files of the version before.
 constexpr int kSchema = 2;
 
@@ -193,6 +124,71 @@ Settings settingsOf(const QJsonObject& object) {
 }
 
 } // namespace
+
+RecordingChoice recordingChoiceOf(const QJsonObject& object) {
+    RecordingChoice choice;
+    choice.folder = object["folder"].toString();
+    choice.pattern = object["pattern"].toString();
+    if (!patternProblem(choice.pattern).isEmpty()) {
+        choice.pattern.clear();
+    }
+    choice.preRollSeconds = numberOf(object, "preRollSeconds", 0, RecordingChoice::kMostPreRoll);
+    choice.fileMegabytes = numberOf(object, "fileMegabytes", 0, RecordingChoice::kMostMegabytes);
+    choice.fileMinutes = numberOf(object, "fileMinutes", 0, RecordingChoice::kMostMinutes);
+    choice.freeMegabytes =
+        numberOf(object, "freeMegabytes", choice.freeMegabytes, RecordingChoice::kMostMegabytes);
+    return choice;
+}
+
+QJsonObject jsonOf(const RecordingChoice& choice) {
+    return {{"folder", choice.folder},
+            {"pattern", choice.pattern},
+            {"preRollSeconds", choice.preRollSeconds},
+            {"fileMegabytes", choice.fileMegabytes},
+            {"fileMinutes", choice.fileMinutes},
+            {"freeMegabytes", choice.freeMegabytes}};
+}
+
+QString recordingFolder(const RecordingChoice& choice) {
+    return !choice.folder.isEmpty() ? choice.folder
+                                    : QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation) +
+                                          QStringLiteral("/Posewire");
+}
+
+QString nextTakePath(const RecordingChoice& choice, const QDateTime& begin) {
+    const QString pattern =
+        choice.pattern.isEmpty() ? QLatin1String(RecordingChoice::kDefaultPattern) : choice.pattern;
+    const QDir folder(recordingFolder(choice));
+    // The number counts takes: a time in the name must not make each the first.
+    const auto named = [&](const QString& take, const QString& day, const QString& moment) {
+        QString name = pattern;
+        name.replace(QLatin1String("{date}"), day).replace(QLatin1String("{time}"), moment);
+        return name.replace(QLatin1String("{take}"), take) + QStringLiteral(".pcapng");
+    };
+    const bool isNumbered = pattern.contains(QLatin1String("{take}"));
+    const int take = isNumbered ? newestTakeIn(folder, pattern) + 1 : 1;
+    const QString path = folder.filePath(named(QStringLiteral("%1").arg(take, 3, 10, QLatin1Char('0')),
+                                               begin.toString(QStringLiteral("yyyy-MM-dd")),
+                                               begin.toString(QStringLiteral("HH-mm-ss"))));
+    if (!QFileInfo::exists(path)) {
+        return path;
+    }
+    int copy = 2;
+    const QString stem = path.chopped(7);
+    while (QFileInfo::exists(QStringLiteral("%1 (%2).pcapng").arg(stem).arg(copy))) {
+        ++copy;
+    }
+    return QStringLiteral("%1 (%2).pcapng").arg(stem).arg(copy);
+}
+
+QString patternProblem(const QString& pattern) {
+    const bool isPath = pattern.contains(QLatin1Char('/')) || pattern.contains(QLatin1Char('\\'));
+    const bool hasOdd = std::ranges::any_of(pattern, [](QChar letter) {
+        return letter < QLatin1Char(' ') || QStringLiteral("<>:\"|?*").contains(letter);
+    });
+    return isPath || hasOdd ? tr("A name has none of / \\ < > : \" | ? *; the folder is chosen above.")
+                            : QString();
+}
 
 QJsonObject jsonOf(const AlertChoices& choices) {
     QJsonObject object;

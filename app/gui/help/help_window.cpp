@@ -3,24 +3,19 @@
 
 #include "app/gui/theme/event_watch.h"
 #include "app/gui/theme/theme.h"
-#include "app/gui/theme/widgets.h"
 #include "core/export/protocol_reference.h"
 
 #include <QAbstractTextDocumentLayout>
 #include <QKeyEvent>
-#include <QLineEdit>
-#include <QListWidget>
 #include <QPixmap>
 #include <QRegularExpression>
 #include <QScrollBar>
 #include <QShortcut>
 #include <QSplitter>
-#include <QStackedWidget>
 #include <QTextBlock>
 #include <QTextDocument>
 #include <QTextTable>
 #include <QToolButton>
-#include <QTreeWidget>
 
 #include <algorithm>
 #include <vector>
@@ -79,6 +74,15 @@ QTextCursor cursorOf(QTextDocument& document, int from, int length) {
     return cursor;
 }
 
+constexpr int kPageRole = Qt::UserRole;
+
+QToolButton* barButton(const QString& sign, const QString& name, QWidget* parent) {
+    QToolButton* button = framedButton(sign, name, parent);
+    button->setAccessibleName(name);
+    button->setFocusPolicy(Qt::TabFocus);
+    return button;
+}
+
 } // namespace
 
 MarkdownView::MarkdownView(const HelpPages& pages, QWidget* parent) : QTextBrowser(parent), m_pages(pages) {
@@ -105,7 +109,12 @@ void MarkdownView::arrive(const QUrl& place) {
     while (block.isValid() && !isHeading(block, place.fragment())) {
         block = block.next();
     }
-    showPosition(block.isValid() ? block.position() : 0);
+    const int position = block.isValid() ? block.position() : 0;
+    const QRectF area = document()->documentLayout()->blockBoundingRect(document()->findBlock(position));
+    const int top = position == 0 ? 0 : static_cast<int>(area.top()); // the title keeps its margin
+    verticalScrollBar()->setValue(top);
+    setTextCursor(cursorOf(*document(), position, 0));
+    verticalScrollBar()->setValue(top);
 }
 
 void MarkdownView::applyColours() {
@@ -177,14 +186,6 @@ void MarkdownView::resizeEvent(QResizeEvent* event) {
     fitPictures();
 }
 
-void MarkdownView::showPosition(int position) {
-    const QRectF block = document()->documentLayout()->blockBoundingRect(document()->findBlock(position));
-    const int top = position == 0 ? 0 : static_cast<int>(block.top()); // the title keeps its margin
-    verticalScrollBar()->setValue(top);
-    setTextCursor(cursorOf(*document(), position, 0));
-    verticalScrollBar()->setValue(top);
-}
-
 bool MarkdownView::findAgain(const QString& words, bool isBackward) {
     if (words.isEmpty()) {
         return false;
@@ -219,28 +220,8 @@ void MarkdownView::highlight(const QStringList& words) {
     setExtraSelections(selections);
 }
 
-namespace {
-
-constexpr int kPageRole = Qt::UserRole;
-
-QToolButton* barButton(const QString& sign, const QString& name, QWidget* parent) {
-    QToolButton* button = framedButton(sign, name, parent);
-    button->setAccessibleName(name);
-    button->setFocusPolicy(Qt::TabFocus);
-    return button;
-}
-
-} // namespace
-
 HelpWindow::HelpWindow(const HelpPages& pages, QWidget* parent)
-    : QWidget(parent, Qt::Window),
-      m_pages(pages),
-      m_view(new MarkdownView(pages, this)),
-      m_contents(new QTreeWidget(this)),
-      m_hits(new QListWidget(this)),
-      m_left(new QStackedWidget(this)),
-      m_search(new QLineEdit(this)),
-      m_found(plainLabel(this)) {
+    : QWidget(parent, Qt::Window), m_pages(pages), m_view(new MarkdownView(pages, this)) {
     setObjectName(QStringLiteral("helpWindow"));
     setWindowTitle(tr("Posewire user guide"));
     setAttribute(Qt::WA_StyledBackground);
@@ -268,7 +249,9 @@ HelpWindow::HelpWindow(const HelpPages& pages, QWidget* parent)
     connect(m_contents, &QTreeWidget::itemClicked, this, openItem);
     const auto openRow = [this](const QListWidgetItem* item) {
         if (item != nullptr) {
-            openHit(item->data(kPageRole).toString());
+            m_isNewSearch = false;
+            visit(item->data(kPageRole).toString());
+            findInPage(false);
         }
     };
     connect(m_hits, &QListWidget::currentItemChanged, this, openRow);
@@ -373,14 +356,6 @@ void HelpWindow::open(const QString& place) {
     m_view->setFocus();
 }
 
-QString HelpWindow::place() const {
-    return m_view->source().toString();
-}
-
-const HelpPage& HelpWindow::page() const {
-    return *m_pages.find(m_view->source().path());
-}
-
 void HelpWindow::follow(const QUrl& link) {
     const bool isResolved = link.path() == page().id; // the view resolves "#filter" to "packets#filter"
     const QString place = isResolved ? link.toString() : placeOfLink(link.toString(), page().id);
@@ -442,12 +417,6 @@ void HelpWindow::openBest() {
     } else {
         findInPage(false);
     }
-}
-
-void HelpWindow::openHit(const QString& page) {
-    m_isNewSearch = false;
-    visit(page);
-    findInPage(false);
 }
 
 /// Shows the next place of what is searched for; first the best page, where the one that is open has none.

@@ -2,15 +2,14 @@
 #pragma once
 
 #include "app/gui/help/help_pages.h"
+#include "app/gui/theme/widgets.h"
 
+#include <QLineEdit>
+#include <QListWidget>
+#include <QStackedWidget>
 #include <QTextBrowser>
+#include <QTreeWidget>
 #include <QWidget>
-
-class QLabel;
-class QLineEdit;
-class QListWidget;
-class QStackedWidget;
-class QTreeWidget;
 
 namespace posewire::gui {
 
@@ -42,7 +41,6 @@ private:
     void arrive(const QUrl& place);
     void applyColours();
     void fitPictures();
-    void showPosition(int position);
 
     const HelpPages& m_pages;
     QString m_page; ///< that is loaded
@@ -62,7 +60,7 @@ public:
     /// Shows a place, "packets" or "packets#filter", and the window itself; the start page if there is no
     /// such page.
     void open(const QString& place);
-    [[nodiscard]] QString place() const;
+    [[nodiscard]] QString place() const { return m_view->source().toString(); }
     [[nodiscard]] MarkdownView& view() const { return *m_view; }
     [[nodiscard]] QTreeWidget& contents() const { return *m_contents; }
     [[nodiscard]] QListWidget& hits() const { return *m_hits; }
@@ -79,20 +77,19 @@ private:
     void visit(const QString& place);
     /// Title, contents and search follow the page that the view shows.
     void followView(const QUrl& place);
-    [[nodiscard]] const HelpPage& page() const;
+    [[nodiscard]] const HelpPage& page() const { return *m_pages.find(m_view->source().path()); }
     void search(const QString& words);
     /// The best page of a new search; its next place, once that was opened.
     void openBest();
-    void openHit(const QString& page);
     void findInPage(bool isBackward);
 
     const HelpPages& m_pages;
     MarkdownView* m_view;
-    QTreeWidget* m_contents;
-    QListWidget* m_hits;
-    QStackedWidget* m_left;
-    QLineEdit* m_search;
-    QLabel* m_found;
+    QTreeWidget* m_contents = new QTreeWidget(this);
+    QListWidget* m_hits = new QListWidget(this);
+    QStackedWidget* m_left = new QStackedWidget(this);
+    QLineEdit* m_search = new QLineEdit(this);
+    QLabel* m_found = plainLabel(this);
     bool m_isNewSearch = false;
 };
 

@@ -5,11 +5,9 @@
 #include "app/gui/models/text.h"
 #include "app/gui/theme/help_link.h"
 #include "app/gui/theme/theme.h"
-#include "app/gui/theme/widgets.h"
 #include "app/gui/theme/words.h"
 
 #include <QApplication>
-#include <QCheckBox>
 #include <QDialogButtonBox>
 #include <QDoubleSpinBox>
 #include <QFormLayout>
@@ -66,40 +64,40 @@ QString notificationText(const QString& text) {
     return plain.replace(u'<', u'‹').replace(u'>', u'›').replace(u'&', u'＆');
 }
 
-void VerdictNotifier::makeTray() {
-    m_tray = new QSystemTrayIcon(m_window->windowIcon(), m_window);
-    m_tray->show();
-    const auto comeForward = [this] {
-        m_window->show();
-        m_window->raise();
-        m_window->activateWindow();
-    };
-    QObject::connect(m_tray, &QSystemTrayIcon::activated, m_window, comeForward);
-    QObject::connect(m_tray, &QSystemTrayIcon::messageClicked, m_window, comeForward);
-}
-
 void VerdictNotifier::look(const model::TakeVerdict& verdict, bool isWanted) {
     if (!m_turns.isDue(verdict) || !isWanted) {
         return;
     }
     if (m_tray == nullptr) {
-        makeTray();
+        m_tray = new QSystemTrayIcon(m_window->windowIcon(), m_window);
+        m_tray->show();
+        const auto comeForward = [this] {
+            m_window->show();
+            m_window->raise();
+            m_window->activateWindow();
+        };
+        QObject::connect(m_tray, &QSystemTrayIcon::activated, m_window, comeForward);
+        QObject::connect(m_tray, &QSystemTrayIcon::messageClicked, m_window, comeForward);
     }
     QApplication::alert(m_window); // where the desktop has no place for notifications
     m_tray->showMessage(m_window->windowTitle(), notificationText(said(verdict.said, words::Form::Headline)),
                         QSystemTrayIcon::Warning);
 }
 
-ThresholdsDialog::ThresholdsDialog(const AlertChoices& choices, QWidget* parent)
-    : QDialog(parent),
-      m_explanation(dimText({}, this)),
-      m_warningSound(new QCheckBox(tr("at a &warning"), this)),
-      m_errorSound(new QCheckBox(tr("at an &error"), this)),
-      m_notification(new QCheckBox(tr("by the &desktop, when the verdict turns bad"), this)) {
+ThresholdsDialog::ThresholdsDialog(const AlertChoices& choices, QWidget* parent) : QDialog(parent) {
     setWindowTitle(tr("Thresholds"));
     auto* form = new QFormLayout;
     for (const model::ThresholdRow& row : model::thresholdTable()) {
-        addLimit(*form, row);
+        auto* box = new QDoubleSpinBox(this);
+        box->setDecimals(row.shownPerUnit == 1 ? 1 : 0);
+        box->setRange(row.least * row.shownPerUnit, row.most * row.shownPerUnit);
+        box->setSuffix(translatedText(row.unit));
+        box->setSpecialValueText(row.least == 0 ? tr("never an alert") : QString()); // at the least
+        box->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
+        box->setToolTip(toolTipText(translatedText(row.help)));
+        form->addRow(translatedText(row.label), box);
+        m_fields.push_back({&row, box});
+        connect(box, &QDoubleSpinBox::valueChanged, this, &ThresholdsDialog::explainHysteresis);
     }
     auto* sounds = new QVBoxLayout;
     sounds->addWidget(m_warningSound);
@@ -120,19 +118,6 @@ ThresholdsDialog::ThresholdsDialog(const AlertChoices& choices, QWidget* parent)
     const int width = std::max(minimumWidth(), layout()->minimumSize().width());
     setMinimumSize(width,
                    layout()->totalHeightForWidth(width)); // a dialog does not ask for lines of wrapped text
-}
-
-void ThresholdsDialog::addLimit(QFormLayout& form, const model::ThresholdRow& row) {
-    auto* box = new QDoubleSpinBox(this);
-    box->setDecimals(row.shownPerUnit == 1 ? 1 : 0);
-    box->setRange(row.least * row.shownPerUnit, row.most * row.shownPerUnit);
-    box->setSuffix(translatedText(row.unit));
-    box->setSpecialValueText(row.least == 0 ? tr("never an alert") : QString()); // at the least
-    box->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
-    box->setToolTip(toolTipText(translatedText(row.help)));
-    form.addRow(translatedText(row.label), box);
-    m_fields.push_back({&row, box});
-    connect(box, &QDoubleSpinBox::valueChanged, this, &ThresholdsDialog::explainHysteresis);
 }
 
 void ThresholdsDialog::explainHysteresis() {

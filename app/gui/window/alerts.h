@@ -2,18 +2,18 @@
 #pragma once
 
 #include "app/gui/base/settings.h"
+#include "app/gui/theme/widgets.h"
 #include "core/model/session/verdict.h"
 
+#include <QCheckBox>
 #include <QDialog>
 
 #include <map>
 #include <set>
 #include <vector>
 
-class QCheckBox;
 class QDoubleSpinBox;
 class QFormLayout;
-class QLabel;
 class QSystemTrayIcon;
 
 namespace posewire::gui {
@@ -52,8 +52,6 @@ public:
     void look(const model::TakeVerdict& verdict, bool isWanted);
 
 private:
-    void makeTray();
-
     QWidget* m_window;
     QSystemTrayIcon* m_tray = nullptr;
     BadTurns m_turns;
@@ -74,14 +72,13 @@ private:
         const model::ThresholdRow* row;
         QDoubleSpinBox* box;
     };
-    void addLimit(QFormLayout& form, const model::ThresholdRow& row);
     void explainHysteresis();
 
     std::vector<Field> m_fields;
-    QLabel* m_explanation;
-    QCheckBox* m_warningSound;
-    QCheckBox* m_errorSound;
-    QCheckBox* m_notification;
+    QLabel* m_explanation = dimText({}, this);
+    QCheckBox* m_warningSound = new QCheckBox(tr("at a &warning"), this);
+    QCheckBox* m_errorSound = new QCheckBox(tr("at an &error"), this);
+    QCheckBox* m_notification = new QCheckBox(tr("by the &desktop, when the verdict turns bad"), this);
 };
 
 } // namespace posewire::gui

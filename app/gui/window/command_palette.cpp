@@ -6,10 +6,8 @@
 #include <QAction>
 #include <QHeaderView>
 #include <QKeyEvent>
-#include <QLineEdit>
 #include <QMenu>
 #include <QMenuBar>
-#include <QTreeWidget>
 #include <QVBoxLayout>
 
 #include <algorithm>
@@ -75,10 +73,7 @@ bool isMeant(const Command& command, const QString& typed) {
 }
 
 CommandPalette::CommandPalette(const QMenuBar& bar, QWidget* window)
-    : QDialog(window),
-      m_commands(commandsOf(bar)),
-      m_line(new QLineEdit(this)),
-      m_list(new QTreeWidget(this)) {
+    : QDialog(window), m_commands(commandsOf(bar)) {
     setWindowTitle(tr("Commands"));
     m_line->setPlaceholderText(tr("What to do: words of a command or of its menu"));
     m_line->setAccessibleName(tr("Words of a command"));

@@ -2,14 +2,14 @@
 #pragma once
 
 #include <QDialog>
+#include <QLineEdit>
 #include <QString>
+#include <QTreeWidget>
 
 #include <vector>
 
 class QAction;
-class QLineEdit;
 class QMenuBar;
-class QTreeWidget;
 
 namespace posewire::gui {
 
@@ -45,8 +45,8 @@ private:
     void choose();
 
     const std::vector<Command> m_commands;
-    QLineEdit* m_line;
-    QTreeWidget* m_list;
+    QLineEdit* m_line = new QLineEdit(this);
+    QTreeWidget* m_list = new QTreeWidget(this);
     int m_choices = 0; ///< the first so many rows can be carried out
     QAction* m_chosen = nullptr;
 };

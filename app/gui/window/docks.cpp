@@ -121,13 +121,8 @@ public:
     explicit DockTitle(QDockWidget* dock)
         : QWidget(dock),
           m_title(plainLabel(dock->windowTitle(), this)),
-          m_summary(new ElidedLabel(Qt::AlignRight, this)),
-          m_help(helpButton(dock->windowTitle(), dock->objectName(), this)),
-          m_float(flatButton({}, tr("Float or dock"), this)),
-          m_close(flatButton({}, tr("Close"), this)) {
-        auto* row = new QHBoxLayout(this);
-        row->setContentsMargins(10, 0, 8, 1);
-        row->setSpacing(2);
+          m_help(helpButton(dock->windowTitle(), dock->objectName(), this)) {
+        auto* row = spacedRow({10, 0, 8, 1}, 2, this);
         row->addWidget(m_title);
         row->addSpacing(8);
         row->addWidget(m_summary, 1);
@@ -208,10 +203,10 @@ private:
     }
 
     QLabel* m_title;
-    ElidedLabel* m_summary;
+    ElidedLabel* m_summary = new ElidedLabel(Qt::AlignRight, this);
     QToolButton* m_help;
-    QToolButton* m_float;
-    QToolButton* m_close;
+    QToolButton* m_float = flatButton({}, tr("Float or dock"), this);
+    QToolButton* m_close = flatButton({}, tr("Close"), this);
 };
 
 QRect onScreen(const QRect& window) {

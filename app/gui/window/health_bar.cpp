@@ -11,7 +11,6 @@
 #include "app/gui/window/health_popup.h"
 #include "core/model/session/verdict.h"
 
-#include <QHBoxLayout>
 #include <QToolButton>
 
 #include <algorithm>
@@ -66,18 +65,11 @@ HealthBar::HealthBar(model::SessionView& session, Commands& commands, QWidget* p
     : QWidget(parent),
       m_session(&session),
       m_commands(commands),
-      m_entriesLayout(new QHBoxLayout),
-      m_entriesArea(new QWidget(this)),
       m_more(new ColourText(ColourText::Look::Plain, m_entriesArea)),
       m_message(new PassingMessage(kMessageMs, this)),
-      m_about(flatButton(QStringLiteral("?"), tr("Help on this message"), this)),
-      m_rate(plainLabel(this)),
-      m_history(plainLabel(this)),
-      m_dropped(plainLabel(this)) {
+      m_about(flatButton(QStringLiteral("?"), tr("Help on this message"), this)) {
     setObjectName(QStringLiteral("healthBar"));
-    auto* row = new QHBoxLayout(this);
-    row->setContentsMargins(6, 1, 6, 1);
-    row->setSpacing(8);
+    auto* row = spacedRow({6, 1, 6, 1}, 8, this);
     // More characters than there is room for must not widen the window.
     m_entriesArea->setLayout(m_entriesLayout);
     m_entriesArea->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
@@ -117,10 +109,6 @@ void HealthBar::say(const QString& text, const QString& helpPlace) {
     m_about->setVisible(!text.isEmpty() && !helpPlace.isEmpty());
 }
 
-QString HealthBar::said() const {
-    return m_message->said();
-}
-
 void HealthBar::showSession(model::SessionView& session) {
     delete m_list;
     delete m_popup;
@@ -156,7 +144,11 @@ void HealthBar::refreshCharacters() {
     const bool isForMessage = m_shown.empty() && m_message->isVisible();
     qobject_cast<QHBoxLayout*>(layout())->setStretchFactor(m_entriesArea, isForMessage ? 0 : 1);
     while (m_entries.size() < m_shown.size()) {
-        addEntry();
+        auto* entry = new ColourText(ColourText::Look::Plain, this);
+        const std::size_t index = m_entries.size();
+        connect(entry, &ColourText::clicked, this, [this, index, entry] { explain(m_shown[index], *entry); });
+        m_entriesLayout->insertWidget(static_cast<int>(index), entry);
+        m_entries.push_back(entry);
     }
     fitEntries();
     if (m_list != nullptr) {
@@ -238,14 +230,6 @@ void HealthBar::showEntry(std::size_t index, const EntryRoom& room) {
     entry->setContent(state.health,
                       metrics.elidedText(name, Qt::ElideRight, forName) + QLatin1Char(' ') + said);
     entry->setToolTip(toolTipText(state.toolTip));
-}
-
-void HealthBar::addEntry() {
-    auto* entry = new ColourText(ColourText::Look::Plain, this);
-    const std::size_t index = m_entries.size();
-    connect(entry, &ColourText::clicked, this, [this, index, entry] { explain(m_shown[index], *entry); });
-    m_entriesLayout->insertWidget(static_cast<int>(index), entry);
-    m_entries.push_back(entry);
 }
 
 QWidget* HealthBar::firstEntry() const {

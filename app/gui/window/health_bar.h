@@ -6,13 +6,11 @@
 #include "app/gui/theme/widgets.h"
 #include "core/model/session/session_view.h"
 
+#include <QHBoxLayout>
 #include <QPointer>
 #include <QWidget>
 
 #include <vector>
-
-class QHBoxLayout;
-class QToolButton;
 
 namespace posewire::gui {
 
@@ -37,7 +35,7 @@ public:
     /// Shows a line for a while, beside the rest; with the place in the guide that tells more, where there is
     /// one.
     void say(const QString& text, const QString& helpPlace = {});
-    [[nodiscard]] QString said() const;
+    [[nodiscard]] QString said() const { return m_message->said(); }
 
 private:
     /// Selects a character, and says in a popup why it is as it is.
@@ -54,12 +52,11 @@ private:
         bool isBrief; ///< without whose loss it is
     };
     void showEntry(std::size_t index, const EntryRoom& room);
-    void addEntry();
 
     model::SessionView* m_session;
     Commands& m_commands;
-    QHBoxLayout* m_entriesLayout;
-    QWidget* m_entriesArea;
+    QHBoxLayout* m_entriesLayout = new QHBoxLayout;
+    QWidget* m_entriesArea = new QWidget(this);
     std::vector<ColourText*> m_entries;       ///< as many as there ever were characters to show
     int m_nameWidth = 0;                      ///< pixels, of what was said so far
     int m_stateWidth = 0;                     ///< likewise
@@ -71,9 +68,9 @@ private:
     PassingMessage* m_message;
     QToolButton* m_about; ///< opens m_helpPlace, while the message is there
     QString m_helpPlace;
-    QLabel* m_rate;
-    QLabel* m_history;
-    QLabel* m_dropped;
+    QLabel* m_rate = plainLabel(this);
+    QLabel* m_history = plainLabel(this);
+    QLabel* m_dropped = plainLabel(this);
 };
 
 } // namespace posewire::gui

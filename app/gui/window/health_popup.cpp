@@ -4,7 +4,6 @@
 #include "app/gui/models/incident_words.h"
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
-#include "app/gui/panels/table_view.h"
 #include "app/gui/theme/help_link.h"
 #include "app/gui/theme/theme.h"
 #include "app/gui/theme/widgets.h"
@@ -240,9 +239,7 @@ QWidget* showHealthPopup(model::SessionView& session, Commands& commands, const 
 }
 
 HealthList::HealthList(model::SessionView& session, Commands& commands, QWidget* parent)
-    : QFrame(parent, Qt::Popup),
-      m_model(session, commands),
-      m_table(new TableView(tr("All characters"), this)) {
+    : QFrame(parent, Qt::Popup), m_model(session, commands) {
     setAttribute(Qt::WA_DeleteOnClose);
     setObjectName(QStringLiteral("healthList"));
     m_model.setOrder(BoardOrder::TroubleFirst);

@@ -3,12 +3,11 @@
 
 #include "app/gui/base/commands.h"
 #include "app/gui/models/character_model.h"
+#include "app/gui/panels/table_view.h"
 
 #include <QFrame>
 
 namespace posewire::gui {
-
-class TableView;
 
 /// "Lost 12 of 2 400 samples in the last 10 s."
 [[nodiscard]] QString lossText(model::SessionView& session, const model::CharacterKey& key);
@@ -36,7 +35,7 @@ protected:
 
 private:
     CharacterModel m_model;
-    TableView* m_table;
+    TableView* m_table = new TableView(tr("All characters"), this);
 };
 
 } // namespace posewire::gui

@@ -12,7 +12,6 @@
 #include "app/gui/theme/words.h"
 #include "app/gui/viewport/viewport_overlay.h"
 #include "app/gui/window/docks.h"
-#include "app/gui/window/guide.h"
 #include "app/gui/window/health_bar.h"
 #include "app/gui/window/opening.h"
 #include "app/gui/window/transport_bar.h"
@@ -92,6 +91,23 @@ void press(QAbstractButton& button) {
     }
 }
 
+/// Raised when docks or tool bars change so that an old state would not fit.
+constexpr int kStateVersion = 2;
+constexpr QSize kDefaultSize(1600, 1000);
+/// What a desktop puts around a window, about; it does not tell before the window is there.
+constexpr QSize kFrame(16, 48);
+
+/// A tool bar that stays where it is and holds one widget.
+QToolBar* fixedBar(const QString& title, const QString& name, QWidget* content) {
+    auto* bar = new QToolBar(title);
+    bar->setObjectName(name);
+    bar->setMovable(false);
+    bar->toggleViewAction()->setVisible(false);
+    bar->setContextMenuPolicy(Qt::PreventContextMenu);
+    bar->addWidget(content);
+    return bar;
+}
+
 } // namespace
 
 /// Space and Enter press what has the focus, in the whole program: a button, a list of choices, a box in a
@@ -142,34 +158,12 @@ bool PressingKeys::eventFilter(QObject* watched, QEvent* event) {
     return true;
 }
 
-namespace {
-
-/// Raised when docks or tool bars change so that an old state would not fit.
-constexpr int kStateVersion = 2;
-constexpr QSize kDefaultSize(1600, 1000);
-/// What a desktop puts around a window, about; it does not tell before the window is there.
-constexpr QSize kFrame(16, 48);
-
-/// A tool bar that stays where it is and holds one widget.
-QToolBar* fixedBar(const QString& title, const QString& name, QWidget* content) {
-    auto* bar = new QToolBar(title);
-    bar->setObjectName(name);
-    bar->setMovable(false);
-    bar->toggleViewAction()->setVisible(false);
-    bar->setContextMenuPolicy(Qt::PreventContextMenu);
-    bar->addWidget(content);
-    return bar;
-}
-
-} // namespace
-
 MainWindow::MainWindow(SessionDriver& driver, const SettingsFile& file, const Settings& settings)
     : m_driver(driver),
       m_file(file),
       m_settings(settings),
       m_viewport(new ViewportWidget(driver.commands().session(), driver.commands(), this)),
-      m_menus(*this, *menuBar()),
-      m_guide(new Guide(*this)) {
+      m_menus(*this, *menuBar()) {
     setWindowTitle(QStringLiteral("Posewire"));
     setDockOptions(AllowNestedDocks | AllowTabbedDocks | AnimatedDocks);
     setTabPosition(Qt::AllDockWidgetAreas, QTabWidget::North);
@@ -200,8 +194,7 @@ void MainWindow::makeBars() {
     name->setFont(font);
     name->setContentsMargins(12, 0, 6, 0);
     menuBar()->setCornerWidget(name, Qt::TopLeftCorner);
-    m_layoutButton = new QToolButton(this);
-    m_layoutButton->setProperty("flat", true);
+    m_layoutButton = flatButton({}, {}, this);
     m_layoutButton->setMenu(menuAt(*menuBar(), QStringLiteral("&View/La&yout")));
     m_layoutButton->setPopupMode(QToolButton::InstantPopup);
     m_layoutButton->setObjectName(QStringLiteral("layoutButton"));

@@ -7,16 +7,14 @@
 #include "app/gui/inputs/inputs_dialog.h"
 #include "app/gui/viewport/viewport_widget.h"
 #include "app/gui/window/alerts.h"
+#include "app/gui/window/guide.h"
 #include "app/gui/window/menus.h"
 
 #include <QMainWindow>
 
-class QToolButton;
-
 namespace posewire::gui {
 
 class Docks;
-class Guide;
 class HealthBar;
 class Opening;
 class TransportBar;
@@ -80,7 +78,7 @@ private:
     Menus m_menus;
     AlertSounds m_sounds;
     VerdictNotifier m_notifier{this};
-    Guide* m_guide;
+    Guide* m_guide = new Guide(*this);
     Docks* m_docks = nullptr;
     Opening* m_opening = nullptr;
     TransportBar* m_transport = nullptr;

@@ -162,10 +162,6 @@ void resetLayout(Window& window) {
     window.useLayout(window.kept().layout);
 }
 
-void dockAll(Window& window) {
-    window.docks().dockAll();
-}
-
 void toggleFullScreen(Window& window) {
     window.setWindowState(window.windowState() ^ Qt::WindowFullScreen);
 }
@@ -263,7 +259,8 @@ const ActionInfo kActions[] = {
 
     {"resetLayout", QT_TRANSLATE_NOOP("Action", "&View"), QT_TRANSLATE_NOOP("Action", "&Reset layout"), "",
      Do::call<resetLayout>},
-    {"dockAll", "&View", QT_TRANSLATE_NOOP("Action", "&Dock all"), "", Do::call<dockAll>},
+    {"dockAll", "&View", QT_TRANSLATE_NOOP("Action", "&Dock all"), "",
+     Do::callIn<&Window::docks, &Docks::dockAll>},
     {"nextDock", "&View", QT_TRANSLATE_NOOP("Action", "&Next dock"), "F6", Do::call<&Window::moveFocus, 1>},
     {"previousDock", "&View", QT_TRANSLATE_NOOP("Action", "Previous doc&k"), "Shift+F6",
      Do::call<&Window::moveFocus, -1>},

@@ -3,7 +3,6 @@
 
 #include "app/gui/models/text.h"
 #include "app/gui/theme/theme.h"
-#include "app/gui/theme/widgets.h"
 #include "app/gui/viewport/bodies.h"
 #include "app/gui/viewport/camera_motion.h"
 #include "app/gui/viewport/presenter.h"
@@ -13,9 +12,7 @@
 #include <QFileInfo>
 #include <QFormLayout>
 #include <QKeyEvent>
-#include <QLineEdit>
 #include <QMouseEvent>
-#include <QPushButton>
 #include <QVBoxLayout>
 
 #include <algorithm>
@@ -182,19 +179,7 @@ private:
 
 OwnCharacterDialog::OwnCharacterDialog(OwnCharacters& characters, const QStringList& names,
                                        const QString& selected, QWidget* parent)
-    : QDialog(parent),
-      m_characters(characters),
-      m_path(new QLineEdit(this)),
-      m_browse(new QPushButton(tr("&File…"), this)),
-      m_preview(new BodyPreview(this)),
-      m_state(dimText({}, this)),
-      m_unit(new ComboBox(this)),
-      m_heading(new ComboBox(this)),
-      m_rest(new ComboBox(this)),
-      m_size(new ComboBox(this)),
-      m_who(new ComboBox(this)),
-      m_apply(new QPushButton(tr("&Apply"), this)),
-      m_mannequin(new QPushButton(tr("Use the &mannequin"), this)) {
+    : QDialog(parent), m_characters(characters), m_preview(new BodyPreview(this)) {
     setWindowTitle(tr("Own character"));
     m_who->addItem(tr("All characters"), QString());
     for (const QString& name : names) {
@@ -252,13 +237,12 @@ void OwnCharacterDialog::makeForm() {
         connect(each, &QComboBox::activated, this, &OwnCharacterDialog::makeBody);
     }
     connect(m_who, &QComboBox::activated, this, &OwnCharacterDialog::describe);
-    connect(m_mannequin, &QPushButton::clicked, this, &OwnCharacterDialog::useMannequin);
+    connect(m_mannequin, &QPushButton::clicked, this, [this] {
+        m_characters.undress(who());
+        QDialog::accept();
+    });
     connect(buttons, &QDialogButtonBox::accepted, this, &OwnCharacterDialog::accept);
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
-}
-
-QString OwnCharacterDialog::stateText() const {
-    return m_state->text();
 }
 
 QString OwnCharacterDialog::who() const {
@@ -364,8 +348,7 @@ void OwnCharacterDialog::describe() {
     m_state->setText(lines.join(QLatin1Char('\n')));
     setTextColour(*m_state, hasProblem ? theme().warning : theme().dim);
     const bool hasFile = !m_isReading && m_file != nullptr;
-    for (QWidget* each : {static_cast<QWidget*>(m_unit), static_cast<QWidget*>(m_heading),
-                          static_cast<QWidget*>(m_rest), static_cast<QWidget*>(m_size)}) {
+    for (QComboBox* each : {m_unit, m_heading, m_rest, m_size}) {
         each->setEnabled(hasFile);
     }
     m_browse->setEnabled(!m_isReading);
@@ -378,11 +361,6 @@ void OwnCharacterDialog::accept() {
         m_characters.dress(who(), m_file, choice(), m_body);
         QDialog::accept();
     }
-}
-
-void OwnCharacterDialog::useMannequin() {
-    m_characters.undress(who());
-    QDialog::accept();
 }
 
 } // namespace posewire::gui

@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/gui/theme/widgets.h"
 #include "app/gui/viewport/own_characters.h"
 
 #include <QDialog>
+#include <QLineEdit>
+#include <QPushButton>
 #include <QStringList>
 
 #include <memory>
-
-class QComboBox;
-class QLabel;
-class QLineEdit;
-class QPushButton;
 
 namespace posewire::gui {
 
@@ -28,7 +26,7 @@ public:
 
     /// Reads a file, as the button does that asks for one.
     void read(const QString& path);
-    [[nodiscard]] QString stateText() const;
+    [[nodiscard]] QString stateText() const { return m_state->text(); }
     [[nodiscard]] bool isReading() const { return m_isReading; }
 
     void accept() override;
@@ -46,7 +44,6 @@ private:
     /// By what is chosen now.
     void makeBody();
     void describe();
-    void useMannequin();
 
     OwnCharacters& m_characters;
     CharacterReading m_reading;
@@ -54,17 +51,17 @@ private:
     std::shared_ptr<const CharacterFile> m_file;
     std::shared_ptr<const DressedBody> m_body; ///< null if what is chosen makes none
     QString m_problem;                         ///< with the file or the choice; empty for none
-    QLineEdit* m_path;
-    QPushButton* m_browse;
+    QLineEdit* m_path = new QLineEdit(this);
+    QPushButton* m_browse = new QPushButton(tr("&File…"), this);
     BodyPreview* m_preview;
-    QLabel* m_state;
-    QComboBox* m_unit;
-    QComboBox* m_heading;
-    QComboBox* m_rest;
-    QComboBox* m_size;
-    QComboBox* m_who;
-    QPushButton* m_apply;
-    QPushButton* m_mannequin;
+    QLabel* m_state = dimText({}, this);
+    QComboBox* m_unit = new ComboBox(this);
+    QComboBox* m_heading = new ComboBox(this);
+    QComboBox* m_rest = new ComboBox(this);
+    QComboBox* m_size = new ComboBox(this);
+    QComboBox* m_who = new ComboBox(this);
+    QPushButton* m_apply = new QPushButton(tr("&Apply"), this);
+    QPushButton* m_mannequin = new QPushButton(tr("Use the &mannequin"), this);
 };
 
 } // namespace posewire::gui

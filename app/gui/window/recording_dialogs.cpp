@@ -7,24 +7,17 @@
 #include "app/gui/inputs/relay_page.h"
 #include "app/gui/models/text.h"
 #include "app/gui/theme/help_link.h"
-#include "app/gui/theme/widgets.h"
 
-#include <QCheckBox>
 #include <QDateTime>
 #include <QDialogButtonBox>
-#include <QDoubleSpinBox>
 #include <QFile>
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QFormLayout>
 #include <QHBoxLayout>
 #include <QHeaderView>
-#include <QLineEdit>
 #include <QLocale>
-#include <QPushButton>
 #include <QSpinBox>
-#include <QTimer>
-#include <QTreeWidget>
 
 #include <chrono>
 #include <cmath>
@@ -34,13 +27,11 @@ namespace posewire::gui {
 RecordingDialog::RecordingDialog(const RecordingChoice& choice, QWidget* parent)
     : QDialog(parent),
       m_folder(new QLineEdit(recordingFolder(choice), this)),
-      m_pattern(new QLineEdit(choice.pattern, this)),
-      m_next(dimText({}, this)) {
+      m_pattern(new QLineEdit(choice.pattern, this)) {
     setWindowTitle(tr("Recording options"));
     auto* form = new QFormLayout;
     auto* folder = new QWidget(this);
-    auto* row = new QHBoxLayout(folder);
-    row->setContentsMargins({});
+    auto* row = spacedRow({}, -1, folder);
     folder->setFocusProxy(m_folder);
     auto* choose = new QPushButton(tr("Choose…"), this);
     row->addWidget(m_folder, 1);
@@ -121,14 +112,16 @@ QString day(log::WallTime time) {
     return QLocale().toString(dateTimeOf(time).date(), QLocale::ShortFormat);
 }
 
+constexpr std::chrono::milliseconds kReplayLook{200};
+constexpr int kOverTcp = 1; // of the transports
+
+bool isRunning(const Replaying& replaying) {
+    return replaying.current() != nullptr && !replaying.current()->figures().isOver;
+}
+
 } // namespace
 
-RecoveryDialog::RecoveryDialog(History& history, QWidget* parent)
-    : QDialog(parent),
-      m_history(history),
-      m_list(new QTreeWidget(this)),
-      m_message(dimText({}, this)),
-      m_watch(new QTimer(this)) {
+RecoveryDialog::RecoveryDialog(History& history, QWidget* parent) : QDialog(parent), m_history(history) {
     setWindowTitle(tr("Recovered packets"));
     m_list->setRootIsDecorated(false);
     m_list->setUniformRowHeights(true);
@@ -159,10 +152,6 @@ RecoveryDialog::RecoveryDialog(History& history, QWidget* parent)
     m_list->setFocus();
     fill();
     showState({});
-}
-
-bool RecoveryDialog::isEmpty() const {
-    return m_list->topLevelItemCount() == 0;
 }
 
 void RecoveryDialog::fill() {
@@ -241,17 +230,6 @@ void RecoveryDialog::showState(const QString& message) {
     }
 }
 
-namespace {
-
-constexpr std::chrono::milliseconds kReplayLook{200};
-constexpr int kOverTcp = 1; // of the transports
-
-bool isRunning(const Replaying& replaying) {
-    return replaying.current() != nullptr && !replaying.current()->figures().isOver;
-}
-
-} // namespace
-
 QString replayText(const net::Replay& replay) {
     const net::ReplayFigures figures = replay.figures();
     const net::ReplayChoice& choice = replay.choice();
@@ -278,16 +256,7 @@ QString replayText(const net::Replay& replay) {
 }
 
 ReplayDialog::ReplayDialog(Replaying& replaying, const Commands& commands, QWidget* parent)
-    : QDialog(parent),
-      m_replaying(replaying),
-      m_commands(commands),
-      m_target(new QLineEdit(QStringLiteral("127.0.0.1:9763"), this)),
-      m_transport(new ComboBox(this)),
-      m_range(new RangeBox(this)),
-      m_speed(new QDoubleSpinBox(this)),
-      m_loop(new QCheckBox(tr("&Again and again"), this)),
-      m_state(dimText({}, this)),
-      m_button(new QPushButton(this)) {
+    : QDialog(parent), m_replaying(replaying), m_commands(commands) {
     setWindowTitle(tr("Replay to the network"));
     m_transport->addItems({tr("UDP, a datagram each"), tr("TCP, connecting as MVN does")});
     m_speed->setButtonSymbols(QAbstractSpinBox::NoButtons);

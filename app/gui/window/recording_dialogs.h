@@ -4,26 +4,24 @@
 #include "app/gui/base/commands.h"
 #include "app/gui/base/settings.h"
 #include "app/gui/driver/replaying.h"
+#include "app/gui/theme/widgets.h"
 
+#include <QCheckBox>
 #include <QDialog>
+#include <QDoubleSpinBox>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QTimer>
+#include <QTreeWidget>
 
 #include <future>
 
-class QCheckBox;
-class QComboBox;
-class QDoubleSpinBox;
 class QFormLayout;
-class QLabel;
-class QLineEdit;
-class QPushButton;
 class QSpinBox;
-class QTimer;
-class QTreeWidget;
 
 namespace posewire::gui {
 
 class History;
-class RangeBox;
 
 class RecordingDialog final : public QDialog {
     Q_OBJECT
@@ -45,7 +43,7 @@ private:
     QSpinBox* m_megabytes;
     QSpinBox* m_minutes;
     QSpinBox* m_free;
-    QLabel* m_next;
+    QLabel* m_next = dimText({}, this);
     QPushButton* m_ok;
 };
 
@@ -57,7 +55,7 @@ class RecoveryDialog final : public QDialog {
 public:
     RecoveryDialog(History& history, QWidget* parent);
 
-    [[nodiscard]] bool isEmpty() const;
+    [[nodiscard]] bool isEmpty() const { return m_list->topLevelItemCount() == 0; }
     /// Copies the selected file, on a thread of its own.
     void save(const QString& path);
 
@@ -78,12 +76,12 @@ private:
     void showState(const QString& message);
 
     History& m_history;
-    QTreeWidget* m_list;
+    QTreeWidget* m_list = new QTreeWidget(this);
     QPushButton* m_open;
     QPushButton* m_save;
     QPushButton* m_discard;
-    QLabel* m_message;
-    QTimer* m_watch;
+    QLabel* m_message = dimText({}, this);
+    QTimer* m_watch = new QTimer(this);
     QString m_target;
     std::future<QString> m_saving; ///< with what went wrong
 };
@@ -103,13 +101,13 @@ private:
 
     Replaying& m_replaying;
     const Commands& m_commands; ///< what is shown
-    QLineEdit* m_target;
-    QComboBox* m_transport;
-    RangeBox* m_range;
-    QDoubleSpinBox* m_speed;
-    QCheckBox* m_loop;
-    QLabel* m_state;
-    QPushButton* m_button;
+    QLineEdit* m_target = new QLineEdit(QStringLiteral("127.0.0.1:9763"), this);
+    QComboBox* m_transport = new ComboBox(this);
+    RangeBox* m_range = new RangeBox(this);
+    QDoubleSpinBox* m_speed = new QDoubleSpinBox(this);
+    QCheckBox* m_loop = new QCheckBox(tr("&Again and again"), this);
+    QLabel* m_state = dimText({}, this);
+    QPushButton* m_button = new QPushButton(this);
     QString m_problem; ///< why it did not begin
 };
 

@@ -6,13 +6,11 @@
 #include "app/gui/models/text.h"
 #include "app/gui/theme/event_watch.h"
 #include "app/gui/theme/theme.h"
-#include "app/gui/theme/widgets.h"
 #include "core/model/body/character_pose.h"
 #include "core/model/session/messages.h"
 #include "core/model/session/roster.h"
 
 #include <QAction>
-#include <QHBoxLayout>
 #include <QMenu>
 #include <QPainter>
 #include <QStyle>
@@ -28,10 +26,8 @@ namespace {
 constexpr double kTimeScale = 1.3;
 
 QToolButton* buttonOf(QAction* action, QWidget* parent) {
-    auto* button = new QToolButton(parent);
-    button->setProperty("framed", true);
+    QToolButton* button = framedButton({}, action->toolTip(), parent);
     button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
-    button->setToolTip(toolTipText(action->toolTip()));
     QObject::connect(button, &QToolButton::clicked, action, &QAction::trigger);
     return button;
 }
@@ -48,7 +44,7 @@ QString helpOf(const QAction& action) {
 class TimeControls final : public QWidget {
 public:
     TimeControls(const TransportBar::Actions& actions, QWidget* parent)
-        : QWidget(parent), m_speeds(actions.speeds), m_row(spacedRow({}, 2, this)) {
+        : QWidget(parent), m_speeds(actions.speeds) {
         setObjectName(QStringLiteral("timeControls"));
         add(actions.back, "step_back");
         m_playBack = add(actions.playBack, "play_back");
@@ -102,7 +98,7 @@ private:
     }
 
     QMenu* m_speeds;
-    QHBoxLayout* m_row;
+    QHBoxLayout* m_row = spacedRow({}, 2, this);
     QToolButton* m_playBack;
     QToolButton* m_play;
     QToolButton* m_speed;
@@ -118,19 +114,14 @@ TransportBar::TransportBar(model::SessionView& session, const Actions& actions, 
       m_live(buttonOf(actions.live, this)),
       m_past(new TimeControls(actions, this)),
       m_add(buttonOf(actions.inputs, this)),
-      m_relay(new ColourText(ColourText::Look::Pill, this)),
-      m_time(plainLabel(this)),
-      m_detail(dimLabel({}, this)),
-      m_pillLayout(new QHBoxLayout) {
+      m_relay(new ColourText(ColourText::Look::Pill, this)) {
     setObjectName(QStringLiteral("transport"));
     m_live->setToolButtonStyle(Qt::ToolButtonTextOnly);
     m_live->setProperty("framed", false);
     m_add->setText(tr("Input"));
     m_time->setObjectName(QStringLiteral("transportTime"));
     m_time->setAccessibleDescription(tr("Time of day shown"));
-    auto* row = new QHBoxLayout(this);
-    row->setContentsMargins(12, 6, 12, 7);
-    row->setSpacing(10);
+    auto* row = spacedRow({12, 6, 12, 7}, 10, this);
     row->addWidget(m_record);
     row->addWidget(m_pause);
     row->addWidget(m_live);
@@ -271,20 +262,16 @@ void TransportBar::refresh() {
         (isPast ? tr("shown · sample %1") : tr("received · sample %1")).arg(grouped(pose->sample)));
 }
 
-void TransportBar::addPill() {
-    auto* pill = new ColourText(ColourText::Look::Pill, this);
-    pill->setObjectName(QStringLiteral("inputPill%1").arg(m_pills.size()));
-    connect(pill, &QAbstractButton::clicked, this,
-            [this, place = m_pills.size()] { emit inputRequested(m_inputs[place]); });
-    m_pillLayout->addWidget(pill);
-    m_pills.push_back(pill);
-}
-
 void TransportBar::setReceiving(const ReceivingState& receiving) {
     std::size_t shown = 0;
     const auto show = [&](Health level, const QString& text, const QString& toolTip) {
         if (shown == m_pills.size()) {
-            addPill();
+            auto* added = new ColourText(ColourText::Look::Pill, this);
+            added->setObjectName(QStringLiteral("inputPill%1").arg(m_pills.size()));
+            connect(added, &QAbstractButton::clicked, this,
+                    [this, place = m_pills.size()] { emit inputRequested(m_inputs[place]); });
+            m_pillLayout->addWidget(added);
+            m_pills.push_back(added);
         }
         ColourText* pill = m_pills[shown++];
         pill->setVisible(true);

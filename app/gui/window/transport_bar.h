@@ -4,17 +4,16 @@
 #include "app/gui/base/commands.h"
 #include "app/gui/base/program_state.h"
 #include "app/gui/driver/takes.h"
+#include "app/gui/theme/widgets.h"
 #include "core/model/session/session_view.h"
 
+#include <QHBoxLayout>
 #include <QWidget>
 
 #include <vector>
 
 class QAction;
-class QHBoxLayout;
-class QLabel;
 class QMenu;
-class QToolButton;
 
 namespace posewire::gui {
 
@@ -68,8 +67,6 @@ private:
     void showRelays(const std::vector<RelayState>& relays);
     [[nodiscard]] const model::CharacterPose* timedPose();
 
-    void addPill();
-
     model::SessionView* m_session;
     const Actions m_actions;
     QToolButton* m_record;
@@ -78,9 +75,9 @@ private:
     TimeControls* m_past; ///< only while it is what is shown
     QToolButton* m_add;
     ColourText* m_relay; ///< only while something is forwarded, or should be
-    QLabel* m_time;
-    QLabel* m_detail;
-    QHBoxLayout* m_pillLayout;
+    QLabel* m_time = plainLabel(this);
+    QLabel* m_detail = dimLabel({}, this);
+    QHBoxLayout* m_pillLayout = new QHBoxLayout;
     std::vector<ColourText*> m_pills; ///< of the inputs; a click tells more
     std::vector<InputAddress> m_inputs;
     Mode m_mode = Mode::Waiting;

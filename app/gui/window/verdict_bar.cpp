@@ -5,9 +5,7 @@
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
 #include "app/gui/theme/event_watch.h"
-#include "app/gui/theme/widgets.h"
 #include "core/model/session/roster.h"
-#include "core/model/session/verdict.h"
 
 #include <QAccessible>
 #include <QAction>
@@ -89,10 +87,6 @@ void Headline::setLarge(bool isLarge) {
     }
 }
 
-QString Headline::line() const {
-    return healthText(m_level, text());
-}
-
 QFont Headline::fontFor(int width) const {
     QFont font = this->font();
     font.setWeight(QFont::DemiBold);
@@ -144,12 +138,8 @@ void Headline::paintEvent(QPaintEvent* /*event*/) {
 VerdictBar::VerdictBar(model::SessionView& live, const Actions& actions, QWidget* parent)
     : QWidget(parent),
       m_live(live),
-      m_headline(new Headline(this)),
-      m_span(dimLabel({}, this)),
       m_reset(buttonFor(actions.reset, tr("Reset before take"), this)),
       m_showFile(buttonFor(actions.showFile, {}, this)),
-      m_strip(new QWidget(this)),
-      m_what(new ElidedLabel(Qt::AlignLeft | Qt::AlignVCenter, m_strip)),
       m_goLive(buttonFor(actions.live, {}, m_strip)),
       m_closeFile(buttonFor(actions.closeFile, tr("Close recording"), m_strip)),
       m_endComparison(buttonFor(actions.endComparison, tr("End comparison"), m_strip)) {

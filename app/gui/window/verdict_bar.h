@@ -2,19 +2,17 @@
 #pragma once
 
 #include "app/gui/theme/theme.h"
+#include "app/gui/theme/widgets.h"
 #include "core/model/session/verdict.h"
 
 #include <QAbstractButton>
 #include <QStringList>
 #include <QWidget>
+#include <Qt>
 
 class QAction;
-class QLabel;
-class QToolButton;
 
 namespace posewire::gui {
-
-class ElidedLabel;
 
 /// "● Good for the take: 4 characters", in the colour of what it says. A button: a click gives the evidence.
 class Headline final : public QAbstractButton {
@@ -35,7 +33,7 @@ protected:
     void paintEvent(QPaintEvent* event) override;
 
 private:
-    [[nodiscard]] QString line() const;
+    [[nodiscard]] QString line() const { return healthText(m_level, text()); }
     /// As large as it should be, or as there is room for.
     [[nodiscard]] QFont fontFor(int width) const;
 
@@ -87,12 +85,12 @@ private:
     void showStrip(const ShownFile& file, bool hasInputs);
 
     model::SessionView& m_live;
-    Headline* m_headline;
-    QLabel* m_span;
+    Headline* m_headline = new Headline(this);
+    QLabel* m_span = dimLabel({}, this);
     QToolButton* m_reset;
     QToolButton* m_showFile;
-    QWidget* m_strip;
-    ElidedLabel* m_what;
+    QWidget* m_strip = new QWidget(this);
+    ElidedLabel* m_what = new ElidedLabel(Qt::AlignLeft | Qt::AlignVCenter, m_strip);
     QToolButton* m_goLive;
     QToolButton* m_closeFile;
     QToolButton* m_endComparison;

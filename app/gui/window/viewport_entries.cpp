@@ -129,22 +129,19 @@ constexpr ActionInfo splitEntry(const char* id, const char* text, const char* sh
 }
 
 template <ViewSwitch which>
-void toggleSwitch(Window& window) {
-    choiceOf(window).toggleSwitch(which);
-}
-template <ViewSwitch which>
 bool isSwitchedOn(const Window& window) {
     return choiceOf(window).isSwitchedOn(which);
 }
 template <ViewSwitch which>
 constexpr ActionInfo switchEntry(const char* id, const char* menu, const char* text) {
-    return {id, menu, text, "", ViewDo::call<toggleSwitch<which>>, ViewDo::is<isSwitchedOn<which>>};
+    return {id,
+            menu,
+            text,
+            "",
+            ViewDo::callIn<choiceOf, &ViewChoice::toggleSwitch, which>,
+            ViewDo::is<isSwitchedOn<which>>};
 }
 
-template <Overlay overlay>
-void toggleOverlay(Window& window) {
-    choiceOf(window).toggle(overlay);
-}
 template <Overlay overlay>
 bool isOverlayOn(const Window& window) {
     return choiceOf(window).isOn(overlay);
@@ -153,8 +150,9 @@ template <Overlay overlay>
 constexpr ActionInfo overlayEntry() {
     constexpr const OverlayEntry& entry = kOverlayTable[static_cast<std::size_t>(overlay)];
     static_assert(entry.overlay == overlay);
-    return {entry.key, QT_TRANSLATE_NOOP("Action", "&View/O&verlays"), entry.title,
-            "",        ViewDo::call<toggleOverlay<overlay>>,           ViewDo::is<isOverlayOn<overlay>>};
+    return {
+        entry.key, QT_TRANSLATE_NOOP("Action", "&View/O&verlays"),         entry.title,
+        "",        ViewDo::callIn<choiceOf, &ViewChoice::toggle, overlay>, ViewDo::is<isOverlayOn<overlay>>};
 }
 
 const ActionInfo kEntries[] = {
