@@ -70,7 +70,9 @@ ByteRange rangeOf(const FieldDocument& document, std::int32_t node) {
 InspectorPanel::InspectorPanel(model::SessionView& view, Commands& commands, QWidget* parent)
     : Panel(view, commands, parent),
       m_hold(flatButton(tr("Hold"), tr("Keep showing this packet while the stream continues"), this)),
-      m_compare(flatButton(tr("Compare ▾"), tr("Compare with another packet of the same type"), this)) {
+      m_compare(flatButton(tr("Compare ▾"), tr("Compare with another packet of the same type"), this)),
+      m_problems(richLabel(this)),
+      m_detail(richLabel(this)) {
     layOut();
     connect(m_fields, &FieldView::nodeEntered, this, &InspectorPanel::hover);
     connect(m_fields, &FieldView::nodeSelected, this, &InspectorPanel::select);

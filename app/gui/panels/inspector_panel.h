@@ -79,12 +79,12 @@ private:
     QToolButton* m_next = flatButton(QStringLiteral("›"), tr("Next packet of this stream"), this);
     QToolButton* m_hold;
     QToolButton* m_compare;
-    QLabel* m_problems = richLabel(this);
+    QLabel* m_problems;
     Line* m_problemLine = new Line(this);
     QSplitter* m_splitter = new QSplitter(Qt::Vertical, this);
     FieldView* m_fields = new FieldView(m_model, m_commands, this);
     ByteView* m_bytes = new ByteView(this);
-    QLabel* m_detail = richLabel(this);
+    QLabel* m_detail;
     Line* m_detailLine = new Line(this);
 };
 

@@ -82,6 +82,7 @@ std::vector<PoseNote> poseNotes(const model::SessionView& session, std::size_t m
 
 PoseBanner::PoseBanner(Commands& commands, QWidget* parent)
     : QWidget(parent),
+      m_text(richLabel(this)),
       m_floor(framedButton(tr("Place on the floor"),
                            tr("Lift these by the height of their pelvis above the soles"), this)) {
     setObjectName(QStringLiteral("poseBanner"));

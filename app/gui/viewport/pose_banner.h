@@ -48,7 +48,7 @@ private:
 
     std::vector<PoseNote> m_notes;
     std::vector<model::CharacterKey> m_below; ///< the floor
-    QLabel* m_text = richLabel(this);
+    QLabel* m_text;
     QToolButton* m_floor;
 };
 

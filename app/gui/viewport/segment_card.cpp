@@ -60,7 +60,8 @@ QString tableOf(const SegmentFacts& known) {
 
 } // namespace
 
-SegmentCard::SegmentCard(QWidget* parent, const QWidget& banner) : QWidget(parent), m_banner(banner) {
+SegmentCard::SegmentCard(QWidget* parent, const QWidget& banner)
+    : QWidget(parent), m_banner(banner), m_table(richLabel(this)) {
     setObjectName(QStringLiteral("segmentCard"));
     setAttribute(Qt::WA_TransparentForMouseEvents);
     QVBoxLayout* column = tightColumn(this);

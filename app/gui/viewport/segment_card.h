@@ -46,7 +46,7 @@ private:
     QWidget* m_mark = new QWidget(this); ///< where the mark is painted
     ElidedLabel* m_character = new ElidedLabel(Qt::AlignLeft | Qt::AlignVCenter, this);
     QLabel* m_source = plainLabel(this);
-    QLabel* m_table = richLabel(this);
+    QLabel* m_table;
     QRectF m_seen;
     std::optional<QPoint> m_pointer;
     bool m_isLeft = false;
