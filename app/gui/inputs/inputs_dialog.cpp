@@ -11,7 +11,6 @@
 #include "app/gui/theme/words.h"
 
 #include <QDialogButtonBox>
-#include <QMessageBox>
 #include <QPushButton>
 #include <QTextBrowser>
 #include <QVBoxLayout>
@@ -143,13 +142,10 @@ InputsDialog::InputsDialog(Receiving& receiving, QWidget* parent)
 }
 
 void InputsDialog::takeOffer(const InputAddress& offer) {
-    const QString problem = m_receiving.tryPort(offer);
-    if (problem.isEmpty()) {
-        emit choicesChanged();
-        m_tabs->setCurrentIndex(static_cast<int>(Page::Inputs));
-    } else {
-        QMessageBox::warning(this, windowTitle(), problem);
-    }
+    m_inputs->endEditing();
+    m_inputs->form().setInput(offer);
+    m_inputs->submit();
+    m_tabs->setCurrentIndex(static_cast<int>(Page::Inputs)); // which says what went wrong, if it did
 }
 
 void InputsDialog::open(Page page) {

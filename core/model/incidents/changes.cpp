@@ -210,14 +210,13 @@ bool Claims::meet(log::SenderId sender, const std::string& address) {
 void Claims::take(const log::Packet& packet, const wire::Header& header, std::string_view name,
                   Incidents& incidents) {
     constexpr std::size_t kTelling = 64; // bytes: counters, time code and the first item
-    const Claim claim{packet.sender,
-                      m_sources[packet.sender].host,
-                      packet.stamp,
-                      packet.stamp,
-                      name.empty() ? 0 : std::hash<std::string_view>{}(name),
-                      m_sources.size() < 2
-                          ? 0
-                          : wire::hashOf(packet.bytes.first(std::min(packet.bytes.size(), kTelling)))};
+    const Claim claim{
+        packet.sender,
+        m_sources[packet.sender].host,
+        packet.stamp,
+        packet.stamp,
+        name.empty() ? 0 : std::hash<std::string_view>{}(name),
+        m_sources.size() < 2 ? 0 : wire::hashOf(packet.bytes.first(std::min(packet.bytes.size(), kTelling)))};
     // One host may send types from several ports.
     std::vector<Claim>& ofType = m_claims[{header.character, header.type()}];
     std::vector<Claim>& ofHosts = m_claimsOfHosts[header.character];
