@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/export/motion/body_mesh.h"
+#include "core/export/motion/motion_writer.h"
 
 namespace posewire::figure {
 

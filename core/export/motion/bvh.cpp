@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/export/motion/writers.h"
+#include "core/export/motion/motion_writer.h"
 
 #include "core/export/motion/skeleton.h"
 

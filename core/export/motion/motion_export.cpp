@@ -2,7 +2,6 @@
 #include "core/export/motion/motion_export.h"
 
 #include "core/export/formats.h"
-#include "core/export/motion/writers.h"
 #include "core/log/file_names.h"
 #include "core/wire/text.h"
 

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/export/motion/body_mesh.h"
 #include "core/export/motion/motion_reader.h"
+#include "core/model/body/reference_body.h"
 
+#include <array>
+#include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -30,6 +33,20 @@ private:
     std::string m_buffer;
     tl::expected<void, log::FileError> m_result;
 };
+
+/// A skinned body in the null pose of a performer, from whoever has one: core has none. Metres, Z-up,
+/// triangles counter-clockwise seen from outside.
+struct BodyMesh {
+    std::vector<std::array<float, 3>> positions;
+    std::vector<std::array<float, 3>> normals;                     ///< of unit length, one for each position
+    std::vector<std::array<std::uint8_t, 4>> segments;             ///< body segments that move it, each once
+    std::vector<std::array<float, 4>> weights;                     ///< of these; sum 1
+    std::vector<std::uint32_t> indices;                            ///< three for each triangle
+    std::array<Eigen::Vector3d, model::kBodySegmentCount> origins; ///< of the segments that it was made for
+};
+
+/// The body of a performer with these segment origins.
+using MakeBodyMesh = std::function<BodyMesh(const model::BodyOrigins&)>;
 
 /// All of it outlives the writer.
 struct MotionTask {
@@ -59,6 +76,57 @@ public:
     virtual void add(const MotionFrame& frame, MotionOutput& out) = 0;
     virtual void finish(MotionOutput&) {}
 };
+
+/// One table (RFC 4180, UTF-8, lines end with CR LF), a row for each sample of each character, with the
+/// columns
+///
+///     character,id,run,sample,time (s),received (ns since 1970 UTC),time code (ms),type,
+///     Pelvis x (m),Pelvis y (m),Pelvis z (m),Pelvis qw,Pelvis qx,Pelvis qy,Pelvis qz, … all other segments
+///
+/// `run` counts from 1: a restart of the sender begins the next. `sample` is the sender's counter, `time`
+/// counts from the first sample of the file by that, `type` is the message it came in. Positions are of
+/// segment origins in the world (Z up), quaternions turn segment coordinates into world coordinates. The row
+/// of a sample that did not come whole has no cells after `time`; of a file that does not say when its
+/// datagrams were received, `received` is empty; a segment that a sample lacks has empty cells. Columns are
+/// those of all segments that any sample has: body, props, left and right fingers.
+[[nodiscard]] std::unique_ptr<MotionWriter> makeMotionCsv(const MotionTask& task);
+
+/// One object on each line, in the same order:
+///
+///     {"character":"…","id":0,"run":1,"sample":1,"time":0.000000,"receivedNs":…,"timeCode":…,"type":"02",
+///      "segments":[{"id":1,"name":"Pelvis","position":[x,y,z],"orientation":[w,x,y,z]},…]}
+///
+/// Units as in the table; "id" of a segment is its place in the message, from 1. Of a sample that did not
+/// come whole "segments" is null, and what is between "time" and that is missing; "receivedNs" is missing
+/// where the file does not say.
+[[nodiscard]] std::unique_ptr<MotionWriter> makeMotionJsonLines(const MotionTask& task);
+
+/// Biovision hierarchy of one character: body and fingers, without props. Y up, Z forward, centimetres,
+/// degrees. Offsets are those of the null pose (see skeletonOf()); the pelvis has position and rotation, all
+/// others rotation alone (Z, X, Y in this order, R = Rz·Rx·Ry): joints stand where bones of constant length
+/// put them. The frame time is that of the stream, and each sample is a frame: one that did not come whole
+/// repeats the pose before it, and a restart of the sender leaves no pause.
+[[nodiscard]] std::unique_ptr<MotionWriter> makeBvh(const MotionTask& task);
+
+/// Binary glTF 2.0: each character a node with its segments as joints, and a skinned body where the task has
+/// one; one animation moves all. Metres, Y up, Z forward. Joints have position and rotation, so that each
+/// stands exactly where its segment was sent. Keys are at the samples' times (MotionFrame::seconds): a sample
+/// that did not come whole has none, so players go on evenly from the one before to the next.
+[[nodiscard]] std::unique_ptr<MotionWriter> makeGlb(const MotionTask& task);
+
+/// C3D of one character (c3d.org, Intel byte order, floats): the markers of type 03 where those were sent,
+/// else the origins of its segments. Millimetres, Z up. Each sample is a frame; what did not come is a point
+/// without a measurement (residual -1). From 65,536 frames on their number is in TRIAL and in
+/// POINT:LONG_FRAMES.
+[[nodiscard]] std::unique_ptr<MotionWriter> makeC3d(const MotionTask& task);
+
+/// MVNX, version 4, of one character: XML in the order of the vendor's own files. Metres, Z up, quaternions w
+/// x y z. It has what was sent or follows from it: the 23 segments of the body with the points of the null
+/// pose, the joints, the null pose as the frame `tpose` (where one was sent), and of each sample orientation,
+/// position and joint angles (degrees). Sensors, velocities, contacts, props and fingers are not in it: their
+/// elements are empty or missing, and a comment says so. A sample that did not come whole has no frame;
+/// `index` counts it.
+[[nodiscard]] std::unique_ptr<MotionWriter> makeMvnx(const MotionTask& task);
 
 /// The fewest digits that read back to the same 32 bits.
 void appendNumber(double value, std::string& text);
