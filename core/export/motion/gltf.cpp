@@ -61,7 +61,15 @@ class FloatColumn {
 public:
     explicit FloatColumn(std::shared_ptr<log::Scratch> scratch) : m_scratch(std::move(scratch)) {}
 
-    void add(float value);
+    void add(float value) {
+        const std::size_t place = static_cast<std::size_t>(m_size % kBlock);
+        if (place == 0) {
+            m_blocks.push_back(m_scratch->bytes(kBlock * sizeof(float)));
+        }
+        std::memcpy(m_blocks.back().get() + place * sizeof(float), &value, sizeof(float));
+        ++m_size;
+    }
+
     [[nodiscard]] std::uint64_t size() const { return m_size; }
     /// All of them as bytes, piece by piece, as they lie in memory.
     template <class Visitor>
@@ -86,9 +94,36 @@ private:
 /// Y-up; rotations x y z w, each on the side of the one before, so that players turn the short way.
 class KeyColumns {
 public:
-    KeyColumns(const Skeleton& skeleton, const std::shared_ptr<log::Scratch>& scratch);
+    KeyColumns(const Skeleton& skeleton, const std::shared_ptr<log::Scratch>& scratch)
+        : m_times(scratch),
+          m_positions(skeleton.joints.size(), FloatColumn(scratch)),
+          m_rotations(skeleton.joints.size(), FloatColumn(scratch)),
+          m_newest(skeleton.joints.size(), Eigen::Quaterniond::Identity()) {}
 
-    void add(double seconds, std::span<const model::SegmentPose> local);
+    void add(double seconds, std::span<const model::SegmentPose> local) {
+        float time = static_cast<float>(seconds);
+        if (count() == 0) {
+            m_first = time;
+        } else if (time <= m_last) {
+            time = std::nextafter(m_last, std::numeric_limits<float>::infinity());
+        }
+        m_last = time;
+        m_times.add(time);
+        for (std::size_t i = 0; i < local.size(); ++i) {
+            const Eigen::Vector3d position = model::yUpFromZUp(local[i].position);
+            for (const double value : {position.x(), position.y(), position.z()}) {
+                m_positions[i].add(static_cast<float>(value));
+            }
+            Eigen::Quaterniond turn = model::yUpFromZUp(local[i].orientation);
+            if (turn.dot(m_newest[i]) < 0) {
+                turn.coeffs() = -turn.coeffs();
+            }
+            m_newest[i] = turn;
+            for (const double value : {turn.x(), turn.y(), turn.z(), turn.w()}) {
+                m_rotations[i].add(static_cast<float>(value));
+            }
+        }
+    }
 
     [[nodiscard]] std::uint64_t count() const { return m_times.size(); }
     /// Of the first key and of the last; each is later than the one before.
@@ -106,46 +141,6 @@ private:
     float m_first = 0;
     float m_last = 0;
 };
-
-void FloatColumn::add(float value) {
-    const std::size_t place = static_cast<std::size_t>(m_size % kBlock);
-    if (place == 0) {
-        m_blocks.push_back(m_scratch->bytes(kBlock * sizeof(float)));
-    }
-    std::memcpy(m_blocks.back().get() + place * sizeof(float), &value, sizeof(float));
-    ++m_size;
-}
-
-KeyColumns::KeyColumns(const Skeleton& skeleton, const std::shared_ptr<log::Scratch>& scratch)
-    : m_times(scratch),
-      m_positions(skeleton.joints.size(), FloatColumn(scratch)),
-      m_rotations(skeleton.joints.size(), FloatColumn(scratch)),
-      m_newest(skeleton.joints.size(), Eigen::Quaterniond::Identity()) {}
-
-void KeyColumns::add(double seconds, std::span<const model::SegmentPose> local) {
-    float time = static_cast<float>(seconds);
-    if (count() == 0) {
-        m_first = time;
-    } else if (time <= m_last) {
-        time = std::nextafter(m_last, std::numeric_limits<float>::infinity());
-    }
-    m_last = time;
-    m_times.add(time);
-    for (std::size_t i = 0; i < local.size(); ++i) {
-        const Eigen::Vector3d position = model::yUpFromZUp(local[i].position);
-        for (const double value : {position.x(), position.y(), position.z()}) {
-            m_positions[i].add(static_cast<float>(value));
-        }
-        Eigen::Quaterniond turn = model::yUpFromZUp(local[i].orientation);
-        if (turn.dot(m_newest[i]) < 0) {
-            turn.coeffs() = -turn.coeffs();
-        }
-        m_newest[i] = turn;
-        for (const double value : {turn.x(), turn.y(), turn.z(), turn.w()}) {
-            m_rotations[i].add(static_cast<float>(value));
-        }
-    }
-}
 
 /// What is in the file: the document, and the pieces of its binary part in their order.
 class Document {
