@@ -4,40 +4,27 @@
 #include "core/wire/text.h"
 
 namespace posewire::exporting {
-namespace {
-
-constexpr const char* kCsv = "Comma-separated values";
-
-constexpr Format<EventSheet> kEvents[] = {
-    {"CSV", kCsv, "csv", eventsCsv},
-    {"JSON", "JSON", "json", eventsJson},
-};
-
-constexpr Format<NullPoseSheet> kNullPose[] = {
-    {"CSV", kCsv, "csv", nullPoseCsv},
-    {"JSON", "JSON", "json", nullPoseJson},
-};
-
-constexpr Format<ReportSheet> kReport[] = {
-    {"HTML", "Web pages", "html",
-     [](const ReportSheet& sheet) { return streamReport(sheet.session, sheet.options); }},
-};
-
-} // namespace
 
 template <>
 std::span<const Format<EventSheet>> formats() {
-    return kEvents;
+    static constexpr Format<EventSheet> kAll[] = {{"CSV", "Comma-separated values", "csv", eventsCsv},
+                                                  {"JSON", "JSON", "json", eventsJson}};
+    return kAll;
 }
 
 template <>
 std::span<const Format<NullPoseSheet>> formats() {
-    return kNullPose;
+    static constexpr Format<NullPoseSheet> kAll[] = {{"CSV", "Comma-separated values", "csv", nullPoseCsv},
+                                                     {"JSON", "JSON", "json", nullPoseJson}};
+    return kAll;
 }
 
 template <>
 std::span<const Format<ReportSheet>> formats() {
-    return kReport;
+    static constexpr Format<ReportSheet> kAll[] = {
+        {"HTML", "Web pages", "html",
+         [](const ReportSheet& sheet) { return streamReport(sheet.session, sheet.options); }}};
+    return kAll;
 }
 
 bool hasSuffix(std::string_view name, std::string_view suffix) {
