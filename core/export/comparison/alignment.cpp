@@ -5,15 +5,11 @@
 #include "core/model/session/roster.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
-#include <string_view>
 
 namespace posewire::exporting {
 namespace {
-
-constexpr std::array<const char*, 3> kKeys{"timecode", "sample", "begin"};
 
 double measureOf(AlignBy by, const Timetable& table, const SampleMoment& moment) {
     switch (by) {
@@ -40,15 +36,6 @@ double toleranceFor(AlignBy by, const Timetable& first, const Timetable& second)
 }
 
 } // namespace
-
-const char* keyOf(AlignBy by) {
-    return kKeys[static_cast<std::size_t>(by)];
-}
-
-std::optional<AlignBy> alignByOf(std::string_view key) {
-    const auto found = std::ranges::find(kKeys, key, [](const char* one) { return std::string_view(one); });
-    return found == kKeys.end() ? std::nullopt : std::optional(static_cast<AlignBy>(found - kKeys.begin()));
-}
 
 double stepOf(AlignBy by, const Timetable& second) {
     constexpr double kUsual = 1000.0 / 240; // ms, where no rate is known
@@ -88,7 +75,8 @@ Partners::Partners(std::shared_ptr<const Timetable> first, std::shared_ptr<const
     Places places;
     places.reserve(m_second->samples().size());
     for (const SampleMoment& moment : m_second->samples()) {
-        places.emplace_back(measure(*m_second, moment), static_cast<std::uint32_t>(places.size()));
+        places.emplace_back(measureOf(alignment.by, *m_second, moment),
+                            static_cast<std::uint32_t>(places.size()));
     }
     if (!std::ranges::is_sorted(places)) { // counters begin again, and so do time codes of what is looped
         std::ranges::sort(places);
@@ -102,13 +90,9 @@ Partners Partners::withOffset(double offset) const {
     return moved;
 }
 
-double Partners::measure(const Timetable& table, const SampleMoment& moment) const {
-    return measureOf(m_alignment.by, table, moment);
-}
-
 std::optional<std::size_t> Partners::of(const SampleMoment& moment) const {
     const Places& places = *m_places;
-    const double wanted = measure(*m_first, moment) + m_alignment.offset;
+    const double wanted = measureOf(m_alignment.by, *m_first, moment) + m_alignment.offset;
     const auto place = [&](double from) {
         return std::ranges::lower_bound(places, std::pair(from, std::uint32_t{0}));
     };
@@ -125,7 +109,7 @@ std::optional<std::size_t> Partners::of(const SampleMoment& moment) const {
 
 bool Partners::isCommon(const SampleMoment& moment) const {
     const Places& places = *m_places;
-    const double wanted = measure(*m_first, moment) + m_alignment.offset;
+    const double wanted = measureOf(m_alignment.by, *m_first, moment) + m_alignment.offset;
     return !places.empty() && wanted >= places.front().first - m_tolerance &&
            wanted <= places.back().first + m_tolerance;
 }

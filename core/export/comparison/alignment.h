@@ -67,9 +67,6 @@ enum class AlignBy : std::uint8_t {
     Sample,   ///< counters
     Begin,    ///< time since the first pose of each
 };
-/// "timecode", "sample", "begin": for commands and settings.
-[[nodiscard]] const char* keyOf(AlignBy by);
-[[nodiscard]] std::optional<AlignBy> alignByOf(std::string_view key);
 
 /// The partner of a sample is the one of the second recording that is `offset` later by this measure: ms, or
 /// counts of samples.
@@ -105,8 +102,6 @@ public:
     [[nodiscard]] bool isCommon(const SampleMoment& moment) const;
 
 private:
-    [[nodiscard]] double measure(const Timetable& table, const SampleMoment& moment) const;
-
     std::shared_ptr<const Timetable> m_first;
     std::shared_ptr<const Timetable> m_second;
     Alignment m_alignment;

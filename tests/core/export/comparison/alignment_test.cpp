@@ -94,8 +94,8 @@ TEST(AlignmentTest, AnOffsetMovesByWholeSamples) {
     second.perform(Recording::settings(240), 0, 200);
     for (const AlignBy by : {AlignBy::TimeCode, AlignBy::Sample, AlignBy::Begin}) {
         const double step = stepOf(by, *second.timetable());
-        EXPECT_EQ(partnersOf(first, second, {by, 7 * step}), from(8, 100)) << keyOf(by);
-        EXPECT_EQ(partnersOf(first, second, {by, -step})[0], 0U) << keyOf(by);
+        EXPECT_EQ(partnersOf(first, second, {by, 7 * step}), from(8, 100)) << static_cast<int>(by);
+        EXPECT_EQ(partnersOf(first, second, {by, -step})[0], 0U) << static_cast<int>(by);
     }
 }
 
