@@ -13,18 +13,6 @@
 
 namespace posewire::exporting {
 
-/// When a sample was made, by everything that may tell.
-struct SampleMoment {
-    std::uint32_t sample = 0;
-    std::uint32_t timeCode = 0; ///< ms
-    log::Stamp stamp{};         ///< when it was received
-    std::uint64_t packet = 0;   ///< that completed it
-};
-
-[[nodiscard]] inline SampleMoment momentOf(const model::CharacterPose& pose) {
-    return {pose.sample, pose.timeCode, pose.stamp, pose.packet};
-}
-
 /// The samples of a character that hold a pose, in the order of their counters.
 class Timetable {
 public:

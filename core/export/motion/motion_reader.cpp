@@ -53,15 +53,6 @@ public:
     }
 
 private:
-    struct Moment {
-        std::uint32_t sample = 0;
-        std::uint32_t timeCode = 0;
-        log::Stamp stamp{};
-    };
-    static Moment momentOf(const model::CharacterPose& pose) {
-        return {pose.sample, pose.timeCode, pose.stamp};
-    }
-
     void endRun() {
         m_counted += distance(m_newest.sample, m_begin.sample);
         m_received += log::secondsOf(m_newest.stamp - m_begin.stamp);
@@ -121,8 +112,8 @@ private:
 
     CharacterSurvey& m_survey;
     std::uint64_t m_samples = 0;
-    Moment m_begin; ///< of the run
-    Moment m_newest;
+    SampleMoment m_begin; ///< of the run
+    SampleMoment m_newest;
     std::int64_t m_counted = 0; ///< counters from the first to the last of each run
     double m_received = 0;      ///< seconds, likewise
     double m_coded = 0;

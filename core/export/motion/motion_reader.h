@@ -14,6 +14,18 @@ namespace posewire::exporting {
 /// `share` is from 0 to 1. Work goes on if the answer is true.
 using ExportProgress = std::function<bool(double share)>;
 
+/// When a sample was made, by everything that may tell.
+struct SampleMoment {
+    std::uint32_t sample = 0;
+    std::uint32_t timeCode = 0; ///< ms
+    log::Stamp stamp{};         ///< when it was received
+    std::uint64_t packet = 0;   ///< that completed it
+};
+
+[[nodiscard]] inline SampleMoment momentOf(const model::CharacterPose& pose) {
+    return {pose.sample, pose.timeCode, pose.stamp, pose.packet};
+}
+
 /// One sample of one character, or the place of one that did not come whole.
 struct MotionFrame {
     std::size_t character = 0; ///< its place in the source
