@@ -2,19 +2,16 @@
 #include "core/export/reports.h"
 
 #include "core/export/html.h"
-#include "core/export/json_value.h"
 #include "core/model/session/accounts.h"
 #include "core/model/session/memory_figures.h"
 #include "core/model/session/messages.h"
 #include "core/model/session/roster.h"
-#include "core/model/session/verdict.h"
 #include "core/wire/type_table.h"
 #include "core/words/say.h"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <utility>
 
 namespace posewire::exporting {
 namespace {
@@ -72,11 +69,8 @@ JsonValue streamJson(const model::StreamFigures& figures) {
 }
 
 JsonValue streamsJson(const model::SessionView& session, const model::CharacterKey& key) {
-    JsonValue::List list;
-    for (const model::Stream* stream : streamsByType(session, key)) {
-        list.push_back(streamJson(model::figuresOf(*stream)));
-    }
-    return list;
+    return listOf(streamsByType(session, key),
+                  [](const model::Stream* stream) { return streamJson(model::figuresOf(*stream)); });
 }
 
 /// The name that was sent; empty where there was none.
@@ -127,36 +121,6 @@ JsonValue memoryJson(const model::MemoryFigures& memory) {
     return json;
 }
 
-} // namespace
-
-std::vector<const model::Stream*> streamsByType(const model::SessionView& session,
-                                                const model::CharacterKey& key) {
-    const model::Character* character = session.roster().find(key);
-    std::vector<const model::Stream*> streams;
-    if (character != nullptr) {
-        streams = character->streams;
-    }
-    std::ranges::sort(streams, {}, [](const model::Stream* stream) { return stream->key.type; });
-    return streams;
-}
-
-std::string figureText(const model::StreamFigures& figures, model::Figure figure, int decimals) {
-    switch (model::rowOf(figure).style.form) {
-    case model::FigureForm::Count:
-        return grouped(figures.count(figure));
-    case model::FigureForm::Counter:
-        return std::to_string(figures.count(figure));
-    case model::FigureForm::Share:
-        return fixed(100 * figures.orZero(figure), decimals);
-    default:
-        return fixed(figures.orZero(figure), decimals);
-    }
-}
-
-bool hasSentMxtp(const model::Sender& sender) {
-    return sender.datagrams > sender.foreign || sender.skippedBytes != 0;
-}
-
 JsonValue verdictJson(const model::SessionView& session, const model::TakeVerdict& verdict) {
     const bool isNone = verdict.state == model::TakeVerdict::State::None;
     return {{"state", model::nameOf(verdict.state)},
@@ -197,12 +161,34 @@ JsonValue incidentJson(const model::SessionView& session, const model::ListedInc
     return object;
 }
 
-JsonValue incidentsJson(const model::SessionView& session) {
-    JsonValue::List list;
-    for (const model::ListedIncident& listed : model::listedIncidents(session)) {
-        list.push_back(incidentJson(session, listed));
+} // namespace
+
+std::vector<const model::Stream*> streamsByType(const model::SessionView& session,
+                                                const model::CharacterKey& key) {
+    const model::Character* character = session.roster().find(key);
+    std::vector<const model::Stream*> streams;
+    if (character != nullptr) {
+        streams = character->streams;
     }
-    return list;
+    std::ranges::sort(streams, {}, [](const model::Stream* stream) { return stream->key.type; });
+    return streams;
+}
+
+std::string figureText(const model::StreamFigures& figures, model::Figure figure, int decimals) {
+    switch (model::rowOf(figure).style.form) {
+    case model::FigureForm::Count:
+        return grouped(figures.count(figure));
+    case model::FigureForm::Counter:
+        return std::to_string(figures.count(figure));
+    case model::FigureForm::Share:
+        return fixed(100 * figures.orZero(figure), decimals);
+    default:
+        return fixed(figures.orZero(figure), decimals);
+    }
+}
+
+bool hasSentMxtp(const model::Sender& sender) {
+    return sender.datagrams > sender.foreign || sender.skippedBytes != 0;
 }
 
 std::optional<std::string> VerdictLines::lineAt(const model::SessionView& session, log::Stamp now) {
@@ -244,12 +230,11 @@ std::string VerdictLines::line(const model::SessionView& session, log::Stamp now
                                const model::TakeVerdict& verdict, const Changes& changes) {
     await(verdict, now);
     m_newest = now;
-    JsonValue::List characters;
     const std::vector<const model::Character*> listed = session.atNow().roster().listed();
     const model::TakeVerdicts verdicts = model::verdictsOf(session, model::recentSpan(session), listed);
-    for (const model::Character* character : listed) {
-        characters.push_back(characterJson(session, character->key, verdicts.characters.at(character->key)));
-    }
+    JsonValue characters = listOf(listed, [&](const model::Character* character) {
+        return characterJson(session, character->key, verdicts.characters.at(character->key));
+    });
     JsonValue object{{"timeNs", timeJson(session, now)},
                      {"verdict", verdictJson(session, verdict)},
                      {"characters", std::move(characters)},
@@ -324,7 +309,8 @@ std::string monitorReport(const model::SessionView& session, const MonitorFacts&
                                            {"lost", retired.lost}}},
                      {"exceeded", JsonValue::List(facts.exceeded.begin(), facts.exceeded.end())},
                      {"verdict", verdictJson(session, verdicts.all)},
-                     {"incidents", incidentsJson(session)}};
+                     {"incidents", listOf(model::listedIncidents(session),
+                                          [&](const auto& one) { return incidentJson(session, one); })}};
     if (facts.hasMemory) {
         report["memory"] = memoryJson(session.memory());
     }

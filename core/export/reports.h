@@ -48,11 +48,6 @@ struct StreamReportOptions {
 /// False if all that came from a sender was something else.
 [[nodiscard]] bool hasSentMxtp(const model::Sender& sender);
 
-[[nodiscard]] JsonValue verdictJson(const model::SessionView& session, const model::TakeVerdict& verdict);
-[[nodiscard]] JsonValue incidentJson(const model::SessionView& session, const model::ListedIncident& listed);
-/// All there are.
-[[nodiscard]] JsonValue incidentsJson(const model::SessionView& session);
-
 /// One JSON object a line: at intervals, and at once when the verdict changes. Each says what the verdict is,
 /// how each character does, the incidents that are new or have changed since the line before, and the numbers
 /// of those that came to nothing.

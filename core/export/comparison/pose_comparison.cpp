@@ -16,6 +16,13 @@ namespace {
 
 constexpr std::size_t kSlots = model::kMaxSegmentCount;
 
+/// A sample of the first recording with its partner.
+struct ComparedPair {
+    const model::CharacterPose* first = nullptr;
+    const model::CharacterPose* second = nullptr;      ///< null where it has none
+    const model::PoseDifference* difference = nullptr; ///< null without a partner, or a segment in common
+};
+
 /// Values of one kind, with when the largest was.
 struct Sums {
     Spread spread;
@@ -232,27 +239,9 @@ std::vector<std::string> csvRow(const ComparedPair& pair, std::span<const Segmen
     return cells;
 }
 
-} // namespace
-
-const SegmentFigures* MotionComparison::worst() const {
-    const auto most = std::ranges::max_element(
-        segments, {}, [](const SegmentFigures& one) { return one.millimetres.mean; });
-    return most == segments.end() ? nullptr : &*most;
-}
-
-tl::expected<MotionComparison, log::FileError> compareMotion(const ComparisonTask& task,
-                                                             const ExportProgress& progress) {
-    Comparing comparing(task);
-    const auto walked = walkPairs(
-        task, [&](const ComparedPair& pair) { comparing.add(pair); }, progress);
-    if (!walked) {
-        return tl::unexpected(walked.error());
-    }
-    MotionComparison result = comparing.conclude();
-    result.passedOver = *walked;
-    return result;
-}
-
+/// Hands out every sample of the first recording in the order of the counters. A pair is valid during the
+/// call. Returns how many packets of its range the log of the first had dropped before they were read. Fails
+/// as cancelled only.
 tl::expected<std::uint64_t, log::FileError> walkPairs(const ComparisonTask& task,
                                                       const std::function<void(const ComparedPair&)>& visit,
                                                       const ExportProgress& progress) {
@@ -274,6 +263,25 @@ tl::expected<std::uint64_t, log::FileError> walkPairs(const ComparisonTask& task
             visit(pair);
         },
         progress);
+}
+
+} // namespace
+
+const SegmentFigures* MotionComparison::worst() const {
+    const auto most = std::ranges::max_element(
+        segments, {}, [](const SegmentFigures& one) { return one.millimetres.mean; });
+    return most == segments.end() ? nullptr : &*most;
+}
+
+tl::expected<MotionComparison, log::FileError> compareMotion(const ComparisonTask& task,
+                                                             const ExportProgress& progress) {
+    Comparing comparing(task);
+    const auto add = [&](const ComparedPair& pair) { comparing.add(pair); };
+    return walkPairs(task, add, progress).map([&](std::uint64_t passedOver) {
+        MotionComparison result = comparing.conclude();
+        result.passedOver = passedOver;
+        return result;
+    });
 }
 
 void Spread::add(double value) {

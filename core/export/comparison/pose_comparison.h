@@ -44,20 +44,6 @@ struct ComparisonTask {
     model::DifferenceFrame frame = model::DifferenceFrame::World;
 };
 
-/// A sample of the first recording with its partner.
-struct ComparedPair {
-    const model::CharacterPose* first = nullptr;
-    const model::CharacterPose* second = nullptr;      ///< null where it has none
-    const model::PoseDifference* difference = nullptr; ///< null without a partner, or a segment in common
-};
-
-/// Hands out every sample of the first recording in the order of the counters. A pair is valid during the
-/// call. Returns how many packets of its range the log of the first had dropped before they were read. Fails
-/// as cancelled only.
-[[nodiscard]] tl::expected<std::uint64_t, log::FileError>
-walkPairs(const ComparisonTask& task, const std::function<void(const ComparedPair&)>& visit,
-          const ExportProgress& progress);
-
 /// Of one segment or of all, over a range: mm or degrees.
 struct DifferenceFigures {
     double mean = 0;
