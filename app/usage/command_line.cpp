@@ -249,9 +249,7 @@ DeclaredOption Arguments::choice(const std::string& name, std::string& value, co
         name,
         [&value, names = names, form = form](const std::string& typed) {
             value = typed;
-            Option option;
-            option.form = form;
-            const bool isOne = std::ranges::count(alternativesOf(option), typed) != 0;
+            const bool isOne = std::ranges::count(alternativesOf(form), typed) != 0;
             return isOne ? std::string() : names + ": '" + typed + "' is none of " + form;
         },
         text);

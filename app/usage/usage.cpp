@@ -12,6 +12,11 @@ bool isCapital(char c) {
     return c >= 'A' && c <= 'Z';
 }
 
+/// Tells placeholders, such as FILE, from alternatives that are typed as they are.
+bool isPlaceholder(std::string_view alternative) {
+    return alternative.size() > 1 && isCapital(alternative[0]) && isCapital(alternative[1]);
+}
+
 } // namespace
 
 std::string_view version() {
@@ -28,23 +33,18 @@ bool needsValue(const Option& option) {
     return !form.empty() && !isBracketed;
 }
 
-std::vector<std::string> alternativesOf(const Option& option) {
+std::vector<std::string> alternativesOf(std::string_view form) {
     std::vector<std::string> alternatives;
-    std::string_view left = option.form;
-    while (!left.empty()) {
-        const std::size_t end = std::min(left.find('|'), left.size());
-        alternatives.emplace_back(left.substr(0, end));
-        left.remove_prefix(std::min(end + 1, left.size()));
+    while (!form.empty()) {
+        const std::size_t end = std::min(form.find('|'), form.size());
+        alternatives.emplace_back(form.substr(0, end));
+        form.remove_prefix(std::min(end + 1, form.size()));
     }
     return alternatives;
 }
 
-bool isPlaceholder(std::string_view alternative) {
-    return alternative.size() > 1 && isCapital(alternative[0]) && isCapital(alternative[1]);
-}
-
 std::vector<std::string> choicesOf(const Option& option) {
-    std::vector<std::string> choices = alternativesOf(option);
+    std::vector<std::string> choices = alternativesOf(option.form);
     if (choices.size() < 2) {
         return {};
     }
@@ -53,7 +53,7 @@ std::vector<std::string> choicesOf(const Option& option) {
 }
 
 bool takesFile(const Option& option) {
-    return std::ranges::any_of(alternativesOf(option), [](const std::string& alternative) {
+    return std::ranges::any_of(alternativesOf(option.form), [](const std::string& alternative) {
         return alternative == "FILE" || alternative.starts_with("FILE.");
     });
 }
@@ -71,22 +71,16 @@ namespace {
 constexpr std::string_view kFiles =
     "compopt -o filenames 2>/dev/null; mapfile -t COMPREPLY < <(compgen -f -- \"$word\")";
 
-std::string words(const std::vector<std::string>& list) {
-    return "mapfile -t COMPREPLY < <(compgen -W '" + joined(list, " ") + "' -- \"$word\")";
+std::string words(const std::vector<std::string>& list, const std::string& place = "") {
+    return "mapfile -t " + place + "COMPREPLY < <(compgen -W '" + joined(list, " ") + "' -- \"$word\")";
 }
 
 /// What completes the value of an option: its choices, else files, else nothing.
 std::string valueAction(const Option& option) {
     const std::vector<std::string> choices = choicesOf(option);
     const std::string files = takesFile(option) ? std::string(kFiles) + "; " : "";
-    if (!choices.empty() && files.empty()) {
-        return words(choices) + "; ";
-    }
-    if (!choices.empty()) {
-        return files + "mapfile -t -O ${#COMPREPLY[@]} COMPREPLY < <(compgen -W '" + joined(choices, " ") +
-               "' -- \"$word\"); ";
-    }
-    return files;
+    const std::string place = files.empty() ? "" : "-O ${#COMPREPLY[@]} ";
+    return choices.empty() ? files : files + words(choices, place) + "; ";
 }
 
 /// Of the program itself (`command` empty) or of one command.
@@ -97,11 +91,9 @@ std::string valueCases(const std::string& command, const std::vector<Option>& op
             continue;
         }
         std::vector<std::string> patterns;
-        std::ranges::transform(option.names, std::back_inserter(patterns), [&](const std::string& name) {
-            std::string pattern = command;
-            pattern.append(":").append(name);
-            return pattern;
-        });
+        for (const std::string& name : option.names) {
+            patterns.push_back(command + ':' + name);
+        }
         text += "        " + joined(patterns, "|") + ") " + valueAction(option) + "return ;;\n";
     }
     return text;
@@ -115,13 +107,10 @@ std::string optionCase(const std::string& command, const std::vector<Option>& op
     return "            '" + command + "') " + words(names) + " ;;\n";
 }
 
-bool takesFileArgument(const std::vector<Option>& options) {
-    return std::ranges::any_of(options,
-                               [](const Option& option) { return isArgument(option) && takesFile(option); });
-}
-
 std::string argumentCase(const std::string& command, const std::vector<Option>& options) {
-    return takesFileArgument(options) ? "        '" + command + "') " + std::string(kFiles) + " ;;\n" : "";
+    const bool takesOne = std::ranges::any_of(
+        options, [](const Option& option) { return isArgument(option) && takesFile(option); });
+    return takesOne ? "        '" + command + "') " + std::string(kFiles) + " ;;\n" : "";
 }
 
 std::vector<std::string> namesOf(const std::vector<Command>& commands) {
@@ -223,7 +212,7 @@ std::string italic(std::string_view text) {
 std::string formText(const Option& option) {
     const bool hasChoices = !choicesOf(option).empty();
     std::vector<std::string> parts;
-    for (const std::string& alternative : alternativesOf(option)) {
+    for (const std::string& alternative : alternativesOf(option.form)) {
         parts.push_back(hasChoices && !isPlaceholder(alternative) ? bold(alternative) : italic(alternative));
     }
     return joined(parts, "|");

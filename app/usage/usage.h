@@ -42,10 +42,7 @@ struct Program {
 [[nodiscard]] bool needsValue(const Option& option);
 
 /// The alternatives of a form: those of "light|dark|FILE" are three.
-[[nodiscard]] std::vector<std::string> alternativesOf(const Option& option);
-
-/// Tells placeholders, such as FILE, from alternatives that are typed as they are.
-[[nodiscard]] bool isPlaceholder(std::string_view alternative);
+[[nodiscard]] std::vector<std::string> alternativesOf(std::string_view form);
 
 /// The texts that may be typed; none if anything may.
 [[nodiscard]] std::vector<std::string> choicesOf(const Option& option);
