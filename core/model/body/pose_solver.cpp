@@ -332,14 +332,6 @@ void addChain(const Points& points, std::vector<Vector3d>& hull) {
 
 } // namespace
 
-void PoseEvidence::clear() {
-    positions.fill({});
-    orientations.fill({});
-    for (std::vector<MarkerPair>& list : markers) {
-        list.clear();
-    }
-}
-
 SolvedBody solveBody(const PoseEvidence& evidence, const BodyOrigins& body) {
     return Solver(evidence, body).run();
 }

@@ -22,9 +22,6 @@ struct PoseEvidence {
     /// How far a marker may be from where its segment puts it; more where the performer's own points are not
     /// known.
     double markerTolerance = 0.015;
-
-    /// Forgets what it holds, not its memory.
-    void clear();
 };
 
 /// A whole body.
