@@ -55,6 +55,8 @@ private:
     BodyPose m_pose;
 };
 
+enum class StandAction : std::uint8_t { Idle, Wave, Squat };
+
 /// Stands on one spot with both feet planted: breathes, sways, shifts weight, looks around; waves or squats
 /// now and then, if that is its action.
 class StandMotion final : public Motion {
@@ -191,23 +193,15 @@ std::unique_ptr<Motion> makeMotion(std::string_view name, const MotionSettings& 
         return makeWalk(settings);
     }
     if (name == "idle") {
-        return makeStanding(settings, StandAction::Idle);
+        return std::make_unique<StandMotion>(settings, StandAction::Idle);
     }
     if (name == "wave") {
-        return makeStanding(settings, StandAction::Wave);
+        return std::make_unique<StandMotion>(settings, StandAction::Wave);
     }
     if (name == "squat") {
-        return makeStanding(settings, StandAction::Squat);
+        return std::make_unique<StandMotion>(settings, StandAction::Squat);
     }
-    return name == "tpose" ? makeTPose(settings) : nullptr;
-}
-
-std::unique_ptr<Motion> makeTPose(const MotionSettings& settings) {
-    return std::make_unique<TPoseMotion>(settings);
-}
-
-std::unique_ptr<Motion> makeStanding(const MotionSettings& settings, StandAction action) {
-    return std::make_unique<StandMotion>(settings, action);
+    return name == "tpose" ? std::make_unique<TPoseMotion>(settings) : nullptr;
 }
 
 } // namespace posewire::performer

@@ -33,11 +33,7 @@ struct MotionSettings {
     int characterCount = 1; ///< all that share the floor
 };
 
-enum class StandAction : std::uint8_t { Idle, Wave, Squat };
-
 std::unique_ptr<Motion> makeWalk(const MotionSettings& settings);
-std::unique_ptr<Motion> makeStanding(const MotionSettings& settings, StandAction action);
-std::unique_ptr<Motion> makeTPose(const MotionSettings& settings);
 
 /// "walk", "idle", "wave", "squat", "tpose".
 std::span<const std::string_view> motionNames();
