@@ -59,19 +59,15 @@ public:
     SendRound(std::vector<SendLine>& lines, net::SendSchedule& schedule)
         : m_lines(lines), m_schedule(schedule) {}
 
-    /// All that is due before this time after the start. The error is why a connection ended.
-    net::NetResult<void> sendUntil(log::Duration until);
-    /// The rest.
-    net::NetResult<void> sendRest();
+    /// All that is due before this time after the start; without one the rest. The error is why a connection
+    /// ended.
+    net::NetResult<void> send(std::optional<log::Duration> until);
 
 private:
     struct Leaving {
         std::size_t line = 0;
         performer::Sending sending;
     };
-    template <typename Take>
-    void collect(const Take& take);
-    net::NetResult<void> sendCollected();
 
     std::vector<SendLine>& m_lines;
     net::SendSchedule& m_schedule;

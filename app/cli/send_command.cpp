@@ -112,13 +112,13 @@ ExitStatus sendPerformance(const SendOptions& options, const performer::Performe
             performers[line].frameInto(index, frame);
             offer(frame, due(index), lines[line].faults());
         }
-        sent = round.sendUntil(due(index + 1));
+        sent = round.send(due(index + 1));
         for (SendLine& line : lines) {
             line.tellRefusals(console);
         }
     }
     if (sent && !isInterrupted(options)) {
-        sent = round.sendRest();
+        sent = round.send(std::nullopt);
     }
     if (!sent) {
         return console.unusable(sent.error().text);

@@ -141,12 +141,11 @@ void SendLine::tellRefusals(const Console& console) {
     }
 }
 
-template <typename Take>
-void SendRound::collect(const Take& take) {
+net::NetResult<void> SendRound::send(std::optional<log::Duration> until) {
     m_leaving.clear();
     for (std::size_t line = 0; line < m_lines.size(); ++line) {
         m_taken.clear();
-        take(m_lines[line].faults());
+        m_lines[line].faults().take(until, m_taken);
         for (performer::Sending& sending : m_taken) {
             m_leaving.push_back({line, std::move(sending)});
         }
@@ -154,9 +153,6 @@ void SendRound::collect(const Take& take) {
     if (m_lines.size() > 1) {
         std::ranges::stable_sort(m_leaving, {}, [](const Leaving& leaving) { return leaving.sending.due; });
     }
-}
-
-net::NetResult<void> SendRound::sendCollected() {
     for (Leaving& leaving : m_leaving) {
         // A busy computer sends later than planned; lateness counts from when it was sent.
         leaving.sending.due += m_schedule.waitUntil(leaving.sending.due);
@@ -165,16 +161,6 @@ net::NetResult<void> SendRound::sendCollected() {
         }
     }
     return {};
-}
-
-net::NetResult<void> SendRound::sendUntil(log::Duration until) {
-    collect([&](performer::Faults& faults) { faults.takeUntil(until, m_taken); });
-    return sendCollected();
-}
-
-net::NetResult<void> SendRound::sendRest() {
-    collect([&](performer::Faults& faults) { faults.takeRest(m_taken); });
-    return sendCollected();
 }
 
 tl::expected<void, std::string> writeTruth(const SendOptions& options, const std::vector<SendLine>& lines) {
@@ -226,11 +212,11 @@ public:
         if (m_datagrams++ == 0) {
             m_schedule.startNow(); // opening and reading is no part of it
         }
-        note(m_round.sendUntil(*due));
+        note(m_round.send(*due));
         for (SendLine& line : m_lines) {
             line.faults().offer({record.bytes.begin(), record.bytes.end()}, *due);
         }
-        note(m_round.sendUntil(*due + log::Duration(1)));
+        note(m_round.send(*due + log::Duration(1)));
         for (SendLine& line : m_lines) {
             line.tellRefusals(m_console);
         }
@@ -239,7 +225,7 @@ public:
     /// The recording will not be repeated.
     void finish() {
         if (m_failure.empty()) {
-            note(m_round.sendRest());
+            note(m_round.send(std::nullopt));
         }
     }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "core/performer/content_break.h"
+#include "core/performer/faults.h"
 
-#include "core/wire/codec.h"
 #include "core/wire/pose_items.h"
 #include "core/wire/type_table.h"
 

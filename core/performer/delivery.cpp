@@ -147,6 +147,13 @@ Delivery::Judgement Delivery::judgeNative(Sending& sending, Front& front, std::u
 }
 
 void Delivery::take(std::optional<log::Duration> until, std::vector<Sending>& into) {
+    if (!until) {
+        for (Counted& counted : m_counted) {
+            counted.sending.due = std::max(counted.sending.due, m_latest);
+            push(std::move(counted.sending));
+        }
+        m_counted.clear();
+    }
     while (!m_heap.empty() && (!until || m_heap.front().sending.due < *until)) {
         std::ranges::pop_heap(m_heap, kIsLater);
         Entry entry = std::move(m_heap.back());
@@ -164,15 +171,6 @@ void Delivery::take(std::optional<log::Duration> until, std::vector<Sending>& in
             break;
         }
     }
-}
-
-void Delivery::takeRest(std::vector<Sending>& into) {
-    for (Counted& counted : m_counted) {
-        counted.sending.due = std::max(counted.sending.due, m_latest);
-        push(std::move(counted.sending));
-    }
-    m_counted.clear();
-    take(std::nullopt, into);
 }
 
 } // namespace posewire::performer

@@ -42,11 +42,9 @@ public:
     /// with.
     void keepStragglers(bool keeps) { m_keepsStragglers = keeps; }
 
-    /// All that are due before this time (without one, all there are), in order, appended. Nothing due
-    /// earlier may be pushed afterwards.
+    /// All that are due before this time (without one, all there are: the streams have ended), in order,
+    /// appended. Nothing due earlier may be pushed afterwards.
     void take(std::optional<log::Duration> until, std::vector<Sending>& into);
-    /// The rest: the streams have ended.
-    void takeRest(std::vector<Sending>& into);
 
     [[nodiscard]] std::uint64_t givenUp() const { return m_givenUp; }
 

@@ -2,7 +2,6 @@
 #include "core/performer/faults.h"
 
 #include "core/wire/byte_order.h"
-#include "core/wire/codec.h"
 #include "core/wire/type_table.h"
 
 #include <algorithm>
@@ -305,27 +304,15 @@ void Faults::sendCopy(const Sending& sending, std::uint64_t key) {
     m_delivery.push(std::move(copy));
 }
 
-void Faults::breakFrom(std::size_t begin, std::vector<Sending>& sendings) {
-    if (m_content) {
-        std::ranges::for_each(std::span(sendings).subspan(begin),
-                              [this](Sending& one) { m_content->apply(one); });
-    }
-}
-
-void Faults::takeUntil(log::Duration until, std::vector<Sending>& into) {
+void Faults::take(std::optional<log::Duration> until, std::vector<Sending>& into) {
     const std::size_t before = into.size();
     std::ranges::move(m_ready, std::back_inserter(into));
     m_ready.clear();
     m_delivery.take(until, into);
-    breakFrom(before, into);
-}
-
-void Faults::takeRest(std::vector<Sending>& into) {
-    const std::size_t before = into.size();
-    std::ranges::move(m_ready, std::back_inserter(into));
-    m_ready.clear();
-    m_delivery.takeRest(into);
-    breakFrom(before, into);
+    if (m_content) {
+        std::ranges::for_each(std::span(into).subspan(before),
+                              [this](Sending& one) { m_content->apply(one); });
+    }
 }
 
 FaultTally Faults::tally() const {

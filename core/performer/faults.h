@@ -2,14 +2,17 @@
 #pragma once
 
 #include "core/log/time.h"
-#include "core/performer/content_break.h"
 #include "core/performer/delivery.h"
 #include "core/performer/noise.h"
 #include "core/performer/sending.h"
+#include "core/wire/codec.h"
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace posewire::performer {
@@ -20,6 +23,31 @@ struct GilbertElliott {
     double toGood = 1.0;       ///< r: chance to come back
     double passesInGood = 1.0; ///< k: chance of a datagram to pass in the good state
     double passesInBad = 0.0;  ///< h: and in the bad one
+};
+
+struct ContentBreakSettings {
+    std::string kind; ///< one of contentBreaks()
+    double fromSeconds = 0.0;
+};
+/// Named as what the report says of them; "floor" is a convention there, "header" makes a datagram malformed.
+[[nodiscard]] std::vector<std::string_view> contentBreaks();
+
+/// A sender that fills its datagrams wrongly in one way: the headers of all that count samples, or the poses.
+class ContentBreak {
+public:
+    /// The kind must be one of contentBreaks().
+    explicit ContentBreak(ContentBreakSettings settings) : m_settings(std::move(settings)) {}
+
+    /// Breaks what leaves at its time. What the network damaged stays as it is.
+    void apply(Sending& sending);
+
+private:
+    struct Stream {
+        log::Duration since{};  ///< of its first broken datagram
+        wire::Datagram first{}; ///< that one, before it was
+    };
+    ContentBreakSettings m_settings;
+    std::map<std::pair<std::uint8_t, std::uint8_t>, Stream> m_streams; ///< by character and type
 };
 
 /// What goes wrong between a sender and the network. Probabilities are per datagram; times are seconds after
@@ -90,9 +118,8 @@ public:
     void offer(std::vector<std::byte> datagram, log::Duration due);
 
     /// All that leave before this time, in order, appended; later offers are due at that time or after it.
-    void takeUntil(log::Duration until, std::vector<Sending>& into);
-    /// The rest, after the last offer.
-    void takeRest(std::vector<Sending>& into);
+    /// Without a time the rest, after the last offer.
+    void take(std::optional<log::Duration> until, std::vector<Sending>& into);
 
     [[nodiscard]] FaultTally tally() const;
 
@@ -100,7 +127,6 @@ private:
     [[nodiscard]] bool isPaused(log::Duration due) const;
     [[nodiscard]] bool isReduced(std::uint32_t sample, log::Duration due);
     void restartAt(log::Duration due, Sending& sending);
-    void breakFrom(std::size_t begin, std::vector<Sending>& sendings);
     void send(Sending sending);
     void damage(Sending& sending, std::uint64_t key);
     bool loses(std::uint64_t key);

@@ -28,9 +28,9 @@ inline std::vector<Sending> performWithFaults(const PerformerSettings& performan
                 faults.offer(bytes, due);
             }
         }
-        faults.takeUntil(due, sendings);
+        faults.take(due, sendings);
     }
-    faults.takeRest(sendings);
+    faults.take(std::nullopt, sendings);
     if (tally != nullptr) {
         *tally = faults.tally();
     }
