@@ -292,14 +292,9 @@ tl::expected<std::unique_ptr<ByteSink>, FileError> createWholeFile(const std::st
 
 tl::expected<void, FileError> writeWholeFile(const std::string& path, std::span<const std::byte> bytes,
                                              const OutputRules& rules) {
-    auto sink = createWholeFile(path, rules);
-    if (!sink) {
-        return tl::unexpected(sink.error());
-    }
-    if (auto written = (*sink)->write(bytes); !written) {
-        return written;
-    }
-    return (*sink)->finish();
+    return createWholeFile(path, rules).and_then([&](const std::unique_ptr<ByteSink>& sink) {
+        return sink->write(bytes).and_then([&] { return sink->finish(); });
+    });
 }
 
 tl::expected<void, FileError> copyFile(const std::string& from, const std::string& to,

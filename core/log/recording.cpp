@@ -32,8 +32,7 @@ Recorder::Recorder(const PacketLog& log, ByteSink& sink, LogFollower follower)
       m_writer(sink) {}
 
 Recorder::Result Recorder::begin(const RecordingInfo& info) {
-    const auto begun = m_writer.begin(info);
-    return begun ? m_sink.flush() : begun;
+    return m_writer.begin(info).and_then([this] { return m_sink.flush(); });
 }
 
 Recorder::Result Recorder::follow() {
@@ -43,16 +42,13 @@ Recorder::Result Recorder::follow() {
 }
 
 Recorder::Result Recorder::note(std::span<const std::string> notes) {
-    const auto noted = m_writer.addStatistics(notes);
-    return noted ? m_sink.flush() : noted;
+    return m_writer.addStatistics(notes).and_then([this] { return m_sink.flush(); });
 }
 
 Recorder::Result Recorder::finish(std::span<const std::string> notes) {
-    if (auto written = writeNew(); !written) {
-        return written;
-    }
-    const auto ended = m_writer.addStatistics(notes);
-    return ended ? m_sink.finish() : ended;
+    return writeNew().and_then([&] { return m_writer.addStatistics(notes); }).and_then([this] {
+        return m_sink.finish();
+    });
 }
 
 Recorder::Result Recorder::sync() {

@@ -223,10 +223,8 @@ tl::expected<void, log::FileError> readMotion(const feed::PoseSource& source, fe
     for (std::size_t i = 0; i < survey.characters.size(); ++i) {
         framings.emplace_back(i, survey.characters[i], survey.first, visit);
     }
-    const auto walked = walkMotion(
-        source, content, [&](const feed::PoseSample& sample) { framings[sample.character].add(sample); },
-        progress);
-    return walked ? tl::expected<void, log::FileError>() : tl::unexpected(walked.error());
+    const auto take = [&](const feed::PoseSample& sample) { framings[sample.character].add(sample); };
+    return walkMotion(source, content, take, progress).map([](std::uint64_t /*missed*/) {});
 }
 
 } // namespace posewire::exporting
