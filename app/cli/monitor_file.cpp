@@ -64,8 +64,8 @@ public:
         m_run.show({.durationS = durationS()}, m_last.value_or(log::Stamp()));
     }
 
-    void takeReception(const log::Reception& reception) {
-        if (!m_isDone) {
+    void takeNotes(std::span<const std::string_view> notes) {
+        if (const auto reception = log::receptionIn(notes); reception && !m_isDone) {
             m_reception = reception;
         }
     }
@@ -171,11 +171,7 @@ ExitStatus monitorFile(const MonitorOptions& options, Console& console) {
     Replay replay(options, run, recorder);
     reading = &replay;
     log::FileContents contents;
-    const auto takeNotes = [&replay](std::span<const std::string_view> notes) {
-        if (const auto reception = log::receptionIn(notes)) {
-            replay.takeReception(*reception);
-        }
-    };
+    const auto takeNotes = [&replay](std::span<const std::string_view> notes) { replay.takeNotes(notes); };
     WatchedInput input(**file, contents, console.complain);
     const auto read = log::readFile(input, std::ref(replay), takeNotes, &contents);
     replay.end();
