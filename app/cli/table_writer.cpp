@@ -5,7 +5,6 @@
 #include "app/system/interruption.h"
 #include "app/system/standard_streams.h"
 #include "core/export/html.h"
-#include "core/export/reports.h"
 #include "core/log/system_files.h"
 #include "core/model/session/accounts.h"
 #include "core/model/session/losses.h"

@@ -2,7 +2,6 @@
 #include "core/export/sheets.h"
 
 #include "core/export/json_value.h"
-#include "core/model/body/null_pose.h"
 #include "core/model/body/spaces.h"
 #include "core/model/session/listed_incidents.h"
 #include "core/model/session/roster.h"

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <vector>
 
 namespace posewire::log {
 namespace {
