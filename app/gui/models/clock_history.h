@@ -2,7 +2,9 @@
 #pragma once
 
 #include "app/gui/models/column.h"
+#include "core/log/stream_index.h"
 #include "core/log/time.h"
+#include "core/model/message.h"
 #include "core/model/session/session_view.h"
 
 #include <cstdint>

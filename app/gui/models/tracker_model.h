@@ -3,6 +3,7 @@
 
 #include "app/gui/models/column.h"
 #include "core/log/time.h"
+#include "core/model/message.h"
 #include "core/model/session/session_view.h"
 
 #include <cstdint>

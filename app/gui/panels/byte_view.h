@@ -4,6 +4,7 @@
 #include "app/gui/models/field_document.h"
 
 #include <QAbstractScrollArea>
+#include <QMouseEvent>
 
 #include <memory>
 

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/gui/panels/fitting_header.h"
+
 #include <QAbstractItemView>
 #include <QPushButton>
+#include <QScrollBar>
 
 namespace posewire::gui {
-
-class FittingHeader;
 
 /// Of equal width, and a little smaller than the window's.
 [[nodiscard]] QFont packetFont();

@@ -4,6 +4,7 @@
 #include "app/gui/theme/character_mark.h"
 #include "app/gui/theme/theme.h"
 #include "core/model/body/character_pose.h"
+#include "core/model/message.h"
 #include "core/model/session/session_view.h"
 
 #include <QString>
