@@ -46,11 +46,11 @@ words::Fact contradictionOf(const NullPoseRecord& record) {
     return error ? words::Fact{words::Kind::Contradiction, {{"what", *std::move(error)}}} : words::Fact();
 }
 
-/// How far the clock of a sender is ahead of this computer's, if it sends the time of day: type 25, or time
-/// codes near it. MVN counts those of a playback from 0.
+/// How far the clock of a sender is ahead of this computer's, if it sends the time of day: type 25 or time
+/// codes that are near it. A playback has those of its recording, or counts from 0.
 std::optional<std::int32_t> clockAhead(const Sender& sender) {
     constexpr std::int32_t kDay = 86'400'000; // ms
-    constexpr std::int32_t kNear = 600'000;
+    constexpr std::int32_t kNear = 300'000;
     std::optional<std::int32_t> found;
     for (const Character* character : sender.characters) {
         for (const Stream* stream : character->streams) {
@@ -60,10 +60,11 @@ std::optional<std::int32_t> clockAhead(const Sender& sender) {
             const auto here = log::millisecondsOf(stream->accounting.lastStamp().time_since_epoch());
             const auto ahead = static_cast<std::int32_t>(
                 std::remainder(static_cast<double>(sent) - std::fmod(here, kDay), kDay));
-            if (timeCode != nullptr) {
+            const bool isTime = std::abs(ahead) < kNear && (timeCode != nullptr || sent > kNear);
+            if (isTime && timeCode != nullptr) {
                 return ahead;
             }
-            found = sent > kNear && std::abs(ahead) < kNear ? ahead : found;
+            found = isTime ? ahead : found;
         }
     }
     return found;

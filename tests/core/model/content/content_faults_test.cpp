@@ -257,6 +257,7 @@ TEST_F(ContentTest, ATimeCodeThatDriftsAgainstItsHeaderIsOfTheClock) {
 
 TEST_F(ContentTest, ClocksOfTwoHostsThatAreApartAreToldOnceWithTheDifference) {
     m_settings.types = {2, 25};
+    m_settings.startTimeOfDayMs = 100'000; // as the stamps are
     const auto sendBoth = [&](double seconds, int apartMs) {
         performer::Performer performer(m_settings);
         for (const std::uint64_t end = m_frame + static_cast<std::uint64_t>(60 * seconds); m_frame < end;
