@@ -21,17 +21,18 @@ public:
     /// Samples have one datagram each, which is not marked as the last.
     [[nodiscard]] bool isUnmarked() const { return m_isUnmarked; }
     /// The newest samples all lack the same datagram of several.
-    [[nodiscard]] bool isShort() const { return m_alike >= kEnough && m_isOfSeveral; }
+    [[nodiscard]] bool isShort() const { return m_alike >= kShort && m_isOfSeveral; }
     /// So does this one.
     [[nodiscard]] bool isShort(std::uint32_t sample) const {
         return m_short && distance(sample, m_short->first) >= 0 && distance(m_short->second, sample) >= 0;
     }
 
 private:
-    /// Samples in a row: that many are no chance.
+    // Samples in a row that are no chance: for a mark that was there before, for one that never was, and for
+    // a datagram that a bad network loses often.
     static constexpr std::uint32_t kEnough = 8;
-    /// If none was ever framed as it should be.
     static constexpr std::uint32_t kFirst = 4;
+    static constexpr std::uint32_t kShort = 12;
 
     struct Sample {
         std::uint32_t counter = 0;
