@@ -503,7 +503,7 @@ TEST_F(VerdictTest, OneThatIsSentTwiceIsWorseOffThanOneThatLosesSome) {
         }
     }
     EXPECT_EQ(verdict().state, State::Bad);
-    EXPECT_EQ(reason().kind, Kind::TwoSenders) << verdict().said;
+    EXPECT_EQ(reason().kind, Kind::SentTwice) << verdict().said;
     EXPECT_EQ(reason().who, (Names{"Character 0", "Character 1"}));
 }
 
