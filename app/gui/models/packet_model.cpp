@@ -157,6 +157,8 @@ std::vector<PacketColumn> PacketModel::columns(const PacketModel& model) {
     return columns;
 }
 
+PacketModel::PacketModel(model::SessionView& view) : ColumnModel(columns(*this)), m_view(view) {}
+
 void PacketModel::refresh() {
     m_facts.reset();
     removeDropped();

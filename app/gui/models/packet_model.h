@@ -24,7 +24,7 @@ public:
     enum class TimeMode { SinceFirst, TimeOfDay };
     enum class DeltaMode { Stream, RowAbove };
 
-    explicit PacketModel(model::SessionView& view) : ColumnModel(columns(*this)), m_view(view) {}
+    explicit PacketModel(model::SessionView& view);
 
     /// Shows what the session has followed meanwhile: at most one removal (packets that the log dropped), one
     /// insertion and one change.
