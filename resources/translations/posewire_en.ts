@@ -503,5 +503,12 @@
             <numerusform>{n} finger segments</numerusform>
         </translation>
     </message>
+    <message numerus="yes">
+        <source>{who} are sent twice, by {address} and also {others}</source>
+        <translation>
+            <numerusform>{who} is sent twice, by {address} and also {others}</numerusform>
+            <numerusform>{who} are sent twice, by {address} and also {others}</numerusform>
+        </translation>
+    </message>
 </context>
 </TS>
