@@ -3,7 +3,7 @@
 
 namespace posewire::model {
 
-bool Framing::add(std::uint32_t sample, std::uint8_t index, bool isLast, std::uint32_t step) {
+bool Framing::addUnusual(std::uint32_t sample, std::uint8_t index, bool isLast, std::uint32_t step) {
     constexpr std::int32_t kLate = 100; // farther back, the counter has restarted
     const std::int32_t ahead = distance(sample, m_newest.counter);
     if (ahead < 0 && ahead > -kLate) {

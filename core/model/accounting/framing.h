@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/model/accounting/sample_window.h"
+#include "core/model/accounting/sample_sequence.h"
 
 #include <bitset>
 #include <cstdint>
@@ -14,9 +14,16 @@ namespace posewire::model {
 /// Senders exist that never mark it, and senders that never send one of several.
 class Framing {
 public:
-    /// A datagram of a sample; `step`: of the counter, 0 if it is not known. Returns true if this one shows
-    /// that a datagram is a whole sample, although it is not marked as the last.
-    bool add(std::uint32_t sample, std::uint8_t index, bool isLast, std::uint32_t step);
+    /// A datagram of a sample of a sequence. Returns true if this one shows that a datagram is a whole
+    /// sample, although it is not marked as the last.
+    bool add(std::uint32_t sample, std::uint8_t index, bool isLast, const SampleSequence& sequence) {
+        if (isLast && index == 0 && m_newest.last == 0) { // as always
+            m_newest.counter = sample;
+            m_alike = 0;
+            return false;
+        }
+        return addUnusual(sample, index, isLast, sequence.step());
+    }
 
     /// Samples have one datagram each, which is not marked as the last.
     [[nodiscard]] bool isUnmarked() const { return m_isUnmarked; }
@@ -39,6 +46,7 @@ private:
         int last = -1;            ///< index of the datagram that is marked; -1: none is yet
         std::bitset<128> arrived; ///< by index
     };
+    bool addUnusual(std::uint32_t sample, std::uint8_t index, bool isLast, std::uint32_t step);
     void close(std::uint32_t step);
 
     Sample m_newest;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <cstring>
 #include <utility>
 
 namespace posewire::model {
@@ -91,11 +92,12 @@ std::span<const Verdict> StreamAccounting::add(const log::Packet& packet, const 
     CountHistory::Counters change{.bytes = packet.bytes.size(), .datagrams = 1};
     if (m_countsSamples) {
         m_history.add(packet.stamp, change);
-        takeCounter({{packet.stamp, header.sampleCounter, header.datagramIndex(), header.isLast()},
-                     packet.number,
-                     header.timeCode,
-                     false},
-                    packet.bytes.first(std::min(packet.bytes.size(), kTelling)));
+        Probation::Waiting datagram{
+            {packet.stamp, header.sampleCounter, header.datagramIndex(), header.isLast()},
+            packet.number,
+            header.timeCode,
+            false};
+        takeCounter(datagram, packet.bytes.first(std::min(packet.bytes.size(), kTelling)));
         return m_verdicts;
     }
     const std::uint64_t incomplete = m_rounds.incomplete();
@@ -119,12 +121,16 @@ std::span<const Verdict> StreamAccounting::add(const log::Packet& packet, const 
 
 /// Senders exist whose counter stands. One datagram that repeats the counter of the one before with other
 /// bytes may be a damaged copy and waits; the second in a row shows that both are samples of their own.
-void StreamAccounting::takeCounter(Probation::Waiting datagram, wire::Bytes bytes) {
+void StreamAccounting::takeCounter(Probation::Waiting& datagram, wire::Bytes bytes) {
     const SampleLedger::Datagram before = std::exchange(m_newest, datagram.datagram);
     const bool isStanding =
         m_datagrams > 1 && before.sample == m_newest.sample && before.index == 0 && m_newest.index == 0;
     const bool isRepeat = isStanding && !std::equal(bytes.begin(), bytes.end(), m_newestBytes.begin());
-    std::copy(bytes.begin(), bytes.end(), m_newestBytes.begin());
+    if (bytes.size() == kTelling) { // nearly all: of a known size it costs nothing
+        std::memcpy(m_newestBytes.data(), bytes.data(), kTelling);
+    } else {
+        std::ranges::copy(bytes, m_newestBytes.begin());
+    }
     datagram.datagram.sample += m_added;
     if (isRepeat && !m_repeat && !m_isUncounted) {
         m_repeat = datagram;
@@ -134,8 +140,9 @@ void StreamAccounting::takeCounter(Probation::Waiting datagram, wire::Bytes byte
     std::uint32_t added = 0;
     if (m_repeat) {
         added = step;
-        m_repeat->datagram.sample += added;
-        takeSample(*std::exchange(m_repeat, std::nullopt));
+        Probation::Waiting repeat = *std::exchange(m_repeat, std::nullopt);
+        repeat.datagram.sample += added;
+        takeSample(repeat);
     }
     m_isUncounted = isRepeat || (isStanding && m_isUncounted);
     added += step;
@@ -163,9 +170,9 @@ std::size_t StreamAccounting::memoryBytes() const {
            m_rounds.memoryBytes() + m_verdicts.capacity() * sizeof(Verdict);
 }
 
-void StreamAccounting::takeSample(Probation::Waiting datagram) {
+void StreamAccounting::takeSample(Probation::Waiting& datagram) {
     SampleLedger::Datagram& part = datagram.datagram;
-    if (m_framing.add(part.sample, part.index, part.isLast, step())) {
+    if (m_framing.add(part.sample, part.index, part.isLast, m_ledger.present())) {
         m_ledger.completeAll(&m_history, [&](std::uint32_t sample) {
             m_verdicts.push_back(
                 {.packet = datagram.packet, .stamp = part.stamp, .sample = sample, .isCompleting = true});
@@ -185,7 +192,8 @@ void StreamAccounting::takeSample(Probation::Waiting datagram) {
 std::span<const Verdict> StreamAccounting::conclude() {
     m_verdicts.clear();
     if (m_repeat) {
-        takeSample(*std::exchange(m_repeat, std::nullopt));
+        Probation::Waiting repeat = *std::exchange(m_repeat, std::nullopt);
+        takeSample(repeat);
     }
     if (!m_probation.empty()) {
         endDoubt(true);

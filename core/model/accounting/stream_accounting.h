@@ -181,8 +181,8 @@ private:
     /// Bytes at the beginning of a datagram by which two samples differ: the header and the first item.
     static constexpr std::size_t kTelling = 64;
 
-    void takeCounter(Probation::Waiting datagram, wire::Bytes bytes);
-    void takeSample(Probation::Waiting datagram);
+    void takeCounter(Probation::Waiting& datagram, wire::Bytes bytes);
+    void takeSample(Probation::Waiting& datagram);
     void endDoubt(bool isEnd);
     void settle(const Probation::Waiting& datagram, Probation::Outcome outcome, bool isMoved);
 
