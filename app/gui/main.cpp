@@ -95,7 +95,7 @@ void openInputs(MainWindow& window, const Options& options, const Settings& sett
     if (options.demoCharacters > 0) {
         driver.demo().setCharacters(options.demoCharacters);
     }
-    // What is asked for; where nothing is, what was shown, if it is still there.
+    // A file that was asked for, else the one that was shown last, if it is still there.
     const QString file =
         isToRestore(options) && QFileInfo(settings.file).isFile() ? settings.file : options.file;
     if (!file.isEmpty()) {

@@ -43,8 +43,8 @@ enum class ThemeChoice { System, Dark, Light };
 /// A colour of text for a selected row: mixed with the text's own until it stands out as 4.5 : 1.
 [[nodiscard]] QColor onSelection(const QColor& colour);
 
-/// What a choice means on a desktop with that palette. One whose texts are black on white, or white on black,
-/// wants high contrast, and gets it where its theme is followed.
+/// The theme of a choice on a desktop with that palette. A desktop with black texts on white, or white on
+/// black, wants high contrast, and gets it if its theme is followed.
 [[nodiscard]] Theme themeFor(ThemeChoice choice, const QPalette& desktop);
 void applyTheme(QApplication& application, ThemeChoice choice);
 

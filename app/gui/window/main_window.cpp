@@ -94,7 +94,7 @@ void press(QAbstractButton& button) {
 /// Raised when docks or tool bars change so that an old state would not fit.
 constexpr int kStateVersion = 2;
 constexpr QSize kDefaultSize(1600, 1000);
-/// What a desktop puts around a window, about; it does not tell before the window is there.
+/// About the size of a desktop's frame around a window, which is not known before the window is there.
 constexpr QSize kFrame(16, 48);
 
 /// A tool bar that stays where it is and holds one widget.

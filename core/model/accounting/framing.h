@@ -10,7 +10,7 @@
 
 namespace posewire::model {
 
-/// Whether the samples of a stream are framed as the header says: datagrams 0 to n, the last of them marked.
+/// Watches that the samples of a stream are framed as the header says: datagrams 0 to n, the last one marked.
 /// Senders exist that never mark it, and senders that never send one of several.
 class Framing {
 public:
