@@ -87,6 +87,9 @@ private:
 /// figures always reflect what is known at the time, and are right in hindsight.
 class StreamAccounting {
 public:
+    /// Bytes at the beginning of a datagram by which two samples differ: the header and the first item.
+    static constexpr std::size_t kTelling = 64;
+
     explicit StreamAccounting(std::uint8_t type = 2) : m_countsSamples(countsSamples(type)) {}
 
     /// Adds a well-formed datagram of the stream. Returns the verdicts that this made possible, in the order
@@ -178,8 +181,6 @@ public:
 
 private:
     static constexpr std::uint64_t kUncertain = 128; ///< datagrams of a run
-    /// Bytes at the beginning of a datagram by which two samples differ: the header and the first item.
-    static constexpr std::size_t kTelling = 64;
 
     void takeCounter(Probation::Waiting& datagram, wire::Bytes bytes);
     void takeSample(Probation::Waiting& datagram);

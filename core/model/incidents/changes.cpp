@@ -209,7 +209,7 @@ bool Claims::meet(log::SenderId sender, const std::string& address) {
 
 void Claims::take(const log::Packet& packet, const wire::Header& header, std::string_view name,
                   Incidents& incidents) {
-    constexpr std::size_t kTelling = 64; // bytes: counters, time code and the first item
+    constexpr std::size_t kTelling = StreamAccounting::kTelling;
     const Claim claim{
         packet.sender,
         m_sources[packet.sender].host,

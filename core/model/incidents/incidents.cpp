@@ -37,6 +37,11 @@ void extend(Incident& incident, log::Stamp from, log::Stamp to, std::uint64_t fr
     incident.lastPacket = std::max(incident.lastPacket, toPacket);
 }
 
+/// True if two spans are as close as those of one burst.
+bool isOneTime(log::Stamp from, log::Stamp to, log::Stamp otherFrom, log::Stamp otherTo) {
+    return from <= otherTo + Incident::kApart && otherFrom <= to + Incident::kApart;
+}
+
 } // namespace
 
 Incidents::Episode Incidents::episodeOf(const Occurrence& one) {
@@ -340,16 +345,17 @@ void Incidents::join(std::uint64_t to, std::uint64_t from) {
     Incident& all = *findOwn(to);
     const Incident& joining = *find(from);
     all.sender = all.sender == joining.sender ? all.sender : log::kNoSender;
+    all.times += joining.times -
+                 (isOneTime(joining.firstStamp, joining.lastStamp, all.firstStamp, all.lastStamp) ? 1 : 0);
     extend(all, joining.firstStamp, joining.lastStamp, joining.firstPacket, joining.lastPacket);
     all.count += joining.count;
-    all.times += joining.times;
     all.samples += joining.samples;
     all.value = std::max(all.value, joining.value);
     for (const Incident::Part& part : joining.parts) {
         const std::size_t before = all.parts.size();
         if (Incident::Part* own = partOf(all, part); own != nullptr && all.parts.size() == before) {
             own->count += part.count;
-            own->times += part.times;
+            own->times += part.times - (isOneTime(part.from, part.to, own->from, own->to) ? 1 : 0);
             own->samples += part.samples;
             own->from = std::min(own->from, part.from);
             own->to = std::max(own->to, part.to);

@@ -212,6 +212,7 @@ void Content::compareClocks(log::Stamp stamp) {
     std::ranges::nth_element(all, middle, {}, [](const Sender* one) { return one->clock.aheadMs; });
     for (Sender* sender : all) {
         const std::int32_t apart = sender->clock.aheadMs - (*middle)->clock.aheadMs;
+        sender->clock.toldMs = std::abs(apart) < kApart / 2 ? 0 : sender->clock.toldMs;
         const bool isApart = std::abs(apart) > kApart && std::abs(apart) < kMost;
         if (isApart && std::abs(apart - sender->clock.toldMs) > kApart) {
             sender->clock.toldMs = apart;
