@@ -99,7 +99,6 @@ enum class Kind : std::uint16_t {
     NotListening,
     OvertakenBetween,
     SampleDamaged,
-    PartNextToGap,
     PartOfSample,
     PartOfMessage,
     AsStreamBegan,

@@ -382,8 +382,6 @@ constexpr std::array kTable{
     Wording{.kind = K::OvertakenBetween,
             .headline = {"This computer did not look at {packets} between packets {from} and {to} in time."}},
     Wording{.kind = K::SampleDamaged, .headline = {"Sample {sample} arrived truncated or damaged."}},
-    Wording{.kind = K::PartNextToGap,
-            .headline = {"Only a part of sample {sample}, next to the gap, arrived."}},
     Wording{.kind = K::PartOfSample, .headline = {"Only a part of sample {sample} arrived."}},
     Wording{.kind = K::PartOfMessage, .headline = {"Only a part of a message arrived."}},
     Wording{.kind = K::AsStreamBegan, .headline = {"Lost as the stream began."}},

@@ -74,11 +74,17 @@ void LossEvidence::takeOvertaken(std::uint64_t packet, std::uint64_t count, log:
     keepNewest(m_drops, {packet, stamp, count, std::nullopt}, kMostDrops);
 }
 
-void LossEvidence::takeSampled(log::SenderId sender, log::Stamp stamp) {
+void LossEvidence::takeSampled(log::SenderId sender, log::Stamp stamp, std::uint32_t sample) {
+    constexpr std::int32_t kRestart = -100; // the counter is back by more than that
     const auto found = m_senders.find(sender);
     if (found == m_senders.end()) {
         return;
     }
+    const std::int32_t ahead = distance(sample, found->second.newest);
+    if (ahead <= 0 && ahead >= kRestart) {
+        return;
+    }
+    found->second.newest = sample;
     Host& host = found->second.host->second;
     const log::Stamp before = std::exchange(host.lastStamp, std::max(host.lastStamp, stamp));
     if (before == log::Stamp() || stamp - before < kPause) {
@@ -170,20 +176,25 @@ LossCause LossEvidence::causeOf(const Gap& gap, const Stream& stream, std::uint3
 }
 
 void LossEvidence::judgeSamples(const Gap& gap, const Stream& stream, std::optional<std::uint32_t> late) {
-    m_step = std::max(stream.accounting.step(), 1U);
+    m_step = std::max(stream.accounting.stepAt(gap.fromSample), 1U);
     const std::size_t samples = (gap.toSample - gap.fromSample - 1) / m_step;
     m_missing.assign(std::min(samples, kMostSamples), {});
+    const double apartS =
+        log::secondsOf(gap.toStamp - gap.fromStamp) / static_cast<double>(m_missing.size() + 1);
+    m_isCounterStopped = apartS * stream.statistics.rateHz() > kMostPeriodsApart;
     m_isAnyJudged = false;
     const auto found = m_senders.find(gap.stream.sender);
     if (found == m_senders.end()) {
         return;
     }
     const Sender& sender = found->second;
-    stream.accounting.forEachBetween(gap.fromSample, gap.toSample, [&](std::uint32_t sample, log::Stamp) {
-        if (const auto place = placeOf(sample, gap); place && sample != late) {
-            m_missing[*place].isMissing = false;
-        }
-    });
+    stream.accounting.forEachBetween(
+        gap.fromSample, gap.toSample, [&](std::uint32_t sample, log::Stamp stamp) {
+            const auto place = placeOf(sample, gap);
+            if (place && sample != late && stamp >= gap.fromStamp) { // else it is of before a restart
+                m_missing[*place].isMissing = false;
+            }
+        });
     judgeLostHere(gap, sender.localPort);
     if (sender.transport == log::Transport::Tcp) {
         judgeRest({.cause = LossCause::Sender, .evidence = Gap::Evidence::Reliable});
@@ -198,12 +209,7 @@ void LossEvidence::judgeSamples(const Gap& gap, const Stream& stream, std::optio
         }
     }
     judgeBrought(gap, sender);
-    judgeSilent(gap, stream, sender.host->second);
-    for (const std::uint32_t neighbour : {gap.fromSample, gap.toSample}) {
-        if (stream.accounting.isIncomplete(neighbour)) {
-            judgeRest({.cause = LossCause::Network, .evidence = Gap::Evidence::Partial, .figure = neighbour});
-        }
-    }
+    judgeSilent(gap, sender.host->second);
 }
 
 void LossEvidence::judge(std::size_t place, const Missing& as) {
@@ -254,7 +260,8 @@ void LossEvidence::judgeLostHere(const Gap& gap, std::uint16_t localPort) {
     }
 }
 
-/// Blames a drop for the samples due just before the packet that reports it, at most as many as it counted.
+/// Blames a drop for the samples due just before the packet that reports it, at most as many as it counted,
+/// and for one after it: none is due to the millisecond.
 void LossEvidence::judgeDrop(const Gap& gap, const Drop& drop, const Missing& as) {
     if (drop.isClosed) {
         judgeRest(as);
@@ -273,7 +280,8 @@ void LossEvidence::judgeDrop(const Gap& gap, const Drop& drop, const Missing& as
     for (std::size_t place = next; place-- > 0 && left != 0;) {
         take(place);
     }
-    for (std::size_t place = next; place < m_missing.size() && left != 0; ++place) {
+    const std::size_t end = m_isCounterStopped ? m_missing.size() : std::min(next + 1, m_missing.size());
+    for (std::size_t place = next; place < end && left != 0; ++place) {
         take(place);
     }
 }
@@ -294,11 +302,8 @@ void LossEvidence::judgeBrought(const Gap& gap, const Sender& sender) {
     }
 }
 
-void LossEvidence::judgeSilent(const Gap& gap, const Stream& stream, const Host& host) {
-    const double hz = stream.statistics.rateHz();
-    const double apartS =
-        log::secondsOf(gap.toStamp - gap.fromStamp) / static_cast<double>(m_missing.size() + 1);
-    if (hz > 0 && apartS * hz > kMostPeriodsApart) {
+void LossEvidence::judgeSilent(const Gap& gap, const Host& host) {
+    if (m_isCounterStopped) {
         return;
     }
     for (auto silence = host.silences.rbegin();
@@ -376,8 +381,6 @@ words::Fact Gap::evidenceFact(LossCause cause) const {
         return {K::OvertakenBetween, {{"packets", words::counted(K::Packets, share.figure)}, from, to}};
     case Evidence::Damaged:
         return {K::SampleDamaged, {sample}};
-    case Evidence::Partial:
-        return {K::PartNextToGap, {sample}};
     case Evidence::OtherStream:
         return {K::OtherStream, {{"type", wire::typeDigits(share.otherType)}, sample}};
     case Evidence::Reliable:

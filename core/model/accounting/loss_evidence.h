@@ -26,7 +26,6 @@ struct Gap {
         NotListening, ///< the input of the port was closed meanwhile
         Overtaken,    ///< this computer did not look at packets of the log in time
         Damaged,      ///< one of the samples came truncated
-        Partial,      ///< of a sample next to it only a part came
         OtherStream,  ///< other streams of the sender brought one of the samples
         Reliable,     ///< TCP loses nothing
         HostsSilent,  ///< several hosts fell silent and came back together
@@ -71,8 +70,9 @@ public:
     void takePacket(const log::Packet& packet, std::uint16_t localPort);
     /// Packets just below one were passed over: whatever they were of is missing for that.
     void takeOvertaken(std::uint64_t packet, std::uint64_t count, log::Stamp stamp);
-    /// A datagram of a type that counts samples, unless it is late: that is no sign of life.
-    void takeSampled(log::SenderId sender, log::Stamp stamp);
+    /// A datagram of a type that counts samples, unless it is late. Of a sender's samples the first one of
+    /// each is a sign of life: others may have been held up on their way.
+    void takeSampled(log::SenderId sender, log::Stamp stamp, std::uint32_t sample);
     /// One that has a header and cannot be decoded.
     void takeMalformed(const log::Packet& packet, const wire::Header& header);
 
@@ -110,6 +110,7 @@ private:
         std::vector<const Stream*> streams; ///< those that count samples
         log::Transport transport = log::Transport::Udp;
         std::uint16_t localPort = 0;
+        std::uint32_t newest = 0; ///< sample
         Hosts::iterator host;
     };
     struct Drop {
@@ -147,7 +148,7 @@ private:
     void judgeLostHere(const Gap& gap, std::uint16_t localPort);
     void judgeDrop(const Gap& gap, const Drop& drop, const Missing& as);
     void judgeBrought(const Gap& gap, const Sender& sender);
-    void judgeSilent(const Gap& gap, const Stream& stream, const Host& host);
+    void judgeSilent(const Gap& gap, const Host& host);
     void judge(std::size_t place, const Missing& as);
     void judgeRest(const Missing& as);
     [[nodiscard]] std::optional<std::size_t> placeOf(std::uint32_t sample, const Gap& gap) const;
@@ -160,6 +161,7 @@ private:
     std::deque<Drop> m_drops;
     std::deque<Damage> m_damages;
     std::uint32_t m_step = 1;         ///< of the gap that is judged
+    bool m_isCounterStopped = false;  ///< its samples are farther apart than the stream's
     std::vector<Missing> m_missing{}; ///< of it: its samples in order
     bool m_isAnyJudged = false;       ///< of them
     std::vector<Run> m_runs{};        ///< of it

@@ -307,24 +307,28 @@ void StreamAccounting::addMalformed(log::Stamp stamp) {
     m_history.add(stamp, {.malformed = 1});
 }
 
-bool StreamAccounting::isIncomplete(std::uint32_t sample) const {
+const SampleSequence* StreamAccounting::sequenceOf(std::uint32_t sample) const {
     for (const SampleSequence* sequence : {&m_ledger.present(), &m_ledger.before()}) {
-        const SampleWindow& window = sequence->window();
-        const auto place = window.find(sample);
-        if (place.isThere) {
-            return !window[place.index].isComplete;
+        if (sequence->window().find(sample).isThere) {
+            return sequence;
         }
     }
-    return false;
+    return nullptr;
+}
+
+bool StreamAccounting::isIncomplete(std::uint32_t sample) const {
+    const SampleSequence* sequence = sequenceOf(sample);
+    return sequence != nullptr && !sequence->window()[sequence->window().find(sample).index].isComplete;
 }
 
 std::optional<std::uint32_t> StreamAccounting::missingBetween(std::uint32_t from, std::uint32_t to) const {
-    for (const SampleSequence* sequence : {&m_ledger.present(), &m_ledger.before()}) {
-        if (!sequence->empty() && sequence->window().find(from).isThere) {
-            return sequence->missingBetween(from, to);
-        }
-    }
-    return std::nullopt;
+    const SampleSequence* sequence = sequenceOf(from);
+    return sequence != nullptr ? std::optional(sequence->missingBetween(from, to)) : std::nullopt;
+}
+
+std::uint32_t StreamAccounting::stepAt(std::uint32_t sample) const {
+    const SampleSequence* sequence = sequenceOf(sample);
+    return sequence != nullptr ? sequence->step() : 0;
 }
 
 } // namespace posewire::model

@@ -139,17 +139,19 @@ public:
     }
     [[nodiscard]] const CountHistory& history() const { return m_history; }
 
-    /// Calls f(sample, stamp) for the samples between two counters, both exclusive, that came since the
-    /// newest restart and are remembered.
+    /// Calls f(sample, stamp) for the samples between two counters, both exclusive, that came and are
+    /// remembered; after a restart those of before it first.
     template <class Function>
     void forEachBetween(std::uint32_t from, std::uint32_t to, Function&& f) const {
-        const SampleWindow& window = m_ledger.present().window();
-        for (std::size_t i = window.find(from + 1).index; i < window.size(); ++i) {
-            const SampleWindow::Entry& entry = window[i];
-            if (distance(entry.sample, to) >= 0 || distance(from, entry.sample) >= 0) {
-                break;
+        for (const SampleSequence* sequence : {&m_ledger.before(), &m_ledger.present()}) {
+            const SampleWindow& window = sequence->window();
+            for (std::size_t i = window.find(from + 1).index; i < window.size(); ++i) {
+                const SampleWindow::Entry& entry = window[i];
+                if (distance(entry.sample, to) >= 0 || distance(from, entry.sample) >= 0) {
+                    break;
+                }
+                f(entry.sample, entry.stamp);
             }
-            f(entry.sample, entry.stamp);
         }
     }
     /// True if some but not all datagrams of a sample came. After a restart, samples of before are known for
@@ -166,6 +168,8 @@ public:
     }
     [[nodiscard]] std::uint64_t datagrams() const { return m_datagrams; }
     [[nodiscard]] std::uint32_t step() const { return m_ledger.present().step(); }
+    /// That of a sample which came; 0 if it is not known, or the sample is forgotten.
+    [[nodiscard]] std::uint32_t stepAt(std::uint32_t sample) const;
     [[nodiscard]] const Framing& framing() const { return m_framing; }
     /// The sample counter stands while what is sent changes: its datagrams are counted instead.
     [[nodiscard]] bool isUncounted() const { return m_isUncounted; }
@@ -180,6 +184,9 @@ public:
     [[nodiscard]] log::Stamp lastStamp() const { return m_lastStamp; }
 
 private:
+    /// The one that remembers a sample; null for none.
+    [[nodiscard]] const SampleSequence* sequenceOf(std::uint32_t sample) const;
+
     static constexpr std::uint64_t kUncertain = 128; ///< datagrams of a run
 
     void takeCounter(Probation::Waiting& datagram, wire::Bytes bytes);

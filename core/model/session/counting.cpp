@@ -91,7 +91,7 @@ void Counting::takeDatagram(Observed& seen) {
                                  isLate(verdicts));
     }
     if (isSampled && !isLate(verdicts)) {
-        m_attribution.evidence().takeSampled(packet.sender, packet.stamp);
+        m_attribution.evidence().takeSampled(packet.sender, packet.stamp, seen.header->sampleCounter);
     } else if (!isSampled && seen.header->datagramIndex() == 0) {
         stream.statistics.addSample(packet.stamp);
     }

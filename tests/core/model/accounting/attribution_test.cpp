@@ -51,14 +51,6 @@ TEST_F(AttributionTest, BlamesTheNetworkWhereTheSampleCameTruncated) {
     EXPECT_EQ(m_session.roster().senders().front().malformed, 1U);
 }
 
-TEST_F(AttributionTest, BlamesTheNetworkWhereOnlyAPartOfANeighbourCame) {
-    frames(1, 50);
-    put(51, {.datagramCounter = 0x00});
-    m_at += 8ms;
-    frames(53, 120);
-    EXPECT_EQ(onlyGap().mainCause(), LossCause::Network);
-}
-
 TEST_F(AttributionTest, CountsIncompleteSamplesByCauseToo) {
     frames(1, 50);
     put(51, {.datagramCounter = 0x00}); // its second part does not come

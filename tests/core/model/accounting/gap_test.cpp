@@ -167,8 +167,6 @@ TEST(GapTexts, SayOneAndMany) {
     EXPECT_EQ(numberIn(dropped, "to"), 12);
     EXPECT_EQ(evidence(Gap::Evidence::Damaged, 30).kind, Kind::SampleDamaged);
     EXPECT_EQ(numberIn(gap.evidenceFact(LossCause::Unknown), "sample"), 30);
-    EXPECT_EQ(evidence(Gap::Evidence::Partial, 31).kind, Kind::PartNextToGap);
-    EXPECT_EQ(numberIn(gap.evidenceFact(LossCause::Unknown), "sample"), 31);
     EXPECT_EQ(evidence(Gap::Evidence::Paused, 2).kind, Kind::Paused);
     EXPECT_EQ(partOf(gap.evidenceFact(LossCause::Unknown), "streams"), words::counted(Kind::Streams, 2));
     EXPECT_EQ(numberIn(gap.evidenceFact(LossCause::Unknown), "lasted"), 2000);
