@@ -283,6 +283,12 @@ function Reader:add_name(field, node, tree, range, id, place)
   return name
 end
 
+-- Without control characters, which a terminal would obey.
+local function printable(text)
+  text = text:gsub("[\0-\31\127]", function(byte) return string.format("\\x%02x", byte:byte()) end)
+  return (text:gsub("\xC2([\x80-\x9F])", function(byte) return string.format("\\u%04x", byte:byte()) end))
+end
+
 -- Milliseconds as hours, minutes and seconds.
 local function clock_text(milliseconds)
   local seconds = math.floor(milliseconds / 1000)
@@ -355,7 +361,7 @@ function Reader:add_tags(tree, offset, text)
   for _, tag in ipairs((tags_of(text))) do
     local from = offset + tag.place
     local item = tree:add(own.tag, self:range(from, tag.size))
-    item:set_text(text:sub(tag.place + 1, tag.place + tag.size))
+    item:set_text(printable(text:sub(tag.place + 1, tag.place + tag.size)))
     self:add_string(own.tag_name, item, from, tag.colon - 1)
     self:add_string(own.tag_value, item, from + tag.colon, tag.size - tag.colon)
   end
@@ -442,7 +448,7 @@ function Reader:read_item(field, list, index)
     if values.is_out_of_range and is_read and self:is_tag(values) then values.is_out_of_range = nil end
     local label = field.places and field.places[index] or values.label
     item:set_len(self.offset - from)
-    item:set_text(field.item .. " " .. index .. (label and ": " .. label or ""))
+    item:set_text(printable(field.item .. " " .. index .. (label and ": " .. label or "")))
     if field.places and label then
       item:add(field.name_node, self:range(from, self.offset - from), label):set_generated()
     end
@@ -1075,7 +1081,7 @@ local function dissect_quickly(tvb, root)
 end
 
 local function filled(text, figures)
-  return (text:gsub("{(%a+)}", figures))
+  return printable((text:gsub("{(%a+)}", figures)))
 end
 
 local function dissect_datagram(tvb, root)

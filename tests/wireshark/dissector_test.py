@@ -236,6 +236,20 @@ class Dissector(unittest.TestCase):
         self.compare_udp([("type 25", code)])
         self.assertIn("12:34:??.789", self.read_fields([code], "mxtp", "_ws.col.Info")[0])
 
+    def test_writes_no_control_character_of_a_sender(self):
+        text = "name:\x1b]0;title\x07\x9b31m\ncolor:#\x1b[2J".encode("utf-8")
+        tags = b"MXTP12" + struct.pack(">IBBI6xHi", 0, 0x80, 1, 0, len(text) + 4, len(text)) + text
+        name = "Pel\x1b[31mvis\x7f".encode("utf-8")
+        body = struct.pack(">Ii", 1, len(name)) + name + struct.pack(">3fI", 0, 0, 1, 0)
+        pose = b"MXTP13" + struct.pack(">IBBI6xH", 0, 0x80, 1, 0, len(body)) + body
+        path = self.folder / "capture.pcap"
+        path.write_bytes(capture_writer.pcap(as_udp([tags, pose])))
+        process = dissected.run_tshark(SCRIPT, path, self.folder, "-V")
+        output, _ = process.communicate(timeout=60)
+        shown = output.decode("utf-8")
+        self.assertRegex(shown, r"Pel.*31mvis")
+        self.assertEqual([], [line for line in shown.splitlines() if re.search("[\x00-\x1f\x7f-\x9f]", line)])
+
     def test_leaves_other_datagrams_alone(self):
         frames = self.dissect(as_udp([b"{}", b"", b"MXT", b"\0" * 99]))
         self.assertEqual([0, 0, 0, 0], [len(trees) for trees in frames])
