@@ -195,8 +195,11 @@ std::string htmlText(std::string_view text) {
 }
 
 std::string csvText(std::string_view text) {
-    constexpr std::string_view kFormula = "=+-@\t\r";
-    const bool isFormula = !text.empty() && kFormula.find(text.front()) != std::string_view::npos;
+    // Those of full width too: spreadsheets take them for the others.
+    constexpr std::array<std::string_view, 10> kFormula{"=",  "+",  "-",  "@",  "\t",
+                                                        "\r", "＝", "＋", "－", "＠"};
+    const bool isFormula =
+        std::ranges::any_of(kFormula, [&](std::string_view sign) { return text.starts_with(sign); });
     return (isFormula ? "'" : "") + std::string(text);
 }
 

@@ -83,7 +83,7 @@ TEST(ForeignText, IsNoMarkupInHtml) {
 }
 
 TEST(ForeignText, IsNoFormulaInATable) {
-    for (const char* formula : {"=HYPERLINK(\"x\")", "+1", "-1", "@SUM(1)"}) {
+    for (const char* formula : {"=HYPERLINK(\"x\")", "+1", "-1", "@SUM(1)", "＝1", "＠SUM(1)"}) {
         EXPECT_EQ(ForeignText(formula).csv(), "'" + std::string(formula));
     }
     EXPECT_EQ(csvText("\t=1"), "'\t=1");
