@@ -15,38 +15,6 @@ namespace posewire::gui {
 
 namespace {
 
-/// Others of now with the same name.
-std::vector<const model::Character*> namesakesOf(const model::SessionView& view,
-                                                 const model::CharacterKey& key) {
-    const model::ForeignText name = view.roster().displayName(key);
-    std::vector<const model::Character*> others = view.atNow().roster().listed();
-    std::erase_if(others, [&](const model::Character* one) {
-        return view.roster().isSame(one->key, key) ||
-               view.roster().displayName(one->key).shown() != name.shown();
-    });
-    return others;
-}
-
-/// Includes the colon.
-qsizetype portAt(const QString& address) {
-    return std::max<qsizetype>(0, address.lastIndexOf(QLatin1Char(':')));
-}
-
-QString senderAmong(const model::SessionView& view, const model::CharacterKey& key,
-                    const std::vector<const model::Character*>& namesakes) {
-    const QString own = shown(view.roster().addressOf(key.sender));
-    std::size_t twins = 0;
-    std::size_t ofThisHost = 0;
-    for (const model::Character* one : namesakes) {
-        if (one->key.character == key.character) {
-            const QString other = shown(view.roster().addressOf(one->key.sender));
-            ++twins;
-            ofThisHost += own.left(portAt(own)) == other.left(portAt(other)) ? 1 : 0;
-        }
-    }
-    return twins == 0 ? QString() : ofThisHost == twins ? own.mid(portAt(own)) : own;
-}
-
 /// Nothing before a stream is silent.
 PropertyValue ageState(double age, double rateHz) {
     const double patience = patienceAt(rateHz);
@@ -94,17 +62,21 @@ QString characterName(model::SessionView& view, const model::CharacterKey& key) 
 
 QString nameApart(const model::SessionView& view, const model::CharacterKey& key) {
     QString name = shown(view.roster().displayName(key));
-    const auto namesakes = namesakesOf(view, key);
-    if (!namesakes.empty()) {
+    if (view.roster().namesakes(key).all != 0) {
         name += QStringLiteral(" · %1").arg(key.character);
-        const QString sender = senderAmong(view, key, namesakes);
+        const QString sender = senderApart(view, key);
         name += sender.isEmpty() ? QString() : QStringLiteral(" · ") + sender;
     }
     return name;
 }
 
 QString senderApart(const model::SessionView& view, const model::CharacterKey& key) {
-    return senderAmong(view, key, namesakesOf(view, key));
+    const auto namesakes = view.roster().namesakes(key);
+    const QString address = shown(view.roster().addressOf(key.sender));
+    const qsizetype port = std::max<qsizetype>(0, address.lastIndexOf(QLatin1Char(':'))); // with its colon
+    return namesakes.ofSameId == 0                           ? QString()
+           : namesakes.ofSameIdAndHost == namesakes.ofSameId ? address.mid(port)
+                                                             : address;
 }
 
 CharacterMark characterMark(model::SessionView& view, const model::CharacterKey& key) {

@@ -5,7 +5,6 @@
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
 #include "app/gui/theme/words.h"
-#include "core/log/ip_packet.h"
 #include "core/model/body/character_pose.h"
 #include "core/model/session/messages.h"
 #include "core/model/session/roster.h"
@@ -171,28 +170,6 @@ double shownAgeSeconds(model::SessionView& session, const model::CharacterKey& k
         return session.messages().ageSeconds(key);
     }
     return std::max(0.0, log::secondsOf(session.cursorStamp() - pose->stamp));
-}
-
-bool isRenumbered(model::SessionView& session, const model::CharacterKey& key) {
-    constexpr log::Duration kEarly = std::chrono::seconds(2); // metadata may come before the last pose
-    const model::CharacterPose* pose = session.messages().pose(key);
-    if (pose == nullptr || shownAgeSeconds(session, key) < kStaleAge) {
-        return false;
-    }
-    const log::Stamp silent = pose->stamp;
-    const model::ForeignText name = session.roster().displayName(key);
-    const auto hostOf = [&session](const model::CharacterKey& one) {
-        return std::string(log::hostOf(session.roster().addressOf(one.sender).shown()));
-    };
-    return std::ranges::any_of(session.roster().listed(), [&](const model::Character* other) {
-        const model::MetadataTag* tag = session.messages().metadata(other->key).find("name");
-        const bool isNamesake = other->key != key && tag != nullptr &&
-                                session.roster().displayName(other->key) == name &&
-                                hostOf(other->key) == hostOf(key);
-        const model::CharacterPose* its = isNamesake ? session.messages().pose(other->key) : nullptr;
-        return its != nullptr && log::secondsOf(its->stamp - silent) >= kStaleAge &&
-               tag->values.back().stamp + kEarly >= silent;
-    });
 }
 
 PropertyValue characterHealth(model::SessionView& session, const model::CharacterKey& key) {

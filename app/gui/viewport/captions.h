@@ -19,10 +19,6 @@ namespace posewire::gui {
 /// Age of what is shown of a character: of its newest pose, or of any message where it sends no poses.
 [[nodiscard]] double shownAgeSeconds(model::SessionView& session, const model::CharacterKey& key);
 
-/// Whether a character that is silent at the cursor goes on under another ID: one of the same host that sent
-/// on got its name about when it fell silent. Who has no name of their own never does.
-[[nodiscard]] bool isRenumbered(model::SessionView& session, const model::CharacterKey& key);
-
 /// Nothing if `title` is empty.
 struct EmptyState {
     Health level = Health::Unknown;

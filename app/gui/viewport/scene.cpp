@@ -220,9 +220,8 @@ void SceneBuilder::build(AxesMode axes, const Overlays& overlays, SceneFrame& fr
     frame.colours = themedSceneColours();
     const model::Selection& selection = m_session.choices().selection;
     const std::vector<const model::Character*> characters = m_session.roster().listed();
-    std::erase_if(m_motions, [&characters](const auto& motion) {
-        return std::ranges::none_of(
-            characters, [&motion](const model::Character* one) { return one->key == motion.first; });
+    std::erase_if(m_motions, [this](const auto& motion) {
+        return m_session.roster().findListed(motion.first) == nullptr;
     });
     const bool isOneSelected = std::ranges::any_of(
         characters, [this](const model::Character* one) { return m_session.roster().isSelected(one->key); });
@@ -230,7 +229,7 @@ void SceneBuilder::build(AxesMode axes, const Overlays& overlays, SceneFrame& fr
         const model::Character& character = *shown;
         const model::CharacterPose* pose = poseOf(character.key);
         addTags(character.key, pose, frame);
-        if (pose == nullptr || isRenumbered(m_session, character.key)) {
+        if (pose == nullptr) {
             continue;
         }
         if (pose->isObjects) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/session/roster.h"
 
+#include "core/log/ip_packet.h"
 #include "core/model/session/choices.h"
 #include "core/model/session/ingest.h"
 
@@ -37,6 +38,33 @@ ForeignText Roster::displayName(const CharacterKey& key) const {
     }
     const ForeignText& name = metadataValue(key, "name");
     return name.isEmpty() ? ForeignText("Character " + std::to_string(key.character)) : name;
+}
+
+std::array<std::string, 3> Roster::namesOf(const CharacterKey& key) const {
+    const std::string name(displayName(key).shown());
+    const std::string withId = name + '\0' + std::to_string(key.character);
+    return {name, withId, withId + '\0' + std::string(log::hostOf(addressOf(key.sender).exact()))};
+}
+
+Roster::Namesakes Roster::namesakes(const CharacterKey& key) const {
+    const Roster now(m_moment.now());
+    if (const std::pair at(m_moment.end(), m_moment.now().end()); m_names.empty() || m_namesAt != at) {
+        m_namesAt = at;
+        m_names.clear();
+        for (const Character* one : now.listed()) {
+            for (std::string& name : namesOf(one->key)) {
+                ++m_names[std::move(name)];
+            }
+        }
+    }
+    const auto names = namesOf(key);
+    const Character* itself = now.findListed(now.current(key));
+    const auto own = itself != nullptr ? namesOf(itself->key) : decltype(namesOf(key)){};
+    const auto others = [&](std::size_t i) {
+        const auto found = m_names.find(names[i]);
+        return found == m_names.end() ? 0 : found->second - (own[i] == names[i] ? 1 : 0);
+    };
+    return {others(0), others(1), others(2)};
 }
 
 Colour Roster::colour(const CharacterKey& key) const {

@@ -4,8 +4,12 @@
 #include "core/model/session/moment.h"
 #include "core/model/session/roll.h"
 
+#include <array>
 #include <set>
+#include <string>
 #include <string_view>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace posewire::model {
@@ -50,6 +54,15 @@ public:
     [[nodiscard]] ForeignText displayName(const CharacterKey& key) const;
     [[nodiscard]] Colour colour(const CharacterKey& key) const;
 
+    /// Others that are listed now, and have the same name at the moment.
+    struct Namesakes {
+        std::size_t all = 0;
+        std::size_t ofSameId = 0;        ///< among them
+        std::size_t ofSameIdAndHost = 0; ///< among these
+    };
+    /// All names are looked up once until something else is received.
+    [[nodiscard]] Namesakes namesakes(const CharacterKey& key) const;
+
     // Choices of the operator, which hold through restarts of the sender.
     [[nodiscard]] bool isHidden(const CharacterKey& key) const;
     [[nodiscard]] bool isLifted(const CharacterKey& key) const;
@@ -60,9 +73,13 @@ private:
     [[nodiscard]] const Character* successor(const Character& character) const;
     [[nodiscard]] bool isChosen(const std::set<CharacterKey>& chosen, const CharacterKey& key) const;
     [[nodiscard]] const ForeignText& metadataValue(const CharacterKey& key, std::string_view tag) const;
+    /// A name, the name with the ID, and with the host of the sender too.
+    [[nodiscard]] std::array<std::string, 3> namesOf(const CharacterKey& key) const;
 
     Moment m_moment;
     const Roll& m_roll;
+    mutable std::unordered_map<std::string, std::size_t> m_names; ///< how many listed characters have each
+    mutable std::pair<std::uint64_t, std::uint64_t> m_namesAt;    ///< end of the moment, and of now
 };
 
 } // namespace posewire::model
