@@ -185,10 +185,12 @@ private:
         return from / m_rate;
     }
 
-    /// Single ones, away from the ends of a run: what was lost there is not known to have been sent.
+    /// Single ones. Away from the ends of a run: what is lost there is not known to have been sent.
     void lose() {
         for (Due& due : m_datagrams) {
-            const bool isAtEnd = due.tick < 2.5 * m_rate || due.tick + 20 > m_ticks || isNearRestart(due);
+            const bool isAtRestart = isNearRestart(due);
+            const bool isAtEnd = due.tick < 2.5 * m_rate || due.tick + 20 > m_ticks || isAtRestart;
+            due.fate = isAtRestart && due.fate != Fate::NeverSent ? Fate::Comes : due.fate;
             if (due.fate == Fate::Comes && !isAtEnd) {
                 due.fate = uniform(0, 1) < m_drop ? Fate::LostOnTheWay : Fate::Comes;
                 if (uniform(0, 1) < 0.001) {
