@@ -18,12 +18,15 @@
 #include "app/usage/usage.h"
 
 #include <QApplication>
+#include <QDir>
 #include <QFileInfo>
 #include <QStandardPaths>
+#include <QStorageInfo>
 #include <QTimer>
 
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <utility>
 
 namespace {
@@ -39,6 +42,31 @@ tl::expected<Options, usage::EarlyExit> readOptions(int& argc, char** argv) {
             .arg(importerName(), plottingName(), windowlessOpenGlName())
             .toStdString();
     });
+}
+
+/// Qt ends a program that finds no display with a core dump, and words of its own.
+void endWithoutDisplay(QtMsgType type, const QMessageLogContext& /*place*/, const QString& text) {
+    if (type == QtFatalMsg) {
+        std::fputs(
+            "posewire: There is no display to open a window on (DISPLAY or WAYLAND_DISPLAY says which). "
+            "'posewire-cli monitor' needs none, and QT_QPA_PLATFORM=offscreen draws pictures without.\n",
+            stderr);
+        std::_Exit(2);
+    }
+    if (type == QtCriticalMsg) {
+        std::fprintf(stderr, "%s\n", qUtf8Printable(text));
+    }
+}
+
+/// On a full disk, shaders that are kept end the program: their file is mapped, and has no room.
+void keepShadersWhereThereIsRoom() {
+    constexpr qint64 kRoom = 64 << 20;
+    QDir folder(QStandardPaths::writableLocation(QStandardPaths::GenericCacheLocation));
+    while (!folder.exists() && folder.cdUp()) {
+    }
+    if (const QStorageInfo disk(folder); disk.isValid() && disk.bytesAvailable() < kRoom) {
+        qputenv("MESA_SHADER_CACHE_DISABLE", "true");
+    }
 }
 
 Settings startSettings(SettingsFile& file, const Options& options, QString* problem) {
@@ -160,6 +188,9 @@ void begin(MainWindow& window, const Options& options, const Settings& settings)
     window.viewport().pictures().start();
     window.driver().start();
     if (options.screenshotFile.isEmpty()) {
+        auto* writing = new QTimer(&window);
+        QObject::connect(writing, &QTimer::timeout, &window, &MainWindow::writeSettings);
+        writing->start(std::chrono::seconds(1));
         if (!window.driver().history().lost().empty()) {
             window.menus().action("recovered")->trigger();
         } else if (!options.skipsTour) {
@@ -190,7 +221,10 @@ int main(int argc, char** argv) {
     if (options->isVerbose) {
         tellVerbosely();
     }
+    keepShadersWhereThereIsRoom();
+    const QtMessageHandler usual = qInstallMessageHandler(endWithoutDisplay);
     QApplication application(argc, argv);
+    qInstallMessageHandler(usual);
     useLanguage(options->language);
     SettingsFile file(options->settingsFile);
     QString problem;

@@ -12,17 +12,23 @@
 #include <QFileInfo>
 #include <QJsonArray>
 #include <QJsonDocument>
+#include <QLockFile>
 #include <QRegularExpression>
 #include <QStandardPaths>
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstddef>
 #include <utility>
 
 namespace posewire::gui {
 
 namespace {
+
+QJsonObject objectOf(const QByteArray& json) {
+    return QJsonDocument::fromJson(json).object();
+}
 
 int numberOf(const QJsonObject& object, const char* key, int usual, int most) {
     const int number = object[QLatin1String(key)].toInt(usual);
@@ -285,6 +291,7 @@ Settings SettingsFile::read(QString* problem) {
         return {};
     }
     qCInfo(settingsLog).noquote() << "read from" << m_path;
+    m_known = objectOf(jsonOf(*settings));
     return *std::move(settings);
 }
 
@@ -300,12 +307,26 @@ QString SettingsFile::setAside(const QString& reason) const {
     return tr("Settings could not be used (%1); they were set aside as %2.").arg(reason, aside);
 }
 
-QString SettingsFile::write(const Settings& settings) const {
+QString SettingsFile::write(const Settings& settings) {
+    constexpr std::chrono::milliseconds kPatience(500); // for another window that writes
+    const QJsonObject own = objectOf(jsonOf(settings));
+    if (own == m_known) {
+        return {};
+    }
     if (!QDir().mkpath(QFileInfo(m_path).absolutePath())) {
         return tr("The folder of %1 cannot be created.").arg(m_path);
     }
-    const QString problem = saveFile(m_path, jsonOf(settings));
+    QLockFile lock(m_path + QStringLiteral(".lock"));
+    static_cast<void>(lock.tryLock(kPatience)); // the file is whole without, too
+    QJsonObject whole = objectOf(readSmallFile(m_path).value_or(QByteArray()));
+    for (auto entry = own.constBegin(); entry != own.constEnd(); ++entry) {
+        if (entry.value() != m_known.value(entry.key()) || !whole.contains(entry.key())) {
+            whole.insert(entry.key(), entry.value());
+        }
+    }
+    const QString problem = saveFile(m_path, QJsonDocument(whole).toJson());
     qCInfo(settingsLog).noquote() << (problem.isEmpty() ? "written to " + m_path : problem);
+    m_known = problem.isEmpty() ? own : m_known;
     return problem;
 }
 

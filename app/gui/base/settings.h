@@ -100,13 +100,16 @@ public:
     /// lost, and `problem` says so in words for the operator.
     [[nodiscard]] Settings read(QString* problem);
 
-    /// Replaces the file as a whole or leaves it; the answer is what went wrong, empty for nothing.
-    [[nodiscard]] QString write(const Settings& settings) const;
+    /// Replaces the file as a whole or leaves it; the answer is what went wrong, empty for nothing. Entries
+    /// that are as they were read or written last stay as they are in the file: another window may have
+    /// changed them. If that is all, nothing is written.
+    [[nodiscard]] QString write(const Settings& settings);
 
 private:
     QString setAside(const QString& reason) const;
 
     QString m_path;
+    QJsonObject m_known; ///< as read or written last
 };
 
 } // namespace posewire::gui

@@ -37,6 +37,7 @@
 #include <QTreeView>
 
 #include <algorithm>
+#include <utility>
 
 namespace posewire::gui {
 
@@ -158,7 +159,7 @@ bool PressingKeys::eventFilter(QObject* watched, QEvent* event) {
     return true;
 }
 
-MainWindow::MainWindow(SessionDriver& driver, const SettingsFile& file, const Settings& settings)
+MainWindow::MainWindow(SessionDriver& driver, SettingsFile& file, const Settings& settings)
     : m_driver(driver),
       m_file(file),
       m_settings(settings),
@@ -249,12 +250,10 @@ void MainWindow::connectDriver() {
         m_notifier.look(m_verdict->verdict(), m_settings.alerts.hasNotification);
         showTake();
     });
-    // At once: whatever ends this program, the next run must not begin with a loop.
+    // At once: the next run must not begin with a loop.
     connect(&m_driver, &SessionDriver::relayStopped, this, [this] {
         m_settings.inputs.relays = m_driver.receiving().choices().relays;
-        if (const QString problem = m_file.write(this->settings()); !problem.isEmpty()) {
-            say(problem, HelpTopic::SettingsUnusable);
-        }
+        writeSettings();
     });
     connect(&m_driver.files(), &Files::closing, m_docks, &Docks::forgetFile);
     const Comparing& comparing = m_driver.files().comparing();
@@ -316,6 +315,13 @@ Settings MainWindow::settings() const {
         file != nullptr ? QString::fromStdString(file->session().choices().ownFilter()) : QString();
     settings.comparedFile = pathOf(m_driver.files().comparing().file());
     return settings;
+}
+
+void MainWindow::writeSettings() {
+    const QString problem = m_file.write(settings());
+    if (std::exchange(m_settingsProblem, problem) != problem) {
+        say(problem, HelpTopic::SettingsUnusable);
+    }
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {

@@ -26,7 +26,7 @@ class MainWindow final : public QMainWindow {
 
 public:
     /// `settings` are what was kept of the last run. The driver and the file must outlive the window.
-    MainWindow(SessionDriver& driver, const SettingsFile& file, const Settings& settings);
+    MainWindow(SessionDriver& driver, SettingsFile& file, const Settings& settings);
 
     [[nodiscard]] SessionDriver& driver() const { return m_driver; }
     [[nodiscard]] ViewportWidget& viewport() const { return *m_viewport; }
@@ -39,6 +39,8 @@ public:
     [[nodiscard]] const Settings& kept() const { return m_settings; }
     /// The same with what is only known when the window is left.
     [[nodiscard]] Settings settings() const;
+    /// Those that have changed: whatever ends this program, the next one begins with them.
+    void writeSettings();
     void keepHistory();
 
     void openInputs(InputsDialog::Page page);
@@ -72,7 +74,7 @@ private:
     void showVerdict();
 
     SessionDriver& m_driver;
-    const SettingsFile& m_file;
+    SettingsFile& m_file;
     Settings m_settings;
     ViewportWidget* m_viewport;
     Menus m_menus;
@@ -86,6 +88,7 @@ private:
     HealthBar* m_health = nullptr;
     InputsDialog* m_inputs = nullptr; ///< once it was asked for
     QToolButton* m_layoutButton = nullptr;
+    QString m_settingsProblem; ///< why they could not be written
     bool m_isRestored = false;
 };
 

@@ -68,6 +68,24 @@ TEST_F(SettingsFileTest, ReadsBackWhatWasWritten) {
     EXPECT_EQ(read.fileFilter, written.fileFilter);
 }
 
+TEST_F(SettingsFileTest, KeepsWhatAnotherWindowChanged) {
+    SettingsFile other(path);
+    QString problem;
+    Settings ours = file.read(&problem);
+    Settings theirs = other.read(&problem);
+    ours.theme = ThemeChoice::Dark;
+    ours.filter = "type == 02";
+    ASSERT_EQ(file.write(ours), "");
+    theirs.recentFiles = {"/takes/1.pcapng"};
+    ASSERT_EQ(other.write(theirs), "");
+    ours.filter.clear();
+    ASSERT_EQ(file.write(ours), "");
+    const Settings both = SettingsFile(path).read(&problem);
+    EXPECT_EQ(both.theme, ThemeChoice::Dark);
+    EXPECT_EQ(both.filter, "");
+    EXPECT_EQ(both.recentFiles, QStringList("/takes/1.pcapng"));
+}
+
 TEST_F(SettingsFileTest, DoesNotWaitForAPipe) {
     const QString pipe = folder.filePath("pipe");
     ASSERT_EQ(::mkfifo(pipe.toLocal8Bit().constData(), 0600), 0);
@@ -158,7 +176,7 @@ TEST(Settings, AreAsShippedWhereTheyAreOfTheWrongKind) {
 }
 
 TEST_F(SettingsFileTest, SaysWhyItCannotWrite) {
-    const SettingsFile nowhere(QStringLiteral("/dev/null/settings.json"));
+    SettingsFile nowhere(QStringLiteral("/dev/null/settings.json"));
     EXPECT_NE(nowhere.write({}), "");
 }
 

@@ -56,8 +56,31 @@ def check_screenshot(program: str, folder: Path) -> None:
     assert again.returncode == 0, err
 
 
+def check_display(program: str, folder: Path) -> None:
+    environment = {name: value for name, value in os.environ.items()
+                   if name not in ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM")}
+    window = subprocess.run([program, "--settings", str(folder / "settings.json")], env=environment,
+                            capture_output=True, text=True, timeout=30, check=False)
+    assert window.returncode == 2 and window.stderr.count("\n") == 1, (window.returncode, window.stderr)
+
+
+def check_crash(program: str, folder: Path) -> None:
+    """Whatever ends the program, the next one begins with the settings of this one."""
+    settings = folder / "settings.json"
+    settings.write_text(json.dumps({**json.loads(settings.read_text()), "recentFiles": ["/takes/1.pcapng"]}))
+    window = start(program, folder, "--startup-time", "--layout", "Inspect")
+    assert "window on screen" in window.stdout.readline()
+    end = time.monotonic() + 20
+    while json.loads(settings.read_text())["layout"] != "Inspect" and time.monotonic() < end:
+        time.sleep(0.1)
+    window.kill()
+    window.communicate(timeout=30)
+    kept = json.loads(settings.read_text())
+    assert kept["layout"] == "Inspect" and kept["recentFiles"] == ["/takes/1.pcapng"], kept
+
+
 def main() -> int:
-    for check in (check_signals, check_screenshot):
+    for check in (check_signals, check_screenshot, check_display, check_crash):
         with tempfile.TemporaryDirectory() as name:
             check(sys.argv[1], Path(name))
             print(check.__name__, "done", flush=True)

@@ -91,6 +91,17 @@ TEST_F(MainWindowTest, WritesItsSettingsWhenItCloses) {
     EXPECT_TRUE(problem.isEmpty());
 }
 
+TEST_F(MainWindowTest, WritesItsSettingsOnceTheyHaveChanged) {
+    const auto window = makeWindow();
+    window->kept().recentFiles = {"/takes/1.pcapng"};
+    window->writeSettings();
+    QString problem;
+    EXPECT_EQ(file.read(&problem).recentFiles, window->kept().recentFiles);
+    ASSERT_TRUE(QFile::remove(folder.filePath("settings.json")));
+    window->writeSettings();
+    EXPECT_FALSE(QFile::exists(folder.filePath("settings.json")));
+}
+
 TEST_F(MainWindowTest, KeepsAtOnceThatARelayWasStopped) {
     const auto window = makeWindow();
     Relaying& relaying = driver.receiving().relaying();
