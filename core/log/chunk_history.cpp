@@ -179,12 +179,7 @@ ChunkHistory::Begun ChunkHistory::beginChunk(std::uint64_t first, const DropSums
 
 std::vector<ChunkHistory::Entry> ChunkHistory::entries() const {
     const std::lock_guard lock(m_mutex);
-    std::vector<Entry> list;
-    list.reserve(m_chunks.size());
-    for (const Held& held : m_chunks) {
-        list.push_back({held.first, held.drops, held.chunk});
-    }
-    return list;
+    return {m_chunks.begin(), m_chunks.end()};
 }
 
 LogFigures ChunkHistory::figures() const {

@@ -178,6 +178,7 @@ private:
         std::uint64_t first;
         DropSums drops;
         std::shared_ptr<Chunk> chunk;
+        operator Entry() const { return {first, drops, chunk}; }
     };
 
     /// What the cap leaves beside that many chunks and what is kept beside that many packets.

@@ -137,16 +137,7 @@ Ends endsOf(const SenderInfo& info) {
     return ends;
 }
 
-/// "-1.500000000 s", and back.
-std::string secondsText(Duration duration) {
-    const bool isNegative = duration < Duration::zero();
-    const auto size = static_cast<std::uint64_t>(duration.count());
-    const std::uint64_t nanoseconds = isNegative ? 0 - size : size;
-    const std::string decimals = std::to_string(nanoseconds % 1'000'000'000);
-    return (isNegative ? "-" : "") + std::to_string(nanoseconds / 1'000'000'000) + '.' +
-           std::string(9 - decimals.size(), '0') + decimals + " s";
-}
-
+/// Of "-1.500000000 s".
 std::optional<Duration> takeSeconds(std::string_view& text) {
     const bool isNegative = takes(text, "-");
     std::uint64_t whole = 0;
@@ -190,7 +181,7 @@ std::string originText(const RecordedOrigin& origin) {
         text.append(kShared) += static_cast<char>('0' + flags.shared);
     }
     if (origin.setBy != Duration::zero()) {
-        text.append(kClockSet).append(secondsText(origin.setBy));
+        text.append(kClockSet).append(secondsText(origin.setBy)).append(" s");
     }
     if (origin.address) {
         text.append(kFrom).append(*origin.address); // last, as it may hold anything
@@ -236,8 +227,8 @@ std::optional<RecordedOrigin> parseOrigin(std::string_view comment) {
 
 std::string receptionText(const Reception& reception) {
     std::string text(kSignature);
-    text.append(kReceivedFor).append(secondsText(reception.time));
-    text.append(kTheLast).append(secondsText(reception.afterLast));
+    text.append(kReceivedFor).append(secondsText(reception.time)).append(" s");
+    text.append(kTheLast).append(secondsText(reception.afterLast)).append(" s");
     return text.append(kReceiveBuffer).append(std::to_string(reception.receiveBufferBytes)).append(kBytes);
 }
 

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <string>
 
 namespace posewire::log {
 
@@ -35,6 +36,16 @@ using Moment = std::chrono::time_point<std::chrono::steady_clock, Duration>;
 /// Nanoseconds since 1970-01-01 UTC: how files and JSON write a time.
 [[nodiscard]] constexpr std::int64_t nanosecondsOf(WallTime time) {
     return time.time_since_epoch().count();
+}
+
+/// "-1.500000000": seconds with all decimals.
+[[nodiscard]] inline std::string secondsText(Duration time) {
+    const bool isNegative = time < Duration::zero();
+    const auto count = static_cast<std::uint64_t>(time.count());
+    const std::uint64_t size = isNegative ? 0 - count : count;
+    const std::string decimals = std::to_string(size % 1'000'000'000);
+    return (isNegative ? "-" : "") + std::to_string(size / 1'000'000'000) + '.' +
+           std::string(9 - decimals.size(), '0') + decimals;
 }
 
 [[nodiscard]] constexpr Stamp stampOf(std::int64_t nanoseconds) {

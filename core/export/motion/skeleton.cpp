@@ -15,22 +15,6 @@ namespace {
 using Eigen::Vector3d;
 using model::SegmentPose;
 
-/// Position of a segment in another layout; -1 if it has none.
-int positionIn(const model::SegmentLayout& layout, const model::SegmentPlace& place) {
-    switch (place.kind) {
-    case model::SegmentKind::Body:
-        return place.index < layout.body ? place.index : -1;
-    case model::SegmentKind::Prop:
-        return place.index < layout.props ? layout.body + place.index : -1;
-    case model::SegmentKind::LeftFinger:
-    case model::SegmentKind::RightFinger:
-        const int finger =
-            place.index + (place.kind == model::SegmentKind::RightFinger ? model::kHandSegmentCount : 0);
-        return finger < layout.fingers ? layout.body + layout.props + finger : -1;
-    }
-    return -1;
-}
-
 std::optional<Vector3d> sentOrigin(const feed::PoseCharacter& character, std::string_view name,
                                    int position) {
     if (!character.nullPose) {
@@ -76,7 +60,7 @@ bool isProp(const model::SegmentLayout& layout, int position) {
 const SegmentPose* poseAt(const model::CharacterPose& pose, const model::SegmentLayout& layout,
                           int position) {
     const auto place = model::placeOf(layout, position);
-    const int at = place ? positionIn(pose.layout, *place) : -1;
+    const int at = place ? model::positionIn(pose.layout, *place) : -1;
     const auto index = static_cast<std::size_t>(std::max(at, 0));
     return at >= 0 && index < pose.segments.size() && pose.isPresent(index) ? &pose.segments[index] : nullptr;
 }

@@ -86,6 +86,21 @@ std::string_view named(const Naming& naming, const SegmentLayout& layout, int po
     return {};
 }
 
+struct Part {
+    SegmentKind kind;
+    int size;
+    int known; ///< more have no name
+};
+
+std::array<Part, 4> partsOf(const SegmentLayout& layout) {
+    return {{
+        {SegmentKind::Body, layout.body, kBodySegmentCount},
+        {SegmentKind::Prop, layout.props, kMaxPropCount},
+        {SegmentKind::LeftFinger, kHandSegmentCount, kHandSegmentCount},
+        {SegmentKind::RightFinger, kHandSegmentCount, kHandSegmentCount},
+    }};
+}
+
 // Table "Unity3D" of the specification: legs, spine, left arm, right arm, head.
 constexpr std::array<int, kBodySegmentCount> kUnityOrder{{
     kPelvis,
@@ -145,18 +160,7 @@ std::optional<SegmentPlace> placeOf(const SegmentLayout& layout, int position) {
     if (position < 0 || position >= layout.count()) {
         return std::nullopt;
     }
-    struct Part {
-        SegmentKind kind;
-        int size;
-        int known; ///< more have no name
-    };
-    const std::array<Part, 4> parts{{
-        {SegmentKind::Body, layout.body, kBodySegmentCount},
-        {SegmentKind::Prop, layout.props, kMaxPropCount},
-        {SegmentKind::LeftFinger, kHandSegmentCount, kHandSegmentCount},
-        {SegmentKind::RightFinger, kHandSegmentCount, kHandSegmentCount},
-    }};
-    for (const auto& [kind, size, known] : parts) {
+    for (const auto& [kind, size, known] : partsOf(layout)) {
         if (position < size) {
             return position < known ? std::optional(SegmentPlace{kind, position}) : std::nullopt;
         }
@@ -165,18 +169,16 @@ std::optional<SegmentPlace> placeOf(const SegmentLayout& layout, int position) {
     return std::nullopt;
 }
 
-int slotOf(const SegmentPlace& place) {
-    switch (place.kind) {
-    case SegmentKind::Body:
-        return place.index;
-    case SegmentKind::Prop:
-        return kBodySegmentCount + place.index;
-    case SegmentKind::LeftFinger:
-        return kBodySegmentCount + kMaxPropCount + place.index;
-    case SegmentKind::RightFinger:
-        break;
+int positionIn(const SegmentLayout& layout, const SegmentPlace& place) {
+    int before = 0;
+    for (const auto& [kind, size, known] : partsOf(layout)) {
+        if (kind == place.kind) {
+            const int position = before + place.index;
+            return place.index < size && position < layout.count() ? position : -1;
+        }
+        before += size;
     }
-    return kBodySegmentCount + kMaxPropCount + kHandSegmentCount + place.index;
+    return -1;
 }
 
 std::string_view segmentName(const SegmentLayout& layout, int position) {

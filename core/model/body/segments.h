@@ -95,8 +95,13 @@ struct SegmentPlace {
     int index = 0; ///< within the kind: body segment, prop number, or place in the hand
 };
 
+/// Position of a segment in a layout; -1 if it has none.
+[[nodiscard]] int positionIn(const SegmentLayout& layout, const SegmentPlace& place);
+
 /// Where a segment is in kAllSegments: the same for all bodies, whatever else was sent of them.
-[[nodiscard]] int slotOf(const SegmentPlace& place);
+[[nodiscard]] inline int slotOf(const SegmentPlace& place) {
+    return positionIn(kAllSegments, place);
+}
 
 /// Judged by position, since the numbering of props differs between revisions. Empty outside the layout.
 std::optional<SegmentPlace> placeOf(const SegmentLayout& layout, int position);
