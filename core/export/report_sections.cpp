@@ -105,7 +105,7 @@ std::vector<SvgPlot> plotsOf(const model::SessionView& session, const ReportStep
 /// The gaps with losses that end within the report, in the order of the session.
 std::vector<const model::Gap*> gapsIn(const model::SessionView& session, const ReportSteps& steps) {
     std::vector<const model::Gap*> gaps;
-    for (const model::Gap& gap : session.accounts().gaps()) {
+    for (const model::Gap& gap : session.accounts().attribution().gaps()) {
         if (gap.lost != 0 && gap.toStamp >= steps.from && gap.toStamp <= steps.to) {
             gaps.push_back(&gap);
         }
@@ -132,7 +132,7 @@ SvgPlot causePlot(const model::SessionView& session, const ReportSteps& steps) {
             add(gap->toStamp, static_cast<model::LossCause>(cause), gap->shares[cause].lost);
         }
     }
-    session.accounts().forEachPartialLoss(
+    session.accounts().attribution().forEachPartialLoss(
         [&](const log::StreamKey& key, log::Stamp stamp, model::LossCause cause, std::uint64_t /*packet*/) {
             if (model::countsSamples(key.type) && stamp >= steps.from && stamp <= steps.to) {
                 add(stamp, cause, 1);

@@ -228,12 +228,12 @@ PacketsBehind lossesBehind(model::SessionView& view, const LossesSought& losses)
         mustName = mustName || !isSought;
         return isSought;
     };
-    for (const model::Gap& gap : view.accounts().gaps()) {
+    for (const model::Gap& gap : view.accounts().attribution().gaps()) {
         for (const model::LossCause cause : gap.lost != 0 ? gap.causes() : std::vector<model::LossCause>()) {
             look(gap.stream, gap.toStamp, cause, gap.toPacket);
         }
     }
-    view.accounts().forEachPartialLoss(
+    view.accounts().attribution().forEachPartialLoss(
         [&](const log::StreamKey& stream, log::Stamp stamp, model::LossCause cause, std::uint64_t packet) {
             mustName = look(stream, stamp, cause, packet) || mustName;
         });

@@ -62,7 +62,7 @@ QString findingsOf(model::SessionView& view, const log::Packet& packet, const mo
         texts += tr("this computer dropped %1 before").arg(grouped(packet.kernelDropsBefore));
     }
     if (digest.gap != 0) {
-        texts += gapText(view.accounts().gapEndedBy(packet.number), digest.gap);
+        texts += gapText(view.accounts().attribution().endedBy(packet.number), digest.gap);
     }
     if (digest.isDuplicate) {
         texts += tr("duplicate");
@@ -102,7 +102,7 @@ QStringList sequenceFindings(model::SessionView& view, std::uint64_t number) {
                      .arg(packet ? grouped(packet->kernelDropsBefore) : QStringLiteral("?"));
     }
     if (digest->gap != 0) {
-        const model::Gap* gap = view.accounts().gapEndedBy(number);
+        const model::Gap* gap = view.accounts().attribution().endedBy(number);
         QStringList sentences{
             tr("%1 samples are missing just before it.", nullptr, static_cast<int>(digest->gap))
                 .arg(grouped(digest->gap))};

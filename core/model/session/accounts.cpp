@@ -7,8 +7,6 @@
 
 namespace posewire::model {
 
-Accounts::Accounts(const Moment& moment, const Roster& roster) : m_moment(moment), m_roster(roster) {}
-
 const RetiredTotals& Accounts::retired() const {
     return m_moment.ingest().roll().retired();
 }
@@ -84,25 +82,8 @@ StreamCounts Accounts::countsOf(const CharacterKey& key, const TimeRange& range)
     return sum;
 }
 
-const std::deque<Gap>& Accounts::gaps() const {
-    return m_moment.ingest().counting().attribution().gaps();
-}
-
-const Gap* Accounts::gapEndedBy(std::uint64_t packet) const {
-    return m_moment.ingest().counting().attribution().endedBy(packet);
-}
-
-void Accounts::forEachPending(const std::function<void(const PendingLoss&)>& f) const {
-    m_moment.ingest().counting().attribution().forEachPending(f);
-}
-
-void Accounts::forEachPartialLoss(
-    const std::function<void(const log::StreamKey&, log::Stamp, LossCause, std::uint64_t)>& f) const {
-    m_moment.ingest().counting().attribution().forEachPartialLoss(f);
-}
-
-log::Stamp Accounts::judgedUntil() const {
-    return m_moment.ingest().knownUntil() - m_moment.ingest().counting().attribution().patience();
+const Attribution& Accounts::attribution() const {
+    return m_moment.ingest().counting().attribution();
 }
 
 const PacketDigests& Accounts::digests() const {

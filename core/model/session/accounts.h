@@ -10,8 +10,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <deque>
-#include <functional>
 #include <vector>
 
 namespace posewire::model {
@@ -25,7 +23,7 @@ struct Unproven {
 class Accounts {
 public:
     /// The roster is of the same moment, and outlives this.
-    Accounts(const Moment& moment, const Roster& roster);
+    Accounts(const Moment& moment, const Roster& roster) : m_moment(moment), m_roster(roster) {}
 
     /// Sums over the senders that were retired: their rows are gone.
     [[nodiscard]] const RetiredTotals& retired() const;
@@ -48,16 +46,8 @@ public:
 
     /// Sums over all streams of a character in a range of time, without what makes no sense of several.
     [[nodiscard]] StreamCounts countsOf(const CharacterKey& key, const TimeRange& range) const;
-    /// Every gap in a stream with whose loss it was; the newest ones, oldest first.
-    [[nodiscard]] const std::deque<Gap>& gaps() const;
-    /// The gap that a packet ended; null if it ended none, or one that is forgotten.
-    [[nodiscard]] const Gap* gapEndedBy(std::uint64_t packet) const;
-    /// Calls f for gaps that are yet to be judged, and for samples that are not whole yet.
-    void forEachPending(const std::function<void(const PendingLoss&)>& f) const;
-    /// Calls f(stream, when it was due, cause, first packet) for the newest samples that came in part.
-    void forEachPartialLoss(
-        const std::function<void(const log::StreamKey&, log::Stamp, LossCause, std::uint64_t)>& f) const;
-    [[nodiscard]] log::Stamp judgedUntil() const;
+    /// Every gap in a stream, judged or not, with whose loss it was.
+    [[nodiscard]] const Attribution& attribution() const;
 
     /// One for every packet from begin() to end() of the session.
     [[nodiscard]] const PacketDigests& digests() const;

@@ -5,7 +5,6 @@
 #include "core/log/ip_packet.h"
 #include "core/model/accounting/attribution.h"
 #include "core/model/accounting/count_history.h"
-#include "core/model/incidents/incident.h"
 #include "core/model/session/accounts.h"
 #include "core/model/session/losses.h"
 #include "core/model/session/roster.h"
@@ -64,7 +63,7 @@ std::map<log::SenderId, Untold> untoldOf(const SessionView& session) {
                 [&](log::SenderId sender, std::uint64_t samples) { less(sender, samples); });
         }
     }
-    session.accounts().forEachPending([&](const PendingLoss& loss) {
+    session.accounts().attribution().forEachPending([&](const PendingLoss& loss) {
         if (loss.isUnderWay) {
             less(loss.stream.sender, loss.samples);
         }
@@ -84,7 +83,7 @@ ListedIncident provisionalOf(const SessionView& session, log::SenderId sender, c
     incident.samples = untold.unknown;
     incident.firstStamp = log::Stamp::max();
     incident.version = session.verdicts().incidents().version();
-    session.accounts().forEachPending([&](const PendingLoss& loss) {
+    session.accounts().attribution().forEachPending([&](const PendingLoss& loss) {
         if (loss.stream.sender == sender && !loss.isUnderWay) {
             incident.firstStamp = std::min(incident.firstStamp, loss.from);
             incident.lastStamp = std::max(incident.lastStamp, loss.to);
@@ -127,7 +126,8 @@ bool hasCeased(const SessionView& session, const Incident& incident) {
         return false;
     }
     const bool isLoss = incident.kind == IncidentKind::Loss || incident.kind == IncidentKind::Local;
-    const log::Stamp known = isLoss ? session.accounts().judgedUntil() : session.knownUntil();
+    const log::Stamp known =
+        session.knownUntil() - (isLoss ? session.accounts().attribution().patience() : log::Duration::zero());
     return !incident.lasts() &&
            known - incident.lastStamp >= std::clamp(kPatience * between, kLeast, Incidents::kQuiet);
 }

@@ -21,7 +21,7 @@ void addLosses(LossesByCause& sums, const LossesByCause& more) {
 }
 
 Losses::Losses(const SessionView& session, const std::optional<TimeRange>& range) : m_range(range) {
-    session.accounts().forEachPending([&](const PendingLoss& loss) {
+    session.accounts().attribution().forEachPending([&](const PendingLoss& loss) {
         if (!range || (loss.to >= range->from && loss.to < range->to)) {
             Pending& pending = m_pending[loss.stream];
             if (loss.isUnderWay) {
@@ -34,7 +34,7 @@ Losses::Losses(const SessionView& session, const std::optional<TimeRange>& range
         }
     });
     if (!m_pending.empty()) {
-        for (const Gap& gap : session.accounts().gaps()) {
+        for (const Gap& gap : session.accounts().attribution().gaps()) {
             if (const auto pending = m_pending.find(gap.stream); pending != m_pending.end() && gap.isJudged) {
                 pending->second.settled = std::max<std::uint64_t>(pending->second.settled, gap.lost);
             }
@@ -44,7 +44,8 @@ Losses::Losses(const SessionView& session, const std::optional<TimeRange>& range
         return;
     }
     // Newest first.
-    for (auto one = session.accounts().gaps().rbegin(); one != session.accounts().gaps().rend(); ++one) {
+    for (auto one = session.accounts().attribution().gaps().rbegin();
+         one != session.accounts().attribution().gaps().rend(); ++one) {
         const Gap& gap = *one;
         if (gap.toStamp + kSocketsApart < range->from) {
             break;
@@ -56,7 +57,7 @@ Losses::Losses(const SessionView& session, const std::optional<TimeRange>& range
                 [](std::uint64_t sum, const Gap::Share& share) { return sum + share.lost; });
         }
     }
-    session.accounts().forEachPartialLoss(
+    session.accounts().attribution().forEachPartialLoss(
         [&](const log::StreamKey& stream, log::Stamp stamp, LossCause cause, std::uint64_t /*packet*/) {
             if (stamp >= range->from && stamp < range->to && cause != LossCause::Unknown) {
                 ++m_known[stream][static_cast<std::size_t>(cause)];
@@ -144,16 +145,16 @@ void Losses::takePending(const log::StreamKey& stream, const RangeParts& parts,
 }
 
 SettledLosses::SettledLosses(const SessionView& session, const TimeRange& range) : m_range(range) {
-    const auto& gaps = session.accounts().gaps();
+    const auto& gaps = session.accounts().attribution().gaps();
     m_isWhole = gaps.size() < Attribution::kMostGaps || gaps.front().toStamp < range.from;
     for (auto gap = gaps.rbegin(); gap != gaps.rend() && gap->toStamp + kSocketsApart >= range.from; ++gap) {
         if (gap->isJudged && gap->lost != 0) {
             add(gap->stream, gap->toStamp, gap->lost);
         }
     }
-    session.accounts().forEachPartialLoss([this](const log::StreamKey& stream, log::Stamp stamp,
-                                                 LossCause /*cause*/,
-                                                 std::uint64_t /*packet*/) { add(stream, stamp, 1); });
+    session.accounts().attribution().forEachPartialLoss(
+        [this](const log::StreamKey& stream, log::Stamp stamp, LossCause /*cause*/,
+               std::uint64_t /*packet*/) { add(stream, stamp, 1); });
 }
 
 void SettledLosses::add(const log::StreamKey& stream, log::Stamp stamp, std::uint32_t samples) {

@@ -66,8 +66,8 @@ protected:
     static words::Fact factOf(const Gap& gap) { return gap.evidenceFact(gap.mainCause()); }
     const Gap& onlyGap() {
         follow();
-        EXPECT_EQ(m_session.accounts().gaps().size(), 1U);
-        return m_session.accounts().gaps().front();
+        EXPECT_EQ(m_session.accounts().attribution().gaps().size(), 1U);
+        return m_session.accounts().attribution().gaps().front();
     }
 
     log::Stamp m_at{10s};

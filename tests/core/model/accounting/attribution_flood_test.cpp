@@ -73,7 +73,7 @@ TEST_F(FloodTest, WhatIsKnownOfAGapStaysWhenItsSamplesAreForgotten) {
         put(sample, 0);
     }
     EXPECT_EQ(lostHere(follow()), 2U);
-    EXPECT_EQ(m_session.accounts().gaps().front().lost, 2U);
+    EXPECT_EQ(m_session.accounts().attribution().gaps().front().lost, 2U);
 }
 
 } // namespace

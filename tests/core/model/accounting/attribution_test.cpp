@@ -120,7 +120,7 @@ TEST_F(AttributionTest, TakesAStreamThatEndsForNoLoss) {
         }
     }
     follow();
-    EXPECT_TRUE(m_session.accounts().gaps().empty());
+    EXPECT_TRUE(m_session.accounts().attribution().gaps().empty());
     for (const Stream& stream : m_session.roster().streams()) {
         EXPECT_EQ(stream.accounting.counts().lost, 0U);
     }
@@ -184,8 +184,8 @@ TEST_F(AttributionTest, BlamesTheSenderOnTcp) {
 
 TEST_F(AttributionTest, BlamesTheSenderThatPausesAllItsStreams) {
     silentInBothStreams({});
-    ASSERT_EQ(m_session.accounts().gaps().size(), 2U);
-    for (const Gap& gap : m_session.accounts().gaps()) {
+    ASSERT_EQ(m_session.accounts().attribution().gaps().size(), 2U);
+    for (const Gap& gap : m_session.accounts().attribution().gaps()) {
         EXPECT_EQ(gap.mainCause(), LossCause::Sender);
         EXPECT_EQ(gap.lost, 200U);
         EXPECT_EQ(factOf(gap).kind, words::Kind::Paused);
@@ -205,8 +205,8 @@ TEST_F(AttributionTest, BlamesForEachSampleWhatIsKnownOfIt) {
         }
     }
     follow();
-    ASSERT_EQ(m_session.accounts().gaps().size(), 3U);
-    for (const Gap& gap : m_session.accounts().gaps()) {
+    ASSERT_EQ(m_session.accounts().attribution().gaps().size(), 3U);
+    for (const Gap& gap : m_session.accounts().attribution().gaps()) {
         EXPECT_EQ(gap.of(LossCause::Sender).lost, 200U);
         EXPECT_EQ(gap.of(LossCause::Network).lost, gap.stream.type == 2 ? 0U : 1U);
         EXPECT_EQ(gap.of(LossCause::Unknown).lost, 0U);
@@ -238,8 +238,8 @@ TEST_F(AttributionTest, BlamesTheNetworkWhereSeveralHostsAreSilentTogether) {
         put(sample, {.address = "127.0.0.3:40001"});
     }
     follow();
-    ASSERT_EQ(m_session.accounts().gaps().size(), 2U);
-    for (const Gap& gap : m_session.accounts().gaps()) {
+    ASSERT_EQ(m_session.accounts().attribution().gaps().size(), 2U);
+    for (const Gap& gap : m_session.accounts().attribution().gaps()) {
         EXPECT_EQ(gap.of(LossCause::Network).lost, 100U);
         EXPECT_EQ(factOf(gap).kind, words::Kind::HostsSilent);
         EXPECT_EQ(numberIn(factOf(gap), "hosts"), 2);
@@ -255,7 +255,7 @@ TEST_F(AttributionTest, TakesALateSampleForNoEndOfASilence) {
         }
     }
     follow();
-    const auto& gaps = m_session.accounts().gaps();
+    const auto& gaps = m_session.accounts().attribution().gaps();
     EXPECT_EQ(std::ranges::count_if(gaps, [](const Gap& gap) { return gap.lost != 0; }), 1);
     EXPECT_EQ(gaps.back().of(LossCause::Sender).lost, 200U);
     EXPECT_EQ(
@@ -273,7 +273,7 @@ TEST_F(AttributionTest, TakesNoSampleForEvidenceThatTheStreamWouldNotHaveSent) {
     }
     follow();
     std::uint64_t lost = 0;
-    for (const Gap& gap : m_session.accounts().gaps()) {
+    for (const Gap& gap : m_session.accounts().attribution().gaps()) {
         lost += gap.lost;
         EXPECT_EQ(gap.mainCause(), LossCause::Unknown) << factOf(gap);
     }
@@ -282,8 +282,8 @@ TEST_F(AttributionTest, TakesNoSampleForEvidenceThatTheStreamWouldNotHaveSent) {
 
 TEST_F(AttributionTest, BlamesThisComputerForWhatWasSentWhileItsInputWasRemoved) {
     silentInBothStreams({.afterClosed = true});
-    ASSERT_EQ(m_session.accounts().gaps().size(), 2U);
-    for (const Gap& gap : m_session.accounts().gaps()) {
+    ASSERT_EQ(m_session.accounts().attribution().gaps().size(), 2U);
+    for (const Gap& gap : m_session.accounts().attribution().gaps()) {
         EXPECT_EQ(gap.mainCause(), LossCause::ThisComputer);
         EXPECT_EQ(gap.lost, 200U);
         EXPECT_EQ(factOf(gap).kind, words::Kind::NotListening);
@@ -348,7 +348,7 @@ TEST_F(AttributionTest, TakesBackWhatAChangeOfStepExplains) {
         put(sample, {});
     }
     follow();
-    for (const Gap& gap : m_session.accounts().gaps()) {
+    for (const Gap& gap : m_session.accounts().attribution().gaps()) {
         EXPECT_EQ(gap.lost, 0U) << gap.fromSample;
     }
     EXPECT_EQ(m_session.roster().streams().front().accounting.counts().lost, 0U);
@@ -399,7 +399,7 @@ TEST_F(AttributionTest, IsTheSameInWhateverPortionsTheLogIsRead) {
         Session session(m_log);
         while (session.follow(m_now, portion)) {
         }
-        for (const Gap& gap : session.accounts().gaps()) {
+        for (const Gap& gap : session.accounts().attribution().gaps()) {
             told[portion == 1 ? 0 : 1].push_back(std::to_string(gap.fromSample) + " " +
                                                  std::to_string(gap.lost) + " " +
                                                  say(factOf(gap), words::Form::Sentence));
@@ -428,7 +428,7 @@ TEST_F(AttributionTest, TellsTheListOfPacketsWhatIsMissingStill) {
     put(52, {});
     frames(55, 120);
     follow();
-    EXPECT_EQ(m_session.accounts().gaps().front().lost, 2U);
+    EXPECT_EQ(m_session.accounts().attribution().gaps().front().lost, 2U);
     EXPECT_EQ(m_session.accounts().digests().at(50).gap, 2U);
 }
 

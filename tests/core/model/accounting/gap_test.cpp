@@ -14,8 +14,8 @@ class GapTest : public AttributionTest {
 protected:
     std::uint64_t sumOfGaps() {
         follow();
-        return std::accumulate(m_session.accounts().gaps().begin(), m_session.accounts().gaps().end(),
-                               std::uint64_t{0},
+        return std::accumulate(m_session.accounts().attribution().gaps().begin(),
+                               m_session.accounts().attribution().gaps().end(), std::uint64_t{0},
                                [](std::uint64_t sum, const Gap& gap) { return sum + gap.lost; });
     }
     std::array<std::uint64_t, kLossCauses> causes() {
@@ -42,9 +42,10 @@ protected:
         }
         log.writer().publish();
         session.follow(stamp);
-        EXPECT_EQ(session.accounts().gaps().size(), 1U);
-        return session.accounts().gaps().empty() ? LossCause::ThisComputer
-                                                 : session.accounts().gaps().front().mainCause();
+        EXPECT_EQ(session.accounts().attribution().gaps().size(), 1U);
+        return session.accounts().attribution().gaps().empty()
+                   ? LossCause::ThisComputer
+                   : session.accounts().attribution().gaps().front().mainCause();
     }
 };
 
@@ -90,8 +91,8 @@ TEST_F(GapTest, IsTheSameAcrossTheWrapAroundOfTheCounter) {
     put(0, {.type = 24});
     frames(2, 100);
     follow();
-    ASSERT_FALSE(m_session.accounts().gaps().empty());
-    const Gap& gap = m_session.accounts().gaps().front();
+    ASSERT_FALSE(m_session.accounts().attribution().gaps().empty());
+    const Gap& gap = m_session.accounts().attribution().gaps().front();
     EXPECT_EQ(gap.fromSample, 0xfffffffeU);
     EXPECT_EQ(gap.toSample, 2U);
     EXPECT_EQ(gap.lost, 3U);

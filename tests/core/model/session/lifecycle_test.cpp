@@ -233,8 +233,8 @@ TEST_F(OvertakenTest, PacketsAreThisComputersLossToTheSample) {
     EXPECT_EQ(counts.lost, m_session.accounts().overtaken());
     EXPECT_EQ(counts.samples + counts.lost, 20'200U);
     EXPECT_EQ(stream.lostByCause()[static_cast<std::size_t>(LossCause::ThisComputer)], counts.lost);
-    ASSERT_EQ(m_session.accounts().gaps().size(), 1U);
-    EXPECT_EQ(m_session.accounts().gaps().front().of(LossCause::ThisComputer).evidence,
+    ASSERT_EQ(m_session.accounts().attribution().gaps().size(), 1U);
+    EXPECT_EQ(m_session.accounts().attribution().gaps().front().of(LossCause::ThisComputer).evidence,
               Gap::Evidence::Overtaken);
     const auto told =
         std::ranges::find(m_session.verdicts().incidents().all(), IncidentKind::Overtaken, &Incident::kind);
@@ -294,7 +294,7 @@ TEST(Dropped, PacketsAreThisComputersLossToTheSampleHoweverMany) {
     EXPECT_EQ(counts.lost, 10'560U);
     EXPECT_EQ(counts.restarts, 0U);
     EXPECT_EQ(stream.lostByCause()[static_cast<std::size_t>(LossCause::ThisComputer)], counts.lost);
-    EXPECT_EQ(session.accounts().gaps().size(), 1U);
+    EXPECT_EQ(session.accounts().attribution().gaps().size(), 1U);
 }
 
 } // namespace

@@ -336,14 +336,14 @@ TEST_F(ViewTest, KnowsTheGapThatAPacketEnded) {
     poses(54, 50, at(11s)); // three are lost
     poses(110, 50, at(12s));
     follow();
-    ASSERT_EQ(m_session.accounts().gaps().size(), 2U);
-    EXPECT_EQ(m_session.accounts().gapEndedBy(49), nullptr);
-    ASSERT_NE(m_session.accounts().gapEndedBy(50), nullptr);
-    EXPECT_EQ(m_session.accounts().gapEndedBy(50)->lost, 3U);
-    EXPECT_EQ(m_session.accounts().gapEndedBy(50)->fromSample, 50U);
-    EXPECT_EQ(m_session.accounts().gapEndedBy(51), nullptr);
-    EXPECT_EQ(m_session.accounts().gapEndedBy(100)->lost, 6U);
-    EXPECT_EQ(m_session.accounts().gapEndedBy(1'000), nullptr);
+    ASSERT_EQ(m_session.accounts().attribution().gaps().size(), 2U);
+    EXPECT_EQ(m_session.accounts().attribution().endedBy(49), nullptr);
+    ASSERT_NE(m_session.accounts().attribution().endedBy(50), nullptr);
+    EXPECT_EQ(m_session.accounts().attribution().endedBy(50)->lost, 3U);
+    EXPECT_EQ(m_session.accounts().attribution().endedBy(50)->fromSample, 50U);
+    EXPECT_EQ(m_session.accounts().attribution().endedBy(51), nullptr);
+    EXPECT_EQ(m_session.accounts().attribution().endedBy(100)->lost, 6U);
+    EXPECT_EQ(m_session.accounts().attribution().endedBy(1'000), nullptr);
     EXPECT_EQ(m_session.accounts().digests().nextProblem(0), 50U);
     EXPECT_EQ(m_session.accounts().digests().nextProblem(50), 100U);
 }
