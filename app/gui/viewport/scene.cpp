@@ -11,7 +11,6 @@
 #include "core/model/body/pose_remark.h"
 #include "core/model/body/reference_body.h"
 #include "core/model/session/messages.h"
-#include "core/model/session/prop_names.h"
 
 #include <algorithm>
 #include <cmath>
@@ -97,6 +96,23 @@ void makePalette(const model::CharacterPose& pose, Figure& figure) {
     if (job.validate()) {
         job.run();
     }
+}
+
+/// As its sender calls it, counted from 0: in the scale message (type 13, props follow the body), else in
+/// type 11 (E 2.6). Empty if neither tells.
+std::string propName(const model::SessionView& session, const model::CharacterKey& key,
+                     const model::SegmentLayout& layout, int prop) {
+    const model::NullPose* nullPose = session.messages().nullPose(key);
+    const auto place = static_cast<std::size_t>(layout.body + prop);
+    if (nullPose != nullptr && nullPose->segments.size() == static_cast<std::size_t>(layout.count())) {
+        return nullPose->segments[place].name.shown();
+    }
+    const model::Message* message = session.messages().message(key, wire::PropInformation::kType);
+    const auto* sent =
+        message == nullptr ? nullptr : std::get_if<wire::PropInformation>(&message->datagram.body);
+    const bool isNamed = sent != nullptr && static_cast<std::size_t>(prop) < sent->props.size();
+    return isNamed ? model::ForeignText(sent->props[static_cast<std::size_t>(prop)].name).shown()
+                   : std::string();
 }
 
 } // namespace
@@ -285,7 +301,7 @@ void SceneBuilder::addProps(const model::CharacterPose& pose, Figure& figure) co
         }
         const glm::vec3 origin = pointOf(pose.segments[segment].position);
         figure.props.push_back(
-            {render::propShapeOf(model::propName(m_session, figure.key, pose.layout, prop)),
+            {render::propShapeOf(propName(m_session, figure.key, pose.layout, prop)),
              {render::rigidMotion(turnOf(pose.segments[segment].orientation), glm::vec3(0.0F), origin)}});
         figure.free.push_back({static_cast<int>(segment), origin});
     }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/session/roll.h"
 
-#include <utility>
-
 namespace posewire::model {
 namespace {
 

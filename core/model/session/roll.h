@@ -4,13 +4,14 @@
 #include "core/log/packet.h"
 #include "core/log/sender_table.h"
 #include "core/log/stream_index.h"
+#include "core/model/accounting/packet_digest.h"
 #include "core/model/accounting/stream.h"
 #include "core/model/accounting/stream_figures.h"
 #include "core/model/foreign_text.h"
 #include "core/model/keyed_list.h"
-#include "core/model/session/observed.h"
 #include "core/model/session/sender.h"
 #include "core/model/session/unconfirmed.h"
+#include "core/wire/codec.h"
 
 #include <array>
 #include <cstddef>
@@ -26,6 +27,17 @@
 #include <vector>
 
 namespace posewire::model {
+
+/// A packet on its way through the stages of an ingest, with what each found out for those after it.
+struct Observed {
+    const log::Packet& packet;
+    std::optional<wire::Header> header{};     ///< nothing if it cannot be read
+    const wire::Datagram* datagram = nullptr; ///< null if it cannot be decoded
+    PacketDigest digest{};
+    Sender* sender = nullptr; ///< null if the log does not know it
+    Stream* stream = nullptr;
+    Character* character = nullptr;
+};
 
 /// Sums over senders.
 struct SenderTotals {
