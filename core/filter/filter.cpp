@@ -101,16 +101,13 @@ bool Condition::holdsFor(const ItemAt& at) const {
 
 bool Condition::holdsForTags(const wire::Datagram* datagram) const {
     const auto* metaData = datagram != nullptr ? std::get_if<wire::MetaData>(&datagram->body) : nullptr;
-    std::string_view text = metaData != nullptr ? std::string_view(metaData->text) : std::string_view();
-    while (!text.empty()) {
-        const std::size_t end = text.find('\n');
-        const std::string_view line = text.substr(0, end);
-        const std::size_t colon = line.find(':');
-        const bool isAsked = colon != std::string_view::npos && (tag.empty() || line.substr(0, colon) == tag);
-        if (isAsked && test.holds({0, tag.empty() ? line.substr(0, colon) : line.substr(colon + 1)})) {
+    if (metaData == nullptr) {
+        return false;
+    }
+    for (const wire::Tag& sent : wire::parseTags(metaData->text).tags) {
+        if ((tag.empty() || sent.name == tag) && test.holds({0, tag.empty() ? sent.name : sent.value})) {
             return true;
         }
-        text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
     }
     return false;
 }

@@ -201,16 +201,10 @@ bool TcpFramer::isTrusted(Bytes datagram) {
         return false;
     }
     return std::ranges::none_of(m_scratch.notices, [this](const wire::Notice& notice) {
-        switch (notice.code) {
-        case wire::NoticeCode::UnknownType:
-        case wire::NoticeCode::UnknownLayout: // nothing to check: then the place decides
-            return !m_isInStep;
-        case wire::NoticeCode::TrailingBytes:
-        case wire::NoticeCode::SizeDisagrees:
-            return true;
-        default:
-            return false;
-        }
+        using enum wire::NoticeCode;
+        const bool isUnknown = notice.code == UnknownType || notice.code == UnknownLayout;
+        // Nothing to check: then the place decides.
+        return isUnknown ? !m_isInStep : notice.code == TrailingBytes || notice.code == SizeDisagrees;
     });
 }
 

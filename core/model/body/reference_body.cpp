@@ -28,16 +28,8 @@ Vector3d stretch(int index, const BodyProportions& proportions) {
     if (isLeg(index)) {
         return {1.0, 1.0, proportions.legs};
     }
-    switch (index) {
-    case kPelvis:
-        return {1.0, proportions.hips, 1.0};
-    case kT8:
-    case kRightShoulder:
-    case kLeftShoulder:
-        return {1.0, proportions.shoulders, 1.0};
-    default:
-        return Vector3d::Ones();
-    }
+    const bool isShoulder = index == kT8 || index == kRightShoulder || index == kLeftShoulder;
+    return {1.0, index == kPelvis ? proportions.hips : isShoulder ? proportions.shoulders : 1.0, 1.0};
 }
 
 } // namespace

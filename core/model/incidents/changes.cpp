@@ -7,10 +7,14 @@
 #include <algorithm>
 #include <cstdlib>
 #include <functional>
-#include <string_view>
-#include <utility>
 
 namespace posewire::model {
+Occurrence occurrenceOf(IncidentKind kind, const log::StreamKey& stream, const Verdict& verdict) {
+    Occurrence one = Occurrence::at(kind, stream.sender, verdict.stamp, verdict.packet);
+    one.character = stream.character;
+    return one;
+}
+
 namespace {
 
 constexpr std::int64_t kJumpMs = 500;
@@ -32,14 +36,8 @@ bool isAbout(std::int64_t ms, std::int64_t otherMs) {
     return std::abs(ms - otherMs) <= std::max<std::int64_t>(50, std::abs(otherMs) / 10);
 }
 
-Occurrence changeOf(IncidentKind kind, const log::StreamKey& stream, const Verdict& verdict) {
-    Occurrence one = Occurrence::at(kind, stream.sender, verdict.stamp, verdict.packet);
-    one.character = stream.character;
-    return one;
-}
-
 Occurrence timeCodeOf(const log::StreamKey& stream, const Verdict& verdict) {
-    return changeOf(IncidentKind::TimeCode, stream, verdict);
+    return occurrenceOf(IncidentKind::TimeCode, stream, verdict);
 }
 
 /// The counter went on where it stopped, as did the time code or the clock: no sample was made meanwhile.
@@ -94,7 +92,7 @@ std::optional<Occurrence> stepChange(Stream& stream, const Verdict& verdict) {
     const std::uint32_t step = stream.accounting.step();
     const std::uint64_t datagrams = stream.accounting.datagrams();
     const bool wasKnown = datagrams - stream.toldStepSince >= kSettled;
-    Occurrence one = changeOf(IncidentKind::Step, stream.key, verdict);
+    Occurrence one = occurrenceOf(IncidentKind::Step, stream.key, verdict);
     one.type = stream.key.type;
     if (step == 0) {
         if (stream.toldStep == 0 || stream.isUneven) {

@@ -23,6 +23,10 @@
 /// time codes.
 namespace posewire::model {
 
+/// At a verdict, of the character whose stream it is about.
+[[nodiscard]] Occurrence occurrenceOf(IncidentKind kind, const log::StreamKey& stream,
+                                      const Verdict& verdict);
+
 /// Nothing of a character came from one stamp to the other.
 struct Silence {
     log::Stamp from{};

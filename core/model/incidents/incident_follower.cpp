@@ -20,12 +20,6 @@ Occurrence occurrenceOf(IncidentKind kind, const log::Packet& packet) {
     return Occurrence::at(kind, packet.sender, packet.stamp, packet.number);
 }
 
-Occurrence occurrenceOf(IncidentKind kind, const log::StreamKey& stream, const Verdict& verdict) {
-    Occurrence one = Occurrence::at(kind, stream.sender, verdict.stamp, verdict.packet);
-    one.character = stream.character;
-    return one;
-}
-
 Occurrence ofStream(IncidentKind kind, const log::StreamKey& stream, const Verdict& verdict) {
     Occurrence one = occurrenceOf(kind, stream, verdict);
     one.type = stream.type;

@@ -64,10 +64,6 @@ std::uint64_t Incidents::numberNow(std::uint64_t number) const {
     return joined == m_joined.end() ? number : joined->second;
 }
 
-Incident* Incidents::findOwn(std::uint64_t number) {
-    return const_cast<Incident*>(find(number));
-}
-
 const Incident* Incidents::find(std::uint64_t number) const {
     number = numberNow(number);
     const auto place = std::ranges::lower_bound(m_incidents, number, {}, &Incident::number);

@@ -91,7 +91,7 @@ private:
     Incident& begin(const Occurrence& one);
     void add(Incident& incident, const Occurrence& one);
     Incident::Part* partOf(Incident& incident, const Incident::Part& one);
-    [[nodiscard]] Incident* findOwn(std::uint64_t number);
+    [[nodiscard]] Incident* findOwn(std::uint64_t number) { return const_cast<Incident*>(find(number)); }
     [[nodiscard]] std::deque<Incident>::iterator placeOf(std::uint64_t number);
     [[nodiscard]] std::uint64_t numberNow(std::uint64_t number) const;
     void join(std::uint64_t to, std::uint64_t from);

@@ -27,15 +27,17 @@ bool isTooLarge(const log::Packet& packet) {
     return header && countsSamples(header->type()) && packet.bytes.size() > kMostMessageBytes;
 }
 
-/// Hands out the first datagram of each sample before `end` from a stamp on, at most the newest `most`;
-/// counts those of which the visitor says that they were read.
+/// Hands out the first datagram of each sample of a stream from a stamp on, at most the newest `most`; counts
+/// those of which the visitor says that they were read.
 template <class Visitor>
-std::size_t visitFirsts(const log::StreamEntries& entries, std::size_t end, log::Stamp fromStamp,
+std::size_t visitFirsts(const Moment& moment, const log::StreamKey& key, log::Stamp fromStamp,
                         std::size_t most, Visitor&& visitor) {
-    const auto before = entries.atOrBeforeStamp(fromStamp - log::Duration(1));
+    const log::StreamEntries* entries = moment.entriesOf(key);
+    const std::size_t end = entries != nullptr ? moment.countOf(*entries) : 0;
+    const auto before = end != 0 ? entries->atOrBeforeStamp(fromStamp - log::Duration(1)) : std::nullopt;
     std::size_t visited = 0;
     for (std::size_t i = std::max(before ? *before + 1 : 0, end > most ? end - most : 0); i < end; ++i) {
-        const log::StreamEntry& entry = entries[i];
+        const log::StreamEntry& entry = (*entries)[i];
         visited += entry.datagram == 0 && visitor(entry) ? 1 : 0;
     }
     return visited;
@@ -147,9 +149,7 @@ const Message* Messages::message(const CharacterKey& key, std::uint8_t type) con
 
 std::size_t Messages::visit(const log::StreamKey& key, log::Stamp fromStamp, std::size_t most,
                             const std::function<void(const Message&)>& visitor) const {
-    const log::StreamEntries* stream = m_moment.entriesOf(key);
-    const std::size_t count = stream != nullptr ? m_moment.countOf(*stream) : 0;
-    return count == 0 ? 0 : visitFirsts(*stream, count, fromStamp, most, [&](const log::StreamEntry& entry) {
+    return visitFirsts(m_moment, key, fromStamp, most, [&](const log::StreamEntry& entry) {
         const bool isRead = entry.isLast && readWhole(entry, m_decoded->visited);
         if (isRead) {
             visitor(m_decoded->visited);
@@ -161,9 +161,7 @@ std::size_t Messages::visit(const log::StreamKey& key, log::Stamp fromStamp, std
 std::size_t
 Messages::visitHeaders(const log::StreamKey& key, log::Stamp fromStamp, std::size_t most,
                        const std::function<void(log::Stamp, const wire::Header&)>& visitor) const {
-    const log::StreamEntries* stream = m_moment.entriesOf(key);
-    const std::size_t count = stream != nullptr ? m_moment.countOf(*stream) : 0;
-    return count == 0 ? 0 : visitFirsts(*stream, count, fromStamp, most, [&](const log::StreamEntry& entry) {
+    return visitFirsts(m_moment, key, fromStamp, most, [&](const log::StreamEntry& entry) {
         const auto packet = m_moment.packet(entry.packet);
         const auto header = packet ? wire::decodeHeader(packet->bytes) : tl::unexpected(wire::WireError{});
         if (header) {
