@@ -11,7 +11,6 @@
 #include "core/model/session/roster.h"
 #include "core/wire/type_table.h"
 
-#include <QString>
 #include <QSysInfo>
 
 #include <algorithm>

@@ -172,12 +172,6 @@ std::string LiveDisplay::show(const std::vector<std::string>& lines, std::size_t
     return text + "\x1b[J";
 }
 
-TableWriter::TableWriter(int descriptor, bool isTerminal)
-    : m_descriptor(descriptor),
-      m_isTerminal(isTerminal),
-      m_display(isTerminal),
-      m_thread([this] { run(); }) {}
-
 TableWriter::~TableWriter() {
     {
         const std::lock_guard lock(m_mutex);

@@ -43,7 +43,11 @@ private:
 class TableWriter {
 public:
     /// Writes to this descriptor, which stays the caller's; on a terminal one table over the other.
-    TableWriter(int descriptor, bool isTerminal);
+    TableWriter(int descriptor, bool isTerminal)
+        : m_descriptor(descriptor),
+          m_isTerminal(isTerminal),
+          m_display(isTerminal),
+          m_thread([this] { run(); }) {}
     /// What is not written by now is left out.
     ~TableWriter();
     TableWriter(const TableWriter&) = delete;

@@ -2,7 +2,6 @@
 #include "app/net/allow_list.h"
 
 #include <QHostInfo>
-#include <QNetworkInterface>
 
 #include <algorithm>
 #include <cctype>

@@ -87,10 +87,6 @@ NetResult<void> DatagramSender::send(std::span<const std::byte> datagram) {
     return {};
 }
 
-NetResult<void> DatagramSender::flush() {
-    return m_tcp ? waitUntilUnsent(0) : NetResult<void>();
-}
-
 /// Waits until TCP has at most this many bytes left to send.
 NetResult<void> DatagramSender::waitUntilUnsent(qint64 most) {
     while (m_tcp->bytesToWrite() > most) {

@@ -66,7 +66,7 @@ public:
     NetResult<void> send(std::span<const std::byte> datagram);
 
     /// Waits at most five seconds for TCP to send everything.
-    NetResult<void> flush();
+    NetResult<void> flush() { return m_tcp ? waitUntilUnsent(0) : NetResult<void>(); }
 
     /// The address that the target sees as the sender's: "127.0.0.1:40001".
     [[nodiscard]] std::string localAddress() const;

@@ -125,10 +125,6 @@ bool Receiver::remove(InputId id) {
     return true;
 }
 
-void Receiver::flush() {
-    m_commands.call([&] { m_queue.moveTo(m_log); });
-}
-
 bool Receiver::isHeldUp() const {
     constexpr log::Duration kLate = std::chrono::milliseconds(50);
     constexpr log::Duration kMost = std::chrono::seconds(1);

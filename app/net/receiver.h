@@ -122,7 +122,9 @@ public:
     }
 
     /// Returns once everything submitted before is in the log.
-    void flush();
+    void flush() {
+        m_commands.call([&] { m_queue.moveTo(m_log); });
+    }
 
     static constexpr std::size_t kMostPeers = 64; ///< of one TCP listener
 

@@ -116,9 +116,6 @@ struct Relay::Target {
     }
 };
 
-Relay::Relay(const log::PacketLog& log, const log::Clock& clock)
-    : m_log(log), m_clock(clock), m_follower(log), m_thread([this] { run(); }) {}
-
 Relay::~Relay() {
     // As a command: a thread that saw a flag earlier would end before a queued command and never answer it.
     m_commands.call([this] { m_isStopping = true; });

@@ -57,7 +57,8 @@ public:
     static constexpr log::Duration kHeardAfter = std::chrono::seconds(3);
 
     /// Both must outlive it.
-    Relay(const log::PacketLog& log, const log::Clock& clock);
+    Relay(const log::PacketLog& log, const log::Clock& clock)
+        : m_log(log), m_clock(clock), m_follower(log), m_thread([this] { run(); }) {}
     ~Relay();
 
     /// Forwards from now on. Resolves names, which may take seconds. Refuses a port that one of `inputs`

@@ -4,8 +4,6 @@
 #include "app/net/receiver.h"
 #include "app/net/socket_options.h"
 
-#include <QHostAddress>
-
 #include <algorithm>
 #include <array>
 #include <tuple>

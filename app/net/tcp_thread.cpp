@@ -7,8 +7,6 @@
 
 namespace posewire::net {
 
-TcpThread::TcpThread(const TcpContext& context) : m_context(context), m_thread([this] { run(); }) {}
-
 TcpThread::~TcpThread() {
     m_isStopping.store(true, std::memory_order_release);
     m_events.wake();

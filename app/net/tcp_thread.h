@@ -102,7 +102,7 @@ protected:
 class TcpThread {
 public:
     /// The parts of `context` must outlive it.
-    explicit TcpThread(const TcpContext& context);
+    explicit TcpThread(const TcpContext& context) : m_context(context), m_thread([this] { run(); }) {}
 
     /// Ends all connections. The queue must be emptied meanwhile, or be closed.
     ~TcpThread();

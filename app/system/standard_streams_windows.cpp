@@ -2,7 +2,6 @@
 #include "app/system/standard_streams.h"
 
 #include <cstdio>
-#include <string_view>
 
 #include <windows.h>
 

@@ -56,9 +56,6 @@ DiskHistory::start(PacketLog& log, const DiskHistoryChoice& choice, const Record
     return history;
 }
 
-DiskHistory::DiskHistory(PacketLog& log, const DiskHistoryChoice& choice, const RecordingInfo& info)
-    : m_log(log), m_choice(choice), m_info(info), m_follower(log), m_senders(log.senders()) {}
-
 DiskHistory::~DiskHistory() {
     m_thread = {};
     m_log.past().dropBefore(UINT64_MAX);
@@ -163,10 +160,6 @@ tl::expected<std::string, FileError> DiskHistory::createNext() {
             return tl::unexpected(sink.error());
         }
     }
-}
-
-DiskHistory::Result DiskHistory::endFile() {
-    return m_writer->addStatistics().and_then([this] { return handOver(); });
 }
 
 /// The disk is full, say. What was not handed over by now is missing in the history.

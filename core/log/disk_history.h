@@ -63,7 +63,8 @@ private:
         std::uint64_t bytes = 0;
     };
 
-    DiskHistory(PacketLog& log, const DiskHistoryChoice& choice, const RecordingInfo& info);
+    DiskHistory(PacketLog& log, const DiskHistoryChoice& choice, const RecordingInfo& info)
+        : m_log(log), m_choice(choice), m_info(info), m_follower(log), m_senders(log.senders()) {}
     void run(const std::stop_token& stop);
     Result follow(const std::stop_token& stop);
     Result write(const Packet& packet);
@@ -71,7 +72,9 @@ private:
     /// Whose first packet is `first`.
     Result beginFile(std::uint64_t first);
     tl::expected<std::string, FileError> createNext();
-    Result endFile();
+    Result endFile() {
+        return m_writer->addStatistics().and_then([this] { return handOver(); });
+    }
     /// Goes on in a new file where others made room.
     Result makeRoom(const FileError& why);
     void dropOldest();

@@ -100,9 +100,6 @@ ClockStep Timeline::step(std::size_t index) const {
     return m_noticed[index];
 }
 
-ClockWatch::ClockWatch(Timeline& timeline, const Clock& clock)
-    : m_timeline(timeline), m_clock(clock), m_now(timeline.now(clock)), m_stepAfter(m_now) {}
-
 Stamp ClockWatch::look() {
     const auto ahead = m_timeline.wallAhead(m_clock);
     if (ahead && std::chrono::abs(*ahead - m_setBy) >= kLeastStep) {

@@ -62,7 +62,8 @@ public:
     /// The reading of two clocks one after the other is not exact, and less than this disturbs no figure.
     static constexpr Duration kLeastStep = std::chrono::milliseconds(1);
 
-    ClockWatch(Timeline& timeline, const Clock& clock);
+    ClockWatch(Timeline& timeline, const Clock& clock)
+        : m_timeline(timeline), m_clock(clock), m_now(timeline.now(clock)), m_stepAfter(m_now) {}
 
     /// To be called after packets were read and before they are stamped: a step between two calls is between
     /// their packets. Returns now.

@@ -129,10 +129,6 @@ ForeignText::ForeignText(std::string_view bytes, std::nullptr_t) : m_shown(clipp
     }
 }
 
-std::string ForeignText::html() const {
-    return htmlText(m_shown);
-}
-
 std::string ForeignText::csv() const {
     return csvText(m_shown);
 }

@@ -10,6 +10,9 @@
 
 namespace posewire::model {
 
+/// Text with the entities of HTML for & < > " and '.
+[[nodiscard]] std::string htmlText(std::string_view text);
+
 /// What a sender or a file wrote: names, tags, addresses, comments. It may hold anything, so nothing shows it
 /// as it came: who shows it asks for the form that its place needs. All forms but exact() are made of what is
 /// shown: clipped, and each character that is not seen, or that changes how others are, as a symbol. Controls
@@ -30,7 +33,7 @@ public:
     /// Plain text of one line, for widgets and terminals: no control character is left.
     [[nodiscard]] const std::string& shown() const { return m_shown; }
     /// For HTML, in text and in quoted attributes.
-    [[nodiscard]] std::string html() const;
+    [[nodiscard]] std::string html() const { return htmlText(m_shown); }
     /// For a cell of a table, before it is quoted: see csvText().
     [[nodiscard]] std::string csv() const;
     /// Names one file in the folder it is put into, whatever was written: no separators, no leading dot or
@@ -68,9 +71,6 @@ private:
 
 /// The same symbols without a clip, for texts of ours that quote foreign ones; line breaks and tabs stay.
 [[nodiscard]] std::string visibleText(std::string_view text);
-
-/// Text with the entities of HTML for & < > " and '.
-[[nodiscard]] std::string htmlText(std::string_view text);
 
 /// A text that a spreadsheet takes for no formula: after an apostrophe where it begins with = + - @, a tab or
 /// a carriage return.

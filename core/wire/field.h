@@ -9,7 +9,6 @@
 #include <string_view>
 #include <tuple>
 #include <type_traits>
-#include <vector>
 
 /// The vocabulary in which layouts are declared. A layout is a tuple of fields; decoding, encoding, sizes,
 /// the field tree, JSON and the protocol reference all walk that tuple, so that a field is written down once.

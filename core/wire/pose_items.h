@@ -3,7 +3,6 @@
 
 #include "core/wire/messages.h"
 
-#include <utility>
 #include <variant>
 
 /// The segments of poses (types 01, 02, 05, 21 and 22), whatever the message.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/export/motion/motion_writer.h"
 
-#include <array>
 #include <charconv>
 
 namespace posewire::exporting {

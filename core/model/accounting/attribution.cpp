@@ -174,10 +174,6 @@ const Gap* Attribution::recount(Stream& stream, std::optional<std::uint32_t> aro
     return nullptr;
 }
 
-void Attribution::advance(log::Stamp stamp) {
-    judgeDue(stamp, m_lastPacket + 1);
-}
-
 /// By the packets up to one.
 void Attribution::judgeDue(log::Stamp stamp, std::uint64_t packet, bool isAll) {
     if (m_lateSeen && stamp - *m_lateSeen > kForgetLate) {

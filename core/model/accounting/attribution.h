@@ -71,7 +71,7 @@ public:
     /// Nothing more comes: judges all.
     void settle() { judgeDue({}, m_lastPacket + 1, true); }
     /// Time passes without packets: judges what is due.
-    void advance(log::Stamp stamp);
+    void advance(log::Stamp stamp) { judgeDue(stamp, m_lastPacket + 1); }
     /// What waits of the stream is judged before its accounting forgets it.
     static void expectJudgement(Stream& stream);
     /// A verdict of the stream's accounting.

@@ -7,7 +7,6 @@
 #include "core/model/accounting/sample_window.h"
 #include "core/model/accounting/stream_counts.h"
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>

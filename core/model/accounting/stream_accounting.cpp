@@ -2,7 +2,6 @@
 #include "core/model/accounting/stream_accounting.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <cstring>
 #include <utility>
 

@@ -2,7 +2,6 @@
 #include "core/model/accounting/stream_figures.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>

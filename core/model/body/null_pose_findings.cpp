@@ -4,7 +4,6 @@
 #include "core/model/body/null_pose_measures.h"
 #include "core/model/body/reference_body.h"
 #include "core/model/body/spaces.h"
-#include "core/model/text.h"
 
 #include <algorithm>
 #include <cctype>

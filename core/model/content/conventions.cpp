@@ -4,7 +4,6 @@
 #include "core/model/body/segments.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace posewire::model {
 namespace {

@@ -11,7 +11,6 @@
 #include <bitset>
 #include <cmath>
 #include <span>
-#include <type_traits>
 #include <utility>
 
 namespace posewire::model {

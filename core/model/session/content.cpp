@@ -5,7 +5,6 @@
 #include "core/model/body/null_pose.h"
 #include "core/model/body/null_pose_findings.h"
 #include "core/model/incidents/incident_follower.h"
-#include "core/model/text.h"
 #include "core/wire/type_table.h"
 
 #include <algorithm>
@@ -15,7 +14,6 @@
 #include <numeric>
 #include <optional>
 #include <set>
-#include <string>
 #include <utility>
 #include <variant>
 #include <vector>

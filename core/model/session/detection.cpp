@@ -7,7 +7,6 @@
 #include "core/wire/type_table.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace posewire::model {

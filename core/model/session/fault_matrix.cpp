@@ -4,7 +4,6 @@
 #include "core/model/session/roster.h"
 
 #include <algorithm>
-#include <functional>
 #include <numeric>
 
 namespace posewire::model {

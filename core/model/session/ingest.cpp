@@ -4,8 +4,6 @@
 #include "core/model/body/pose_messages.h"
 #include "core/wire/type_table.h"
 
-#include <algorithm>
-
 namespace posewire::model {
 namespace {
 
@@ -24,13 +22,6 @@ bool keepsNewest(const log::Packet& packet, const wire::Header& header) {
 }
 
 } // namespace
-
-Ingest::Ingest(const log::PacketLog& log)
-    : m_log(log),
-      m_follower(log),
-      m_counting(log.scratch(), m_roll, m_incidents),
-      m_roll(log.senders(), m_counting),
-      m_content(m_roll, m_incidents) {}
 
 bool Ingest::follow(log::Stamp now, std::size_t most) {
     const std::size_t count = takeNew(now, most);

@@ -26,7 +26,12 @@ public:
     /// 3,000 bytes.
     static constexpr std::size_t kMostNewestBytes = 4096;
 
-    explicit Ingest(const log::PacketLog& log);
+    explicit Ingest(const log::PacketLog& log)
+        : m_log(log),
+          m_follower(log),
+          m_counting(log.scratch(), m_roll, m_incidents),
+          m_roll(log.senders(), m_counting),
+          m_content(m_roll, m_incidents) {}
 
     /// Reads at most `most` new packets; true if there were any.
     bool follow(log::Stamp now, std::size_t most);

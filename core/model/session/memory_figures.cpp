@@ -8,7 +8,6 @@
 #include "core/model/session/messages.h"
 
 #include <algorithm>
-#include <array>
 #include <functional>
 #include <numeric>
 

@@ -4,7 +4,6 @@
 #include "core/log/packet_log.h"
 #include "core/model/session/session.h"
 
-#include <cstdint>
 #include <memory>
 
 namespace posewire::model {

@@ -4,7 +4,6 @@
 #include "core/model/session/decoded.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace posewire::model {
 namespace {

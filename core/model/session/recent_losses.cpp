@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/session/recent_losses.h"
 
-#include "core/model/incidents/thresholds.h"
 #include "core/model/session/verdict.h"
 
 #include <algorithm>

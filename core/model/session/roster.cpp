@@ -6,7 +6,6 @@
 #include "core/model/session/ingest.h"
 
 #include <algorithm>
-#include <set>
 #include <string>
 #include <utility>
 

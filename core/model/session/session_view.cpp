@@ -45,10 +45,6 @@ SessionView::SessionView(const Moment& moment, const SessionView* paused)
 
 SessionView::~SessionView() = default;
 
-const SessionView& SessionView::atNow() const {
-    return m_moment.isPaused() ? *m_ownNow : *this;
-}
-
 std::uint64_t SessionView::end() const {
     return m_moment.ingest().end();
 }

@@ -30,7 +30,7 @@ public:
     SessionView& operator=(const SessionView&) = delete;
 
     /// The session as it is now: this view while the cursor follows, else another of the same session.
-    [[nodiscard]] const SessionView& atNow() const;
+    [[nodiscard]] const SessionView& atNow() const { return m_moment.isPaused() ? *m_ownNow : *this; }
 
     [[nodiscard]] const Roster& roster() const { return *m_roster; }
     [[nodiscard]] const Accounts& accounts() const { return *m_accounts; }

@@ -7,7 +7,6 @@
 #include "core/model/session/ingest.h"
 #include "core/model/session/messages.h"
 #include "core/model/session/recent_losses.h"
-#include "core/model/session/roster.h"
 #include "core/wire/messages.h"
 
 #include <algorithm>
