@@ -6,6 +6,7 @@
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
 #include "app/gui/panels/cell_delegate.h"
+#include "app/gui/theme/event_watch.h"
 
 #include <QItemSelectionModel>
 
@@ -43,12 +44,8 @@ constexpr ActionInfo alignment(const char* id, const char* text) {
 
 template <DifferenceFrame frame>
 constexpr ActionInfo overlay(const char* id, const char* text) {
-    return {id,
-            kCompare,
-            text,
-            "",
-            CompareDo::call<&ComparePanel::setFrame, frame>,
-            CompareDo::is<&ComparePanel::frame, frame>};
+    constexpr auto set = CompareDo::call<&ComparePanel::setFrame, frame>;
+    return {id, kCompare, text, "", set, CompareDo::is<&ComparePanel::frame, frame>};
 }
 
 constexpr ActionInfo kCompareActions[] = {
@@ -151,6 +148,9 @@ ComparePanel::ComparePanel(model::SessionView& view, Commands& commands, Playbac
     m_table->setSortingEnabled(true);
     layOut();
     connectParts();
+    new EventWatch(this, QEvent::Resize, [this] {
+        m_splitter->setOrientation(width() > height() * 3 / 2 ? Qt::Horizontal : Qt::Vertical);
+    });
     refresh();
 }
 
@@ -395,11 +395,6 @@ void ComparePanel::restoreState(const QJsonObject& state) {
         choice.frame = isKnown ? static_cast<model::DifferenceFrame>(frame) : choice.frame;
         choice.isBeside = state["beside"].toBool(choice.isBeside);
     });
-}
-
-void ComparePanel::resizeEvent(QResizeEvent* event) {
-    Panel::resizeEvent(event);
-    m_splitter->setOrientation(width() > height() * 3 / 2 ? Qt::Horizontal : Qt::Vertical);
 }
 
 } // namespace posewire::gui

@@ -47,9 +47,6 @@ public:
     void stopWork() { m_comparing.stop(); }
     void save();
 
-protected:
-    void resizeEvent(QResizeEvent* event) override;
-
 private:
     [[nodiscard]] const ComparisonState& comparison() const { return m_comparing.state(); }
     [[nodiscard]] const ComparisonChoice& choice() const { return comparison().choice; }

@@ -2,6 +2,7 @@
 #include "app/gui/panels/incidents_panel.h"
 
 #include "app/gui/models/text.h"
+#include "app/gui/theme/event_watch.h"
 #include "app/gui/theme/theme.h"
 
 #include <QActionGroup>
@@ -58,6 +59,7 @@ IncidentBar::IncidentBar(QWidget* parent) : QWidget(parent) {
         button->installEventFilter(this);
     }
     setFilter({});
+    new EventWatch(this, QEvent::PaletteChange, [this] { paintSeverities(); });
 }
 
 /// In a narrow dock the last ones go into a menu.
@@ -176,13 +178,6 @@ bool IncidentBar::eventFilter(QObject* watched, QEvent* event) {
         return true;
     }
     return QWidget::eventFilter(watched, event);
-}
-
-void IncidentBar::changeEvent(QEvent* event) {
-    QWidget::changeEvent(event);
-    if (event->type() == QEvent::PaletteChange && m_text != nullptr) {
-        paintSeverities();
-    }
 }
 
 } // namespace posewire::gui

@@ -33,7 +33,6 @@ signals:
 
 protected:
     bool eventFilter(QObject* watched, QEvent* event) override;
-    void changeEvent(QEvent* event) override;
 
 private:
     QAction* addToggle(const char* name, const QString& text, const QString& toolTip);

@@ -6,6 +6,7 @@
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
 #include "app/gui/panels/cell_delegate.h"
+#include "app/gui/theme/event_watch.h"
 #include "app/gui/theme/theme.h"
 #include "core/model/session/accounts.h"
 #include "core/model/session/roster.h"
@@ -74,6 +75,16 @@ InspectorPanel::InspectorPanel(model::SessionView& view, Commands& commands, QWi
       m_problems(richLabel(this)),
       m_detail(richLabel(this)) {
     layOut();
+    new EventWatch(this, QEvent::Resize, [this] {
+        const bool isWide = width() > 2 * height() && width() > fontMetrics().averageCharWidth() * 100;
+        m_splitter->setOrientation(isWide ? Qt::Horizontal : Qt::Vertical);
+    });
+    new EventWatch(this, QEvent::StyleChange, [this] {
+        if (m_isShown) {
+            describeProblems();
+            describeCurrent();
+        }
+    });
     connect(m_fields, &FieldView::nodeEntered, this, &InspectorPanel::hover);
     connect(m_fields, &FieldView::nodeSelected, this, &InspectorPanel::select);
     connect(m_bytes, &ByteView::hovered, this, [this](std::int64_t offset) {
@@ -402,20 +413,6 @@ QString InspectorPanel::summary() const {
     }
     const QString number = tr("packet %1").arg(grouped(m_document->number));
     return m_view.choices().selection.packet ? number : tr("following · %1").arg(number);
-}
-
-void InspectorPanel::resizeEvent(QResizeEvent* event) {
-    Panel::resizeEvent(event);
-    const bool isWide = width() > 2 * height() && width() > fontMetrics().averageCharWidth() * 100;
-    m_splitter->setOrientation(isWide ? Qt::Horizontal : Qt::Vertical);
-}
-
-void InspectorPanel::changeEvent(QEvent* event) {
-    Panel::changeEvent(event);
-    if (event->type() == QEvent::StyleChange && m_isShown) {
-        describeProblems();
-        describeCurrent();
-    }
 }
 
 /// A part of the panel, so that its entries reach what is private there.

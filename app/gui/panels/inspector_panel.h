@@ -37,10 +37,6 @@ public:
     void toggleHold();
     [[nodiscard]] bool isHeld() const { return m_view.choices().selection.packet.has_value(); }
 
-protected:
-    void resizeEvent(QResizeEvent* event) override;
-    void changeEvent(QEvent* event) override;
-
 private:
     struct Actions;
 

@@ -5,6 +5,7 @@
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
 #include "app/gui/panels/cell_delegate.h"
+#include "app/gui/theme/event_watch.h"
 #include "app/gui/theme/help_link.h"
 #include "core/model/session/roster.h"
 
@@ -35,6 +36,9 @@ NullPoseNotices::NullPoseNotices(QWidget* parent) : QTextBrowser(parent) {
     document()->setDocumentMargin(fontMetrics().height() * 0.35);
     connect(this, &QTextBrowser::anchorClicked, this,
             [this](const QUrl& url) { emit segmentPicked(url.path().toInt()); });
+    for (const QEvent::Type look : {QEvent::PaletteChange, QEvent::FontChange}) {
+        new EventWatch(this, look, [this] { write(); });
+    }
 }
 
 void NullPoseNotices::setFindings(const std::vector<model::NullPoseFinding>& findings) {
@@ -69,13 +73,6 @@ void NullPoseNotices::fitHeight(int most) {
     setFixedHeight(std::clamp(needed, fontMetrics().height(), std::max(most, fontMetrics().height() * 3)));
 }
 
-void NullPoseNotices::changeEvent(QEvent* event) {
-    QTextBrowser::changeEvent(event);
-    if (event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange) {
-        write();
-    }
-}
-
 NullPosePanel::NullPosePanel(model::SessionView& view, Commands& commands, QWidget* parent)
     : Panel(view, commands, parent),
       m_facts(nullPoseFacts(m_reading)),
@@ -91,6 +88,7 @@ NullPosePanel::NullPosePanel(model::SessionView& view, Commands& commands, QWidg
     });
     connect(m_figure, &NullPoseFigure::segmentPicked, this, &NullPosePanel::selectPlace);
     connect(m_figure, &NullPoseFigure::pointPicked, this, &NullPosePanel::selectPoint);
+    new EventWatch(this, QEvent::Resize, [this] { arrange(); });
 }
 
 void NullPosePanel::makeTables() {
@@ -287,11 +285,6 @@ void NullPosePanel::arrange() {
     if (!m_notices->isHidden()) {
         m_notices->fitHeight(static_cast<int>(height() * kNoticeShare));
     }
-}
-
-void NullPosePanel::resizeEvent(QResizeEvent* event) {
-    Panel::resizeEvent(event);
-    arrange();
 }
 
 QString NullPosePanel::summary() const {

@@ -38,7 +38,6 @@ signals:
     void segmentPicked(int segment);
 
 protected:
-    void changeEvent(QEvent* event) override;
     /// Nothing: whatever was sent, no file is read for it.
     QVariant loadResource(int /*type*/, const QUrl& /*name*/) override { return {}; }
 
@@ -67,9 +66,6 @@ public:
     void copyCsv() { copyAs(exporting::formatFor<exporting::NullPoseSheet>(".csv")); }
     void copyJson() { copyAs(exporting::formatFor<exporting::NullPoseSheet>(".json")); }
     void copyContradictions() { copyText(findingsText(m_reading.findings())); }
-
-protected:
-    void resizeEvent(QResizeEvent* event) override;
 
 private:
     using SheetFormat = exporting::Format<exporting::NullPoseSheet>;

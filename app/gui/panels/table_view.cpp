@@ -4,6 +4,7 @@
 #include "app/gui/base/saving.h"
 #include "app/gui/models/column.h"
 #include "app/gui/panels/cell_delegate.h"
+#include "app/gui/theme/event_watch.h"
 #include "app/gui/theme/theme.h"
 #include "app/gui/theme/widgets.h"
 
@@ -55,7 +56,10 @@ TableView::TableView(const QString& name, QWidget* parent)
     setTabKeyNavigation(false);
     setExpandsOnDoubleClick(false);
     setHeader(m_columns);
-    setIndentation(fontMetrics().height() * 4 / 5);
+    const auto indent = [this] { setIndentation(fontMetrics().height() * 4 / 5); };
+    indent();
+    new EventWatch(this, QEvent::FontChange, indent);
+    new EventWatch(this, QEvent::StyleChange, indent);
     setCornerWidget(new QWidget(this)); // else the style draws a box between the scroll bars
 }
 
@@ -190,13 +194,6 @@ void TableView::keyPressEvent(QKeyEvent* event) {
         return;
     }
     QTreeView::keyPressEvent(event);
-}
-
-void TableView::changeEvent(QEvent* event) {
-    QTreeView::changeEvent(event);
-    if (event->type() == QEvent::FontChange || event->type() == QEvent::StyleChange) {
-        setIndentation(fontMetrics().height() * 4 / 5);
-    }
 }
 
 } // namespace posewire::gui

@@ -53,7 +53,6 @@ protected:
                      const QList<int>& roles = {}) override;
     void contextMenuEvent(QContextMenuEvent* event) override;
     void keyPressEvent(QKeyEvent* event) override;
-    void changeEvent(QEvent* event) override;
 
 private:
     void addRows(QString& text, const QModelIndex& parent) const;

@@ -2,7 +2,7 @@
 #include "app/gui/panels/timecode_panel.h"
 
 #include "app/gui/models/shown_character.h"
-#include "app/gui/models/text.h"
+#include "app/gui/theme/event_watch.h"
 #include "app/gui/theme/theme.h"
 
 #include <QButtonGroup>
@@ -102,18 +102,16 @@ TimecodePanel::TimecodePanel(model::SessionView& view, Commands& commands, QWidg
     layout->addWidget(m_table);
     m_table->showFacts(m_facts);
     connect(m_large, &ClockWidget::fullScreenToggled, this, [this] { setFullScreen(true); });
+    // In a low dock the clock keeps a third of the height, and what else there is to know of it is scrolled.
+    new EventWatch(this, QEvent::Resize, [this, choices] {
+        constexpr int kLeastRows = 2;
+        const int room = height() - choices->sizeHint().height() - height() / 3;
+        const int rows = room / m_table->heightForRows(1);
+        const int all = m_table->model()->rowCount();
+        m_table->setFixedHeight(m_table->heightForRows(std::clamp(rows, kLeastRows, all)));
+        m_table->setVerticalScrollBarPolicy(rows < all ? Qt::ScrollBarAsNeeded : Qt::ScrollBarAlwaysOff);
+    });
     showClock();
-}
-
-/// In a low dock the clock keeps a third of the height, and what else there is to know of it is scrolled.
-void TimecodePanel::resizeEvent(QResizeEvent* event) {
-    constexpr int kLeastRows = 2;
-    Panel::resizeEvent(event);
-    const int choices = layout()->itemAt(1)->sizeHint().height();
-    const int rows = (height() - choices - height() / 3) / m_table->heightForRows(1);
-    const int all = m_table->model()->rowCount();
-    m_table->setFixedHeight(m_table->heightForRows(std::clamp(rows, kLeastRows, all)));
-    m_table->setVerticalScrollBarPolicy(rows < all ? Qt::ScrollBarAsNeeded : Qt::ScrollBarAlwaysOff);
 }
 
 QToolButton* TimecodePanel::addChoice(const QString& text, ClockChoice choice) {

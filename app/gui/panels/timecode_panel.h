@@ -68,9 +68,6 @@ public:
     void setFullScreen(bool isFullScreen);
     [[nodiscard]] const ClockWidget* fullScreenClock() const { return m_fullScreen.get(); }
 
-protected:
-    void resizeEvent(QResizeEvent* event) override;
-
 private:
     QToolButton* addChoice(const QString& text, ClockChoice choice);
     void showClock();

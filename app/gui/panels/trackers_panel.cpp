@@ -2,6 +2,7 @@
 #include "app/gui/panels/trackers_panel.h"
 
 #include "app/gui/models/shown_character.h"
+#include "app/gui/theme/event_watch.h"
 #include "app/gui/theme/widgets.h"
 
 #include <QItemSelectionModel>
@@ -80,6 +81,14 @@ TrackersPanel::TrackersPanel(model::SessionView& view, Commands& commands, QWidg
     m_factTable->showFacts(m_facts);
     m_factTable->fixHeight();
     connect(m_table->selectionModel(), &QItemSelectionModel::currentRowChanged, this, &TrackersPanel::select);
+    new EventWatch(this, QEvent::Resize, [this] {
+        constexpr int kBothCharacters = 75; // as wide as the table and the facts are
+        const bool isBeside =
+            width() > height() * 3 / 2 && width() >= kBothCharacters * fontMetrics().averageCharWidth();
+        const Qt::Orientation orientation = isBeside ? Qt::Horizontal : Qt::Vertical;
+        m_isDivided = m_isDivided && orientation == m_splitter->orientation();
+        m_splitter->setOrientation(orientation);
+    });
 }
 
 void TrackersPanel::refresh() {
@@ -124,18 +133,6 @@ QString TrackersPanel::summary() const {
     }
     const QString stale = m_trackers.isStale() ? QStringLiteral(" · ") + m_trackers.staleText() : QString();
     return QStringLiteral("%1 · %2").arg(trackerName(tracker->id)).arg(tracker->id) + stale;
-}
-
-void TrackersPanel::resizeEvent(QResizeEvent* event) {
-    Panel::resizeEvent(event);
-    constexpr int kBothCharacters = 75; // as wide as the table and the facts are
-    const bool isBeside =
-        width() > height() * 3 / 2 && width() >= kBothCharacters * fontMetrics().averageCharWidth();
-    const Qt::Orientation orientation = isBeside ? Qt::Horizontal : Qt::Vertical;
-    if (orientation != m_splitter->orientation()) {
-        m_splitter->setOrientation(orientation);
-        m_isDivided = false;
-    }
 }
 
 } // namespace posewire::gui

@@ -24,9 +24,6 @@ public:
     [[nodiscard]] QJsonObject state() const override { return m_table->columns().state(); }
     void restoreState(const QJsonObject& state) override { m_table->columns().restore(state); }
 
-protected:
-    void resizeEvent(QResizeEvent* event) override;
-
 private:
     void select(const QModelIndex& index);
 

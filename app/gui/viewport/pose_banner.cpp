@@ -2,6 +2,7 @@
 #include "app/gui/viewport/pose_banner.h"
 
 #include "app/gui/models/text.h"
+#include "app/gui/theme/event_watch.h"
 #include "app/gui/theme/words.h"
 #include "app/gui/viewport/viewport_overlay.h"
 #include "core/model/body/character_pose.h"
@@ -98,6 +99,9 @@ PoseBanner::PoseBanner(Commands& commands, QWidget* parent)
             commands.setLifted(key, true);
         }
     });
+    for (const QEvent::Type look : {QEvent::PaletteChange, QEvent::FontChange}) {
+        new EventWatch(this, look, [this] { showNotes(); });
+    }
     hide();
 }
 
@@ -154,13 +158,6 @@ void PoseBanner::paintEvent(QPaintEvent* /*event*/) {
     painter.setRenderHint(QPainter::Antialiasing);
     const bool isWarning = !m_notes.empty() && m_notes.front().level == Health::Warning;
     paintPlate(painter, rect(), isWarning ? healthColour(Health::Warning) : theme().line, 0.9);
-}
-
-void PoseBanner::changeEvent(QEvent* event) {
-    if (event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange) {
-        showNotes();
-    }
-    QWidget::changeEvent(event);
 }
 
 } // namespace posewire::gui

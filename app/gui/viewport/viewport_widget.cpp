@@ -2,6 +2,7 @@
 #include "app/gui/viewport/viewport_widget.h"
 
 #include "app/gui/models/shown_character.h"
+#include "app/gui/theme/event_watch.h"
 #include "app/gui/theme/theme.h"
 #include "app/gui/viewport/captions.h"
 #include "core/model/session/messages.h"
@@ -112,6 +113,9 @@ ViewportWidget::ViewportWidget(model::SessionView& session, Commands& commands, 
         updatePanes();
         updateCard();
     });
+    for (const QEvent::Type look : {QEvent::PaletteChange, QEvent::StyleChange}) {
+        new EventWatch(this, look, [this] { refresh(); });
+    }
     setMouseTracking(true);
     setObjectName(QStringLiteral("viewport"));
     setAccessibleName(tr("Characters in space"));
@@ -264,13 +268,6 @@ void ViewportWidget::resizeEvent(QResizeEvent* /*event*/) {
     m_banner->place(size());
     m_card->place();
     refresh();
-}
-
-void ViewportWidget::changeEvent(QEvent* event) {
-    if (event->type() == QEvent::PaletteChange || event->type() == QEvent::StyleChange) {
-        refresh();
-    }
-    QWidget::changeEvent(event);
 }
 
 void ViewportWidget::mousePressEvent(QMouseEvent* event) {
