@@ -3,7 +3,6 @@
 
 #include "app/gui/help/help_window.h"
 #include "app/gui/models/statistics_model.h"
-#include "app/gui/models/text.h"
 #include "app/gui/theme/help_link.h"
 #include "app/gui/window/main_window.h"
 #include "core/export/protocol_reference.h"
@@ -52,11 +51,6 @@ QString figuresMarkdown() {
     return text;
 }
 
-/// Without its title, which is that of the page.
-QString protocolMarkdown() {
-    return QString::fromStdString(exporting::protocolReference()).section(u'\n', 1).trimmed();
-}
-
 } // namespace
 
 Guide::Guide(MainWindow& window) : QObject(&window), m_window(window) {
@@ -94,9 +88,10 @@ void Guide::offerFirstSteps() {
 }
 
 QMap<QString, QString> madeHelpParts() {
+    const QString protocol = QString::fromStdString(exporting::protocolReference());
     return {{QStringLiteral("shortcuts"), shortcutsMarkdown()},
             {QStringLiteral("figures"), figuresMarkdown()},
-            {QStringLiteral("protocol"), protocolMarkdown()}};
+            {QStringLiteral("protocol"), protocol.section(u'\n', 1).trimmed()}}; // the page has its title
 }
 
 } // namespace posewire::gui

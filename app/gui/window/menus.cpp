@@ -54,10 +54,6 @@ void toggleDemo(Window& window) {
     demo(window).setCharacters(demo(window).isRunning() ? 0 : kDemoCharacters);
 }
 
-void togglePaused(Window& window) {
-    playback(window).setPaused(!playback(window).isPaused());
-}
-
 void writeReceiving(QTextStream& out, const ReceivingState& receiving) {
     for (const PortState& port : receiving.ports) {
         out << displayText(port.port) << ": " << inputState(port).text << ", " << port.status.datagrams
@@ -176,15 +172,6 @@ void useShippedLayout(Window& window) {
     window.useLayout(layoutNames()[index]);
 }
 
-template <Direction direction>
-bool isPlaying(const Window& window) {
-    return playback(window).isPlaying(direction);
-}
-
-void toggleLoop(Window& window) {
-    playback(window).setLooping(!playback(window).isLooping());
-}
-
 template <int steps>
 void stepSamples(Window& window) {
     if (const auto key = shownCharacter(commands(window).session())) {
@@ -287,13 +274,16 @@ const ActionInfo kActions[] = {
     panelsIn(QT_TRANSLATE_NOOP("Action", "&Go")),
 
     {"pause", QT_TRANSLATE_NOOP("Action", "&Time"), QT_TRANSLATE_NOOP("Action", "&Pause"), "Space",
-     Do::call<togglePaused>, Do::isIn<playback, &Playback::isPaused>},
+     Do::toggleIn<playback, &Playback::isPaused, &Playback::setPaused>,
+     Do::isIn<playback, &Playback::isPaused>},
     {"live", "&Time", QT_TRANSLATE_NOOP("Action", "Back to &live"), "End",
      Do::callIn<playback, &Playback::goLive>},
     {"play", "&Time", QT_TRANSLATE_NOOP("Action", "Pl&ay from here"), "Shift+Space",
-     Do::callIn<playback, &Playback::play, Direction::Forwards>, Do::is<isPlaying<Direction::Forwards>>},
+     Do::callIn<playback, &Playback::play, Direction::Forwards>,
+     Do::isFor<playback, &Playback::isPlaying, Direction::Forwards>},
     {"playBack", "&Time", QT_TRANSLATE_NOOP("Action", "Play bac&kwards"), "Ctrl+Shift+Space",
-     Do::callIn<playback, &Playback::play, Direction::Backwards>, Do::is<isPlaying<Direction::Backwards>>},
+     Do::callIn<playback, &Playback::play, Direction::Backwards>,
+     Do::isFor<playback, &Playback::isPlaying, Direction::Backwards>},
     speed<5>("speed005", "0.0&5 ×"),
     speed<10>("speed01", "0.&1 ×"),
     speed<25>("speed025", "0.&25 ×"),
@@ -303,7 +293,8 @@ const ActionInfo kActions[] = {
     speed<400>("speed4", "&4 ×"),
     speed<800>("speed8", "&8 ×"),
     speed<1600>("speed16", "1&6 ×"),
-    {"loop", "&Time", QT_TRANSLATE_NOOP("Action", "L&oop"), "Ctrl+Alt+L", Do::call<toggleLoop>,
+    {"loop", "&Time", QT_TRANSLATE_NOOP("Action", "L&oop"), "Ctrl+Alt+L",
+     Do::toggleIn<playback, &Playback::isLooping, &Playback::setLooping>,
      Do::isIn<playback, &Playback::isLooping>},
     step<-1>("sampleBack", QT_TRANSLATE_NOOP("Action", "Previous sa&mple"), "Left"),
     step<1>("sampleOn", QT_TRANSLATE_NOOP("Action", "&Next sample"), "Right"),

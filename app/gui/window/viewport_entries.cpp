@@ -120,39 +120,27 @@ constexpr ActionInfo zoomEntry(const char* id, const char* text, const char* sho
 
 template <int count>
 constexpr ActionInfo splitEntry(const char* id, const char* text, const char* shortcut) {
-    return {id,
-            QT_TRANSLATE_NOOP("Action", "&View/Sp&lit view"),
-            text,
-            shortcut,
-            ViewDo::callIn<&Window::viewport, &ViewportWidget::split, count>,
-            ViewDo::isIn<choiceOf, &ViewChoice::viewCount, count>};
+    constexpr auto split = ViewDo::callIn<&Window::viewport, &ViewportWidget::split, count>;
+    return {id,    QT_TRANSLATE_NOOP("Action", "&View/Sp&lit view"),     text, shortcut,
+            split, ViewDo::isIn<choiceOf, &ViewChoice::viewCount, count>};
 }
 
-template <ViewSwitch which>
-bool isSwitchedOn(const Window& window) {
-    return choiceOf(window).isSwitchedOn(which);
-}
 template <ViewSwitch which>
 constexpr ActionInfo switchEntry(const char* id, const char* menu, const char* text) {
-    return {id,
-            menu,
-            text,
-            "",
-            ViewDo::callIn<choiceOf, &ViewChoice::toggleSwitch, which>,
-            ViewDo::is<isSwitchedOn<which>>};
+    constexpr auto toggle = ViewDo::callIn<choiceOf, &ViewChoice::toggleSwitch, which>;
+    return {id, menu, text, "", toggle, ViewDo::isFor<choiceOf, &ViewChoice::isSwitchedOn, which>};
 }
 
-template <Overlay overlay>
-bool isOverlayOn(const Window& window) {
-    return choiceOf(window).isOn(overlay);
-}
 template <Overlay overlay>
 constexpr ActionInfo overlayEntry() {
     constexpr const OverlayEntry& entry = kOverlayTable[static_cast<std::size_t>(overlay)];
     static_assert(entry.overlay == overlay);
-    return {
-        entry.key, QT_TRANSLATE_NOOP("Action", "&View/O&verlays"),         entry.title,
-        "",        ViewDo::callIn<choiceOf, &ViewChoice::toggle, overlay>, ViewDo::is<isOverlayOn<overlay>>};
+    return {entry.key,
+            QT_TRANSLATE_NOOP("Action", "&View/O&verlays"),
+            entry.title,
+            "",
+            ViewDo::callIn<choiceOf, &ViewChoice::toggle, overlay>,
+            ViewDo::isFor<choiceOf, &ViewChoice::isOn, overlay>};
 }
 
 const ActionInfo kEntries[] = {
