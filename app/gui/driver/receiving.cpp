@@ -3,7 +3,6 @@
 
 #include "app/gui/base/background.h"
 #include "app/gui/base/logging.h"
-#include "app/gui/base/saving.h"
 
 #include <QCoreApplication>
 

@@ -10,8 +10,6 @@
 
 #include <QStringList>
 
-#include <algorithm>
-
 namespace posewire::gui {
 
 namespace {

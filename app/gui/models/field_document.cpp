@@ -98,11 +98,6 @@ QString outsideText(const FieldDocument& document) {
                : tr("foreign: does not begin with MXTP, so no sender of motion capture data sent this");
 }
 
-QString cutByReceiverText(const FieldDocument& document) {
-    return tr("longer than what could be received: only the first %1 bytes are here")
-        .arg(grouped(document.bytes.size()));
-}
-
 } // namespace
 
 FieldDocument::FieldDocument(const log::Packet& packet, model::LengthUnit lengthUnit, bool sentYUp)
@@ -315,7 +310,8 @@ void FieldDocument::findProblems(const log::Packet& packet) {
         return;
     }
     if (packet.flags.truncated) {
-        addProblem(Health::Error, cutByReceiverText(*this), kNone, whole);
+        const QString text = tr("longer than what could be received: only the first %1 bytes are here");
+        addProblem(Health::Error, text.arg(grouped(whole)), kNone, whole);
     }
     if (tree.fault) {
         addFault();

@@ -7,8 +7,6 @@
 #include "core/model/session/roster.h"
 #include "core/wire/type_table.h"
 
-#include <algorithm>
-
 namespace posewire::gui {
 
 namespace {

@@ -24,10 +24,6 @@ constexpr int kTimeDecimals = 4;
 constexpr double kMsPerSecond = 1000;
 constexpr std::uint64_t kMostRows = std::numeric_limits<int>::max() - 1;
 
-bool describesBody(std::uint8_t type) {
-    return type >= 10 && type <= 13;
-}
-
 using PacketColumn = TableColumn<PacketFacts>;
 
 QVariant warningWhere(bool isOdd) {
@@ -42,9 +38,10 @@ QVariant typeColour(const PacketFacts& facts) {
     if (packetHealth(facts) == Health::Error) {
         return healthColour(Health::Error);
     }
-    return isStrange(facts.digest)            ? QVariant(theme().dim)
-           : describesBody(facts.digest.type) ? QVariant(theme().accent)
-                                              : QVariant();
+    const bool describesBody = facts.digest.type >= 10 && facts.digest.type <= 13;
+    return isStrange(facts.digest) ? QVariant(theme().dim)
+           : describesBody         ? QVariant(theme().accent)
+                                   : QVariant();
 }
 
 QVariant noteColour(const PacketFacts& facts) {

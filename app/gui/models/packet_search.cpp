@@ -111,11 +111,6 @@ std::optional<std::size_t> findPattern(const BytePattern& pattern, wire::Bytes b
                                 : std::optional(static_cast<std::size_t>(place - bytes.begin()));
 }
 
-PacketSearch::PacketSearch(const log::PacketLog& log, Request request)
-    : m_log(log),
-      m_request(std::move(request)),
-      m_thread([this](const std::stop_token& stop) { run(stop); }) {}
-
 std::optional<PacketSearch::Result> PacketSearch::result() const {
     return m_isDone.load(std::memory_order_acquire) ? std::optional(m_result) : std::nullopt;
 }

@@ -117,7 +117,10 @@ public:
     };
 
     /// The log must outlive the search.
-    PacketSearch(const log::PacketLog& log, Request request);
+    PacketSearch(const log::PacketLog& log, Request request)
+        : m_log(log),
+          m_request(std::move(request)),
+          m_thread([this](const std::stop_token& stop) { run(stop); }) {}
 
     /// Nothing while it is still looking.
     [[nodiscard]] std::optional<Result> result() const;

@@ -21,9 +21,6 @@ StreamRow characterRow(const model::CharacterKey& key) {
 
 } // namespace
 
-StreamTreeModel::StreamTreeModel(model::SessionView& view, std::vector<TableColumn<StreamRow>> columns)
-    : TreeModel(std::move(columns)), m_view(view) {}
-
 bool StreamTreeModel::insertNew() {
     const std::uint64_t retired = m_view.accounts().retired().senders;
     if (m_retired == retired) {

@@ -25,7 +25,8 @@ struct StreamRow {
 /// so that rows never jump, streams by their type. What they say is up to the columns.
 class StreamTreeModel : public TreeModel<StreamRow> {
 public:
-    StreamTreeModel(model::SessionView& view, std::vector<TableColumn<StreamRow>> columns);
+    StreamTreeModel(model::SessionView& view, std::vector<TableColumn<StreamRow>> columns)
+        : TreeModel(std::move(columns)), m_view(view) {}
 
     /// Nothing above its own level is filled in for senders.
     [[nodiscard]] std::optional<model::CharacterKey> character(const QModelIndex& index) const;

@@ -5,7 +5,6 @@
 #include "app/gui/theme/theme.h"
 #include "core/model/session/roster.h"
 
-#include <QAbstractItemView>
 #include <QPainter>
 #include <QSignalBlocker>
 

@@ -5,14 +5,12 @@
 #include "app/gui/models/packet_model.h"
 #include "app/gui/models/text.h"
 #include "app/gui/panels/cell_delegate.h"
-#include "app/gui/panels/fitting_header.h"
 #include "app/gui/panels/table_view.h"
 #include "app/gui/theme/theme.h"
 
 #include <QContextMenuEvent>
 #include <QPainter>
 #include <QScopedValueRollback>
-#include <QScrollBar>
 
 #include <algorithm>
 

@@ -109,9 +109,6 @@ private:
     SteadyClock::time_point m_moved;
 };
 
-DrawingThread::DrawingThread(std::function<void()> wake)
-    : m_wake(std::move(wake)), m_thread([this](const std::stop_token& stop) { run(stop); }) {}
-
 void DrawingThread::draw(std::shared_ptr<const SceneFrame> frame) {
     {
         const std::lock_guard lock(m_mutex);

@@ -30,7 +30,8 @@ public:
     };
 
     /// `wake` is called on the drawing thread whenever there is something to take.
-    explicit DrawingThread(std::function<void()> wake);
+    explicit DrawingThread(std::function<void()> wake)
+        : m_wake(std::move(wake)), m_thread([this](const std::stop_token& stop) { run(stop); }) {}
 
     void draw(std::shared_ptr<const SceneFrame> frame);
     [[nodiscard]] Result take();

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/viewport/label_layout.h"
 
-#include <QStringList>
-
 #include <algorithm>
 #include <array>
 #include <cmath>

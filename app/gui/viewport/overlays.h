@@ -3,10 +3,8 @@
 
 #include "app/gui/viewport/scene.h"
 #include "app/gui/viewport/segment_facts.h"
-#include "core/model/body/spaces.h"
 
 #include <QColor>
-#include <QtGlobal>
 
 #include <array>
 #include <vector>

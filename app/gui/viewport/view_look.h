@@ -5,7 +5,6 @@
 #include "app/gui/viewport/scene.h"
 
 #include <QPointF>
-#include <QRectF>
 
 #include <array>
 #include <vector>

@@ -13,7 +13,6 @@
 #include <vector>
 
 class QDoubleSpinBox;
-class QFormLayout;
 class QSystemTrayIcon;
 
 namespace posewire::gui {
