@@ -82,7 +82,7 @@ int main(int argc, char** argv) {
         plan = std::strcmp(argv[i], "--brief") == 0 ? Plan{4, 2000} : plan;
     }
     const QTemporaryDir folder;
-    const SettingsFile file(folder.filePath("settings.json"));
+    SettingsFile file(folder.filePath("settings.json"));
     const log::SystemClock clock;
     SessionDriver driver(clock);
     MainWindow window(driver, file, {});
