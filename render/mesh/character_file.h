@@ -13,6 +13,17 @@
 
 namespace posewire::render {
 
+/// Limits of a character: one for pictures at display rate has far less.
+inline constexpr std::size_t kMostImportedBones = 256;
+inline constexpr std::size_t kMostImportedVertices = 500'000;
+inline constexpr std::size_t kMostImportedTriangles = 2'000'000;
+inline constexpr std::size_t kMostImportedParts = 4'096; ///< also of textures, and of files beside
+inline constexpr std::size_t kMostImportedBytes = std::size_t{256} * 1024 * 1024; ///< of each file
+/// A larger texture is left out, and those that are larger together.
+inline constexpr std::size_t kMostTextureBytes = std::size_t{64} * 1024 * 1024;
+inline constexpr std::size_t kMostTexturesBytes = std::size_t{160} * 1024 * 1024;
+inline constexpr int kMostTextureSide = 16'384; ///< texels
+
 /// A bone of an imported character, in the character's rest pose.
 struct ImportedBone {
     std::string name;
@@ -67,6 +78,8 @@ struct ImportedCharacter {
     /// Parents come before their children; at most 256. With what joins them: nodes between bones are bones
     /// too.
     std::vector<ImportedBone> bones;
+    /// Buffers and textures that were read beside the file, as paths from its folder.
+    std::vector<std::string> filesBeside;
 };
 
 } // namespace posewire::render

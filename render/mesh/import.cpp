@@ -1,20 +1,27 @@
 // SPDX-License-Identifier: MIT
 #include "render/mesh/import.h"
 
+#include "render/mesh/flat_character.h"
 #include "render/mesh/import_materials.h"
+#include "render/mesh/own_folder.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <fstream>
+#include <cstdio>
+#include <filesystem>
 #include <map>
+#include <memory>
 #include <string_view>
 #include <utility>
 
-#include <assimp/DefaultIOSystem.h>
+#include <assimp/BaseImporter.h>
+#include <assimp/IOStream.hpp>
+#include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
 #include <assimp/config.h>
+#include <assimp/importerdesc.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <assimp/version.h>
@@ -72,8 +79,7 @@ struct Influence {
 
 class Conversion {
 public:
-    Conversion(const aiScene& scene, std::filesystem::path folder)
-        : m_scene(scene), m_materials(scene, std::move(folder)) {}
+    Conversion(const aiScene& scene, OwnFolder* folder) : m_scene(scene), m_materials(scene, folder) {}
 
     tl::expected<ImportedCharacter, std::string> run() {
         std::size_t vertices = 0;
@@ -103,7 +109,7 @@ public:
         if (!m_hasTexturePlaces) {
             m_character.texturePlaces.clear();
         }
-        if (const auto sound = m_character.mesh.validate(m_character.bones.size()); !sound) {
+        if (const auto sound = validate(m_character); !sound) {
             return tl::make_unexpected(sound.error());
         }
         return std::move(m_character);
@@ -253,65 +259,113 @@ private:
     std::uint8_t m_firstBone = 0;
 };
 
-/// Opens the file itself, and regular files within its folder: what a file names may be anything.
-class OwnFolder final : public Assimp::DefaultIOSystem {
+class OpenedStream final : public Assimp::IOStream {
 public:
-    explicit OwnFolder(std::filesystem::path file)
-        : m_file(std::move(file)), m_folder(std::filesystem::absolute(m_file).parent_path()) {}
+    explicit OpenedStream(OpenedFile file) : m_file(std::move(file)) {}
 
-    const std::filesystem::path& folder() const { return m_folder; }
-
-    Assimp::IOStream* Open(const char* path, const char* mode) override {
-        if (m_file == path) {
-            return DefaultIOSystem::Open(path, mode);
-        }
-        const std::filesystem::path relative =
-            std::filesystem::path(path).lexically_relative(m_file.parent_path());
-        const auto beside = fileBeside(m_folder, relative.empty() ? std::string(path) : relative.string());
-        std::error_code problem;
-        const bool isSmall =
-            beside && std::filesystem::file_size(*beside, problem) <= kMostImportedBytes && !problem;
-        return isSmall ? DefaultIOSystem::Open(beside->string().c_str(), mode) : nullptr;
+    std::size_t Read(void* to, std::size_t size, std::size_t count) override {
+        return std::fread(to, size, count, m_file.stream.get());
     }
+    std::size_t Write(const void* /*from*/, std::size_t /*size*/, std::size_t /*count*/) override {
+        return 0;
+    }
+    aiReturn Seek(std::size_t offset, aiOrigin origin) override {
+        const int from = origin == aiOrigin_SET ? SEEK_SET : origin == aiOrigin_CUR ? SEEK_CUR : SEEK_END;
+        return std::fseek(m_file.stream.get(), static_cast<long>(offset), from) == 0 ? aiReturn_SUCCESS
+                                                                                     : aiReturn_FAILURE;
+    }
+    [[nodiscard]] std::size_t Tell() const override {
+        return static_cast<std::size_t>(std::max(0L, std::ftell(m_file.stream.get())));
+    }
+    [[nodiscard]] std::size_t FileSize() const override { return m_file.size; }
+    void Flush() override {}
 
 private:
-    std::filesystem::path m_file;
-    std::filesystem::path m_folder;
+    OpenedFile m_file;
 };
 
+/// The only way of assimp to files.
+class OwnFiles final : public Assimp::IOSystem {
+public:
+    explicit OwnFiles(OwnFolder& folder) : m_folder(folder) {}
+
+    bool Exists(const char* path) const override { return m_folder.open(path).stream != nullptr; }
+    [[nodiscard]] char getOsSeparator() const override { return '/'; }
+    Assimp::IOStream* Open(const char* path, const char* mode) override {
+        if (std::string_view(mode).find_first_of("wa+") != std::string_view::npos) {
+            return nullptr;
+        }
+        OpenedFile file = m_folder.open(path);
+        return file.stream == nullptr ? nullptr : new OpenedStream(std::move(file));
+    }
+    void Close(Assimp::IOStream* stream) override { delete stream; }
+
+private:
+    OwnFolder& m_folder;
+};
+
+constexpr const char* kUnknownFormat =
+    "the file cannot be read as a mesh: it is of no format that is known, such "
+    "as glTF, FBX or Collada, or it is damaged";
+constexpr const char* kTooMuchMemory = "reading it takes more than 1 GB of memory";
+
 tl::expected<ImportedCharacter, std::string> converted(const Assimp::Importer& importer, const aiScene* scene,
-                                                       const std::filesystem::path& folder) {
+                                                       OwnFolder* folder) {
     if (scene == nullptr || scene->mRootNode == nullptr) {
         const std::string reason = importer.GetErrorString();
+        if (reason.find("bad_alloc") != std::string::npos) {
+            return tl::make_unexpected(kTooMuchMemory);
+        }
         const bool isUnknown = reason.empty() || reason.starts_with("No suitable reader");
-        return tl::make_unexpected(isUnknown
-                                       ? "the file cannot be read as a mesh: it is of no format that is "
-                                         "known, such as glTF, FBX or Collada, or it is damaged"
-                                       : reason);
+        return tl::make_unexpected(isUnknown ? kUnknownFormat : reason);
     }
-    return Conversion(*scene, folder).run();
+    auto character = Conversion(*scene, folder).run();
+    if (character && folder != nullptr) {
+        character->filesBeside = folder->filesBeside();
+    }
+    return character;
 }
 
-/// What is wrong with a file whatever is in it; empty for nothing. A binary glTF says how long it is.
-std::string faultOf(const std::string& path, std::uintmax_t size) {
-    if (size == 0) {
+/// The reason why a file cannot be read whatever is in it; empty for none. A binary glTF says how long it is.
+std::string faultOf(const OpenedFile& file) {
+    if (file.size == 0) {
         return "the file is empty";
     }
     std::array<unsigned char, 12> head{};
-    std::ifstream file(path, std::ios::binary);
-    file.read(reinterpret_cast<char*>(head.data()), head.size());
-    if (file && std::string_view(reinterpret_cast<const char*>(head.data()), 4) == "glTF") {
+    const bool isRead = std::fread(head.data(), head.size(), 1, file.stream.get()) == 1;
+    if (isRead && std::string_view(reinterpret_cast<const char*>(head.data()), 4) == "glTF") {
         const std::uintmax_t length =
             head[8] | head[9] << 8 | head[10] << 16 | std::uintmax_t{head[11]} << 24;
-        if (length > size) {
-            return "the file is cut short: " + std::to_string(size) + " of its " + std::to_string(length) +
-                   " bytes are there";
+        if (length > file.size) {
+            return "the file is cut short: " + std::to_string(file.size) + " of its " +
+                   std::to_string(length) + " bytes are there";
         }
     }
     return {};
 }
 
+bool isOffered(std::string extension) {
+    for (char& letter : extension) {
+        letter = letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
+    }
+    constexpr std::array<std::string_view, 5> kOffered{"glb", "gltf", "vrm", "fbx", "dae"};
+    return std::ranges::find(kOffered, extension) != kOffered.end();
+}
+
+/// Every importer is code for foreign bytes, so only those of the formats on offer stay.
+void dropOtherImporters(Assimp::Importer& importer) {
+    for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
+        const aiImporterDesc* about = importer.GetImporterInfo(i);
+        const std::string extensions = about == nullptr ? "" : about->mFileExtensions;
+        if (!isOffered(extensions.substr(0, extensions.find(' ')))) {
+            const std::unique_ptr<Assimp::BaseImporter> dropped(importer.GetImporter(i));
+            importer.UnregisterLoader(dropped.get());
+        }
+    }
+}
+
 void configure(Assimp::Importer& importer) {
+    dropOtherImporters(importer);
     // Else every FBX joint is split into several nodes.
     importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
     importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
@@ -319,24 +373,26 @@ void configure(Assimp::Importer& importer) {
 
 } // namespace
 
-tl::expected<ImportedCharacter, std::string> importCharacter(const std::string& path) {
-    std::error_code problem;
-    if (!std::filesystem::is_regular_file(path, problem)) {
-        return tl::make_unexpected("there is no file " + path);
+tl::expected<ImportedCharacter, std::string> importCharacter(const std::string& path) try {
+    OwnFolder folder(path);
+    const OpenedFile file = folder.open(path);
+    if (file.stream == nullptr) {
+        return tl::make_unexpected(file.size > kMostImportedBytes ? "the file is larger than 256 MB"
+                                                                  : "there is no file " + path);
     }
-    const std::uintmax_t size = std::filesystem::file_size(path, problem);
-    if (size > kMostImportedBytes || problem) {
-        return tl::make_unexpected("the file is larger than 256 MB");
-    }
-    if (std::string fault = faultOf(path, size); !fault.empty()) {
+    if (std::string fault = faultOf(file); !fault.empty()) {
         return tl::make_unexpected(std::move(fault));
+    }
+    const std::string extension = std::filesystem::path(path).extension().string();
+    if (extension.empty() || !isOffered(extension.substr(1))) {
+        return tl::make_unexpected(kUnknownFormat);
     }
     Assimp::Importer importer;
     configure(importer);
-    auto* files = new OwnFolder(path); // the importer's own from here on
-    const std::filesystem::path folder = files->folder();
-    importer.SetIOHandler(files);
-    return converted(importer, importer.ReadFile(path, kSteps), folder);
+    importer.SetIOHandler(new OwnFiles(folder)); // the importer's own from here on
+    return converted(importer, importer.ReadFile(path, kSteps), &folder);
+} catch (const std::bad_alloc&) {
+    return tl::make_unexpected(kTooMuchMemory);
 }
 
 tl::expected<ImportedCharacter, std::string> importCharacter(std::span<const std::byte> bytes,
@@ -344,7 +400,8 @@ tl::expected<ImportedCharacter, std::string> importCharacter(std::span<const std
     Assimp::Importer importer;
     configure(importer);
     return converted(importer,
-                     importer.ReadFileFromMemory(bytes.data(), bytes.size(), kSteps, extension.c_str()), {});
+                     importer.ReadFileFromMemory(bytes.data(), bytes.size(), kSteps, extension.c_str()),
+                     nullptr);
 }
 
 std::string importerName() {

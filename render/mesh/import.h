@@ -11,18 +11,14 @@
 
 namespace posewire::render {
 
-/// What is read of a file at most: a character for pictures at display rate has far less.
-inline constexpr std::size_t kMostImportedBones = 256;
-inline constexpr std::size_t kMostImportedVertices = 500'000;
-inline constexpr std::size_t kMostImportedBytes = std::size_t{256} * 1024 * 1024;
-
-/// Reads a skinned mesh of any format that assimp knows (glTF, FBX, Collada …). All skinned meshes of the
-/// file become one; weights are renormalised and unweighted vertices follow the first bone. What the file
-/// names beside itself (buffers, textures) is read from its own folder alone. Fails with a sentence that says
-/// what is wrong with the file.
+/// Reads a skinned mesh of glTF (.glb, .gltf, .vrm), FBX or Collada (.dae). All skinned meshes of the file
+/// become one; weights are renormalised and unweighted vertices follow the first bone. Buffers and textures
+/// that the file names are read from its own folder alone. Fails with a sentence that says what is wrong with
+/// the file. Hostile files crash assimp, hang it and exhaust memory: only posewire-import calls this, within
+/// its limits.
 tl::expected<ImportedCharacter, std::string> importCharacter(const std::string& path);
 
-/// The same from memory; `extension` ("glb") names the format where the bytes alone leave it open.
+/// The same from memory; `extension` ("glb") names the format.
 tl::expected<ImportedCharacter, std::string> importCharacter(std::span<const std::byte> bytes,
                                                              const std::string& extension);
 

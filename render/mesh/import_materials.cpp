@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "render/mesh/import_materials.h"
 
+#include "render/mesh/own_folder.h"
+
 #include <algorithm>
 #include <cmath>
-#include <fstream>
+#include <cstdio>
+#include <utility>
 
 #include <assimp/GltfMaterial.h>
 #include <assimp/material.h>
@@ -12,12 +15,7 @@
 namespace posewire::render {
 namespace {
 
-constexpr unsigned kMostTexels = 16'384;
-
-bool isWithin(const std::filesystem::path& folder, const std::filesystem::path& file) {
-    const auto [end, rest] = std::mismatch(folder.begin(), folder.end(), file.begin(), file.end());
-    return end == folder.end() && rest != file.end();
-}
+constexpr const char* kTooLarge = "it is larger than 64 MB";
 
 /// What a material of linear light looks like on a display.
 float displayed(float linear) {
@@ -28,16 +26,16 @@ float displayed(float linear) {
 ImportedTexture embedded(const aiTexture& source, ImportedTexture texture) {
     if (source.mHeight == 0) {
         if (source.mWidth > kMostTextureBytes) {
-            texture.problem = "it is larger than 64 MB";
+            texture.problem = kTooLarge;
             return texture;
         }
         const auto* bytes = reinterpret_cast<const std::byte*>(source.pcData);
         texture.encoded.assign(bytes, bytes + source.mWidth);
         return texture;
     }
-    if (source.mWidth == 0 || source.mWidth > kMostTexels || source.mHeight > kMostTexels ||
+    if (source.mWidth == 0 || source.mWidth > kMostTextureSide || source.mHeight > kMostTextureSide ||
         std::size_t{4} * source.mWidth * source.mHeight > kMostTextureBytes) {
-        texture.problem = "it is larger than 64 MB";
+        texture.problem = kTooLarge;
         return texture;
     }
     texture.width = static_cast<int>(source.mWidth);
@@ -52,29 +50,6 @@ ImportedTexture embedded(const aiTexture& source, ImportedTexture texture) {
 }
 
 } // namespace
-
-std::optional<std::filesystem::path> fileBeside(const std::filesystem::path& folder,
-                                                const std::string& written) {
-    if (folder.empty() || written.empty()) {
-        return std::nullopt;
-    }
-    std::string slashed = written;
-    std::ranges::replace(slashed, '\\', '/');
-    std::error_code problem;
-    const std::filesystem::path root = std::filesystem::canonical(folder, problem);
-    const std::filesystem::path path(slashed);
-    for (const std::filesystem::path& candidate : {root / path, root / path.filename()}) {
-        // Links are followed first: they may lead elsewhere.
-        const std::filesystem::path file = std::filesystem::weakly_canonical(candidate, problem);
-        if (!problem && isWithin(root, file) && std::filesystem::is_regular_file(file, problem)) {
-            return file;
-        }
-    }
-    return std::nullopt;
-}
-
-ImportedMaterials::ImportedMaterials(const aiScene& scene, std::filesystem::path folder)
-    : m_scene(scene), m_folder(std::move(folder)) {}
 
 void ImportedMaterials::dress(unsigned material, MeshPart& part, std::vector<ImportedTexture>& textures) {
     if (material >= m_scene.mNumMaterials) {
@@ -108,7 +83,13 @@ int ImportedMaterials::textureOf(const aiMaterial& material, std::vector<Importe
         }
         const auto [entry, isNew] = m_known.try_emplace(path.C_Str(), static_cast<int>(textures.size()));
         if (isNew) {
-            textures.push_back(load(entry->first));
+            ImportedTexture& texture = textures.emplace_back(load(entry->first));
+            const std::size_t bytes = texture.encoded.size() + texture.texels.size();
+            if (m_bytes + bytes > kMostTexturesBytes) {
+                texture = {texture.name, {}, {}, 0, 0, "the textures are larger than 160 MB together"};
+            } else {
+                m_bytes += bytes;
+            }
         }
         return entry->second;
     }
@@ -121,25 +102,22 @@ ImportedTexture ImportedMaterials::load(const std::string& written) const {
     if (const aiTexture* inside = m_scene.GetEmbeddedTexture(written.c_str())) {
         return embedded(*inside, std::move(texture));
     }
-    const auto path = fileBeside(m_folder, written);
-    if (!path) {
-        texture.problem = "it is not in the folder of the character";
-        return texture;
+    readBeside(texture);
+    return texture;
+}
+
+void ImportedMaterials::readBeside(ImportedTexture& texture) const {
+    const OpenedFile file = m_folder == nullptr ? OpenedFile{} : m_folder->open(texture.name);
+    if (file.stream == nullptr || file.size > kMostTextureBytes) {
+        texture.problem =
+            file.size > kMostTextureBytes ? kTooLarge : "it is not in the folder of the character";
+        return;
     }
-    std::error_code problem;
-    const std::uintmax_t size = std::filesystem::file_size(*path, problem);
-    if (problem || size > kMostTextureBytes) {
-        texture.problem = problem ? "it cannot be read" : "it is larger than 64 MB";
-        return texture;
-    }
-    texture.encoded.resize(size);
-    std::ifstream file(*path, std::ios::binary);
-    file.read(reinterpret_cast<char*>(texture.encoded.data()), static_cast<std::streamsize>(size));
-    if (!file) {
+    texture.encoded.resize(file.size);
+    if (std::fread(texture.encoded.data(), 1, file.size, file.stream.get()) != file.size) {
         texture.encoded.clear();
         texture.problem = "it cannot be read";
     }
-    return texture;
 }
 
 } // namespace posewire::render

@@ -3,9 +3,8 @@
 
 #include "render/mesh/character_file.h"
 
-#include <filesystem>
+#include <cstddef>
 #include <map>
-#include <optional>
 #include <string>
 
 struct aiMaterial;
@@ -14,20 +13,14 @@ struct aiTexture;
 
 namespace posewire::render {
 
-/// A texture of more bytes than this is left out.
-inline constexpr std::size_t kMostTextureBytes = std::size_t{64} * 1024 * 1024;
-
-/// A file beside a character: only within its folder, by the path as it is written or, where that leads
-/// elsewhere, by its name alone. Nothing where there is none. An empty folder has none.
-std::optional<std::filesystem::path> fileBeside(const std::filesystem::path& folder,
-                                                const std::string& written);
+class OwnFolder;
 
 /// What assimp knows of the materials of a scene, as the renderer wants it. The textures of a file are read
 /// once.
 class ImportedMaterials {
 public:
-    /// `folder` is that of the file; empty where it comes from memory.
-    ImportedMaterials(const aiScene& scene, std::filesystem::path folder);
+    /// `folder` is that of the file; null if it comes from memory.
+    ImportedMaterials(const aiScene& scene, OwnFolder* folder) : m_scene(scene), m_folder(folder) {}
 
     /// Colour and texture of a part; adds the texture where it is new.
     void dress(unsigned material, MeshPart& part, std::vector<ImportedTexture>& textures);
@@ -35,10 +28,12 @@ public:
 private:
     int textureOf(const aiMaterial& material, std::vector<ImportedTexture>& textures);
     ImportedTexture load(const std::string& written) const;
+    void readBeside(ImportedTexture& texture) const;
 
     const aiScene& m_scene;
-    std::filesystem::path m_folder;
+    OwnFolder* m_folder;
     std::map<std::string, int> m_known;
+    std::size_t m_bytes = 0; ///< of all textures
 };
 
 } // namespace posewire::render

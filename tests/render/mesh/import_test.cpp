@@ -2,6 +2,7 @@
 #include "render/mesh/import.h"
 #include "render/mesh/joints.h"
 #include "render/mesh/mannequin.h"
+#include "render/mesh/own_folder.h"
 #include "tests/render/mesh/gltf_text.h"
 #include "tests/support/paths.h"
 #include "tests/support/temporary_folder.h"
@@ -11,11 +12,15 @@
 #include <fstream>
 #include <iterator>
 
+#include <sys/stat.h>
+
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 namespace posewire::render {
 namespace {
+
+using test::GltfText;
 
 const std::string kMannequinPath = posewire::test::sourcePath("resources/mannequin_medium.glb").string();
 
@@ -122,12 +127,52 @@ TEST(Import, SaysWhatIsWrongWithAFileInPlainWords) {
 }
 
 TEST(Import, RefusesAMeshWithoutBones) {
-    const auto imported = importText("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "obj");
+    GltfText file;
+    file.boneCount = 2;
+    std::string text = file.text();
+    const std::size_t skin = text.find("\"skin\":0");
+    ASSERT_NE(skin, std::string::npos);
+    const auto imported = importText(text.replace(skin, 8, "\"skim\":0"), "gltf");
     ASSERT_FALSE(imported);
     EXPECT_EQ(imported.error(), "the file has no mesh with bones");
 }
 
-using test::GltfText;
+TEST(Import, ReadsNoFormatThatIsNotOffered) {
+    const auto folder = posewire::test::newTemporaryFolder("import");
+    for (const char* name : {"own.obj", "own.zae", "own.bvh", "own"}) {
+        std::ofstream(folder / name) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+        const auto imported = importCharacter((folder / name).string());
+        ASSERT_FALSE(imported);
+        EXPECT_NE(imported.error().find("no format that is known"), std::string::npos) << imported.error();
+    }
+    EXPECT_FALSE(importText("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "obj"));
+    std::filesystem::remove_all(folder);
+}
+
+TEST(OwnFolder, OpensRegularFilesBelowTheFolderAlone) {
+    const auto folder = posewire::test::newTemporaryFolder("own-folder");
+    std::filesystem::create_directories(folder / "own/textures");
+    for (const char* name : {"own/a.glb", "own/textures/b.png", "own/c.png", "secret"}) {
+        std::ofstream(folder / name) << "x";
+    }
+    std::filesystem::create_symlink("../secret", folder / "own/out.png");
+    std::filesystem::create_symlink("c.png", folder / "own/in.png");
+    ASSERT_EQ(::mkfifo((folder / "own/fifo.png").c_str(), 0600), 0);
+    OwnFolder own((folder / "own/a.glb").string());
+    const std::string before = (folder / "own").string() + "/";
+    for (const std::string& name :
+         {before + "a.glb", before + "textures/b.png", std::string("textures\\b.png"),
+          std::string("D:\\art\\c.png"), std::string("in.png")}) {
+        EXPECT_NE(own.open(name).stream, nullptr) << name;
+    }
+    for (const std::string& name : {std::string("../secret"), (folder / "secret").string(),
+                                    std::string("out.png"), std::string("fifo.png"), std::string("/dev/zero"),
+                                    std::string("textures"), std::string(), std::string("gone.png")}) {
+        EXPECT_EQ(own.open(name).stream, nullptr) << name;
+    }
+    EXPECT_EQ(own.filesBeside(), (std::vector<std::string>{"textures/b.png", "c.png"}));
+    std::filesystem::remove_all(folder);
+}
 
 ImportedCharacter importGltf(const GltfText& file) {
     auto imported = importText(file.text(), "gltf");
