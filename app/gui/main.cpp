@@ -6,7 +6,7 @@
 #include "app/gui/theme/event_watch.h"
 #include "app/gui/theme/language.h"
 #include "app/gui/theme/theme.h"
-#include "app/gui/viewport/own_characters.h"
+#include "app/gui/viewport/character_import.h"
 #include "app/gui/viewport/presenter.h"
 #include "app/gui/window/docks.h"
 #include "app/gui/window/guide.h"

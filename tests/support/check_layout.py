@@ -30,6 +30,7 @@ MAY_INCLUDE = [
     ("app/system", []),
     ("app/net", ["core", "app/system"]),
     ("app/figure", ["core", "render/mesh"]),
+    ("app/import", ["render/mesh", "app/system"]),
     ("app/cli", ["core", "app/net", "app/figure", "app/system", "app/usage"]),
     ("app/gui/theme", []),
     ("app/gui/help", ["core", "app/gui/theme"]),

@@ -3,9 +3,11 @@
 
 #include "app/gui/models/text.h"
 #include "app/gui/theme/words.h"
-#include "render/mesh/import.h"
+#include "app/gui/viewport/character_import.h"
+#include "render/mesh/flat_character.h"
 
 #include <QBuffer>
+#include <QCoreApplication>
 #include <QCryptographicHash>
 #include <QDir>
 #include <QFile>
@@ -15,6 +17,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 namespace posewire::gui {
@@ -95,28 +98,55 @@ std::vector<render::TextureImage> texturesOf(const render::ImportedCharacter& ch
     return textures;
 }
 
+tl::expected<render::ImportedCharacter, QString>
+characterOf(const QString& path, const QString& sum, ReadingMark& mark, const std::atomic<bool>* isUnwanted) {
+    if (auto cached = cachedCharacter(path, sum)) {
+        return std::move(*cached);
+    }
+    const auto flat = readOutside(path, mark, isUnwanted);
+    if (!flat) {
+        return tl::unexpected(flat.error());
+    }
+    auto character = render::unflatten(std::as_bytes(std::span(flat->data(), flat->size())));
+    if (!character) {
+        return tl::unexpected(tr("the answer of the program that reads it is damaged"));
+    }
+    const auto isWhole = [](const render::ImportedTexture& texture) { return texture.problem.empty(); };
+    if (std::ranges::all_of(character->textures, isWhole)) { // a missing texture may be put there later
+        cacheCharacter(path, sum, *flat, *character);
+    }
+    return std::move(*character);
+}
+
 } // namespace
 
-ReadCharacter readCharacterFile(const QString& path) {
+ReadCharacter readCharacterFile(const QString& path, bool isAgain, const std::atomic<bool>* isUnwanted) {
     QFile file(path);
     QCryptographicHash sum(QCryptographicHash::Sha256);
+    if (const QFileInfo info(path); info.exists() && !info.isFile()) { // opening a pipe would wait
+        return tl::unexpected(tr("%1 is not a file").arg(path));
+    }
     if (!file.open(QIODevice::ReadOnly)) {
         return tl::unexpected(tr("%1 cannot be opened: %2").arg(path, file.errorString()));
     }
     if (file.size() > static_cast<qint64>(render::kMostImportedBytes)) {
         return tl::unexpected(tr("%1 is larger than 256 MB").arg(path));
     }
-    sum.addData(&file);
-    auto imported = render::importCharacter(QFile::encodeName(path).toStdString());
-    if (!imported) {
-        return tl::unexpected(
-            tr("%1 is no character that can be used: %2")
-                .arg(QFileInfo(path).fileName(), shown(model::ForeignText(imported.error()))));
+    ReadingMark mark(path, isAgain);
+    if (mark.isLeft()) {
+        return tl::unexpected(tr("%1 was not read to its end the last time, so it is not read automatically")
+                                  .arg(QFileInfo(path).fileName()));
     }
+    sum.addData(&file);
     auto read = std::make_shared<CharacterFile>();
     read->path = path;
     read->sum = QString::fromLatin1(sum.result().toHex());
-    read->character = std::move(*imported);
+    auto character = characterOf(path, read->sum, mark, isUnwanted);
+    if (!character) {
+        return tl::unexpected(
+            tr("%1 is no character that can be used: %2").arg(QFileInfo(path).fileName(), character.error()));
+    }
+    read->character = std::move(*character);
     read->mapping = render::mapBones(read->character.bones);
     read->textures = std::make_shared<const std::vector<render::TextureImage>>(
         texturesOf(read->character, &read->remarks));
@@ -127,38 +157,19 @@ ReadCharacter readCharacterFile(const QString& path) {
     return read;
 }
 
-QString importerName() {
-    return QString::fromStdString(render::importerName());
-}
-
-CharacterReading::CharacterReading(QObject* parent, Reader read)
-    : QObject(parent), m_read(std::move(read)), m_recipient(std::make_shared<Recipient>()) {
-    m_recipient->reading = this;
-}
-
-CharacterReading::~CharacterReading() {
-    const std::lock_guard lock(m_recipient->mutex);
-    m_recipient->reading = nullptr;
-}
-
-void CharacterReading::begin(const QString& path, std::function<void(const ReadCharacter&)> done) {
-    const std::uint64_t number = ++m_number;
+void CharacterReading::begin(const QString& path, std::function<void(const ReadCharacter&)> done,
+                             bool isAgain) {
+    *m_isUnwanted = true;
+    m_isUnwanted = std::make_shared<std::atomic<bool>>(false);
     QThreadPool::globalInstance()->start(
-        [path, number, done = std::move(done), read = m_read, recipient = m_recipient] {
-            const ReadCharacter file = read(path);
-            const std::lock_guard lock(recipient->mutex);
-            CharacterReading* reading = recipient->reading;
-            if (reading == nullptr) {
-                return;
-            }
-            QMetaObject::invokeMethod(
-                reading,
-                [reading, number, done, file] {
-                    if (number == reading->m_number) {
-                        done(file);
-                    }
-                },
-                Qt::QueuedConnection);
+        [path, isAgain, done = std::move(done), read = m_read, isUnwanted = m_isUnwanted] {
+            const ReadCharacter file = read(path, isAgain, isUnwanted.get());
+            const auto tell = [isUnwanted, done, file] {
+                if (!*isUnwanted) {
+                    done(file);
+                }
+            };
+            QMetaObject::invokeMethod(QCoreApplication::instance(), tell, Qt::QueuedConnection);
         });
 }
 
@@ -196,7 +207,7 @@ void OwnCharacters::dress(const QString& name, std::shared_ptr<const CharacterFi
         emit failed(tr("At most %1 characters have bodies of their own.").arg(kMost));
         return;
     }
-    std::erase(m_waiting, name);
+    forget(name);
     m_kept[name] = jsonOf(*file, choice);
     if (name.isEmpty()) {
         m_wardrobe.forAll = std::move(body);
@@ -207,7 +218,7 @@ void OwnCharacters::dress(const QString& name, std::shared_ptr<const CharacterFi
 }
 
 void OwnCharacters::undress(const QString& name) {
-    std::erase(m_waiting, name);
+    forget(name);
     m_kept.erase(name);
     if (name.isEmpty()) {
         m_wardrobe.forAll.reset();
@@ -237,6 +248,8 @@ void OwnCharacters::restoreState(const QJsonArray& state) {
     m_kept.clear();
     m_wardrobe = {};
     m_waiting.clear();
+    m_failed.clear();
+    m_isAgain = false;
     for (const auto& value : state) {
         const QJsonObject kept = value.toObject();
         const QString name = kept["character"].toString();
@@ -249,11 +262,25 @@ void OwnCharacters::restoreState(const QJsonArray& state) {
     emit changed();
 }
 
+void OwnCharacters::forget(const QString& name) {
+    std::erase(m_waiting, name);
+    std::erase(m_failed, name);
+}
+
+void OwnCharacters::readAgain() {
+    m_isAgain = true;
+    m_waiting.swap(m_failed);
+    m_failed.clear();
+    restoreNext();
+    emit changed();
+}
+
 void OwnCharacters::restoreNext() {
     if (!m_waiting.empty()) {
         const QString name = m_waiting.front();
-        m_reading.begin(m_kept[name]["file"].toString(),
-                        [this, name](const ReadCharacter& file) { finish(name, file); });
+        m_reading.begin(
+            m_kept[name]["file"].toString(), [this, name](const ReadCharacter& file) { finish(name, file); },
+            m_isAgain);
     }
 }
 
@@ -268,6 +295,7 @@ void OwnCharacters::finish(const QString& name, const ReadCharacter& file) {
             (name.isEmpty() ? m_wardrobe.forAll : m_wardrobe.byName[name]) = *body;
             emit changed();
         } else {
+            m_failed.push_back(name);
             // What was chosen is kept: the file may be on a disk that is not there now.
             emit failed(file ? tr("The mannequin stands in for %1: %2")
                                    .arg(QFileInfo(kept->second["file"].toString()).fileName(), body.error())

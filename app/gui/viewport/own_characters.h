@@ -8,10 +8,11 @@
 #include <QObject>
 #include <QString>
 
+#include <atomic>
 #include <functional>
 #include <map>
 #include <memory>
-#include <mutex>
+#include <utility>
 #include <vector>
 
 #include <tl/expected.hpp>
@@ -29,32 +30,28 @@ struct CharacterFile {
 using ReadCharacter = tl::expected<std::shared_ptr<const CharacterFile>, QString>;
 
 /// Reads a file with its textures, which together become no larger than 2048 × 2048; takes long, on any
-/// thread. The error says what is wrong with it.
-[[nodiscard]] ReadCharacter readCharacterFile(const QString& path);
+/// thread. The error says what is wrong with it. A character that was read before comes from the cache.
+/// If an earlier reading did not come to an end, it is only read again on request.
+[[nodiscard]] ReadCharacter readCharacterFile(const QString& path, bool isAgain = false,
+                                              const std::atomic<bool>* isUnwanted = nullptr);
 
-/// The same on a thread of its own; `done` is called on the thread of this object, unless it is gone or
-/// another reading was begun.
-class CharacterReading final : public QObject {
-    Q_OBJECT
-
+/// The same on a thread of its own; `done` is called on the window's thread, unless this is gone or another
+/// reading was begun.
+class CharacterReading final {
 public:
-    using Reader = std::function<ReadCharacter(const QString& path)>;
+    using Reader =
+        std::function<ReadCharacter(const QString& path, bool isAgain, const std::atomic<bool>* isUnwanted)>;
 
-    explicit CharacterReading(QObject* parent = nullptr, Reader read = readCharacterFile);
-    /// Waits for nobody: the program does at its end.
-    ~CharacterReading() override;
+    explicit CharacterReading(Reader read = readCharacterFile) : m_read(std::move(read)) {}
+    ~CharacterReading() { *m_isUnwanted = true; }
+    CharacterReading(const CharacterReading&) = delete;
+    CharacterReading& operator=(const CharacterReading&) = delete;
 
-    void begin(const QString& path, std::function<void(const ReadCharacter&)> done);
+    void begin(const QString& path, std::function<void(const ReadCharacter&)> done, bool isAgain = false);
 
 private:
-    struct Recipient {
-        std::mutex mutex;
-        CharacterReading* reading; ///< null once it is gone
-    };
-
     Reader m_read;
-    std::uint64_t m_number = 0;
-    std::shared_ptr<Recipient> m_recipient;
+    std::shared_ptr<std::atomic<bool>> m_isUnwanted = std::make_shared<std::atomic<bool>>(false);
 };
 
 struct BodyChoice {
@@ -95,6 +92,11 @@ public:
     void restoreState(const QJsonArray& state);
     [[nodiscard]] bool isRestoring() const { return !m_waiting.empty(); }
 
+    /// Of those that are kept; the mannequin stands in for it.
+    [[nodiscard]] bool hasFailed() const { return !m_failed.empty(); }
+    /// All that failed, also those whose reading did not come to an end.
+    void readAgain();
+
 signals:
     /// Somebody is dressed otherwise.
     void changed();
@@ -102,6 +104,7 @@ signals:
     void failed(const QString& problem);
 
 private:
+    void forget(const QString& name);
     void restoreNext();
     void finish(const QString& name, const ReadCharacter& file);
 
@@ -109,10 +112,9 @@ private:
     std::map<QString, QJsonObject> m_kept;   ///< by name
     Wardrobe m_wardrobe;
     std::vector<QString> m_waiting; ///< names whose files are still to be read
-    CharacterReading m_reading{this};
+    std::vector<QString> m_failed;
+    bool m_isAgain = false; ///< the operator asked for it
+    CharacterReading m_reading;
 };
-
-/// "Assimp 5.2".
-[[nodiscard]] QString importerName();
 
 } // namespace posewire::gui

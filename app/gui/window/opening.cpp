@@ -52,8 +52,19 @@ Opening::Opening(MainWindow& window)
             sayAlsoAfterwards(text);
         }
     });
-    connect(&window.viewport().choice().ownCharacters(), &OwnCharacters::failed, this,
-            &Opening::sayAlsoAfterwards);
+    OwnCharacters& characters = window.viewport().choice().ownCharacters();
+    connect(&characters, &OwnCharacters::failed, this, &Opening::sayAlsoAfterwards);
+    auto* again = framedButton(tr("Read it again"),
+                               tr("Read the files of own characters again that could not be read"), &window);
+    again->setObjectName(QStringLiteral("readAgainButton"));
+    const auto offerAgain = [again, &characters] {
+        again->setVisible(characters.hasFailed() && !characters.isRestoring());
+    };
+    connect(&characters, &OwnCharacters::failed, again, offerAgain);
+    connect(&characters, &OwnCharacters::changed, again, offerAgain);
+    connect(again, &QToolButton::clicked, &characters, &OwnCharacters::readAgain);
+    window.statusBar()->addPermanentWidget(again);
+    offerAgain();
     showState();
 }
 

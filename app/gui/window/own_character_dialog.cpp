@@ -208,6 +208,7 @@ void OwnCharacterDialog::makeForm() {
     m_size->addItems({tr("As tall as the performer"), tr("As tall as in the file")});
     auto* file = spacedRow({}, 8);
     file->addWidget(m_path, 1);
+    file->addWidget(m_again);
     file->addWidget(m_browse);
     auto* form = new QFormLayout;
     form->addRow(tr("&Unit"), m_unit);
@@ -233,6 +234,7 @@ void OwnCharacterDialog::makeForm() {
     column->addLayout(target);
     column->addWidget(buttons);
     connect(m_browse, &QPushButton::clicked, this, &OwnCharacterDialog::askForFile);
+    connect(m_again, &QPushButton::clicked, this, [this] { read(m_path->text(), true); });
     for (QComboBox* each : {m_unit, m_heading, m_rest, m_size}) {
         connect(each, &QComboBox::activated, this, &OwnCharacterDialog::makeBody);
     }
@@ -252,17 +254,18 @@ QString OwnCharacterDialog::who() const {
 void OwnCharacterDialog::askForFile() {
     const QString path =
         QFileDialog::getOpenFileName(this, windowTitle(), QFileInfo(m_path->text()).absolutePath(),
-                                     tr("Characters (*.glb *.gltf *.vrm *.fbx *.dae);;All files (*)"));
+                                     tr("Characters (*.glb *.gltf *.vrm *.fbx *.dae)"));
     if (!path.isEmpty()) {
-        read(path);
+        read(path, true);
     }
 }
 
-void OwnCharacterDialog::read(const QString& path) {
+void OwnCharacterDialog::read(const QString& path, bool isAgain) {
     m_path->setText(path);
     m_isReading = true;
     describe();
-    m_reading.begin(path, [this](const ReadCharacter& file) { take(file); });
+    m_reading.begin(
+        path, [this](const ReadCharacter& file) { take(file); }, isAgain);
 }
 
 /// A file that cannot be read changes nothing but the words.
@@ -351,6 +354,7 @@ void OwnCharacterDialog::describe() {
     for (QComboBox* each : {m_unit, m_heading, m_rest, m_size}) {
         each->setEnabled(hasFile);
     }
+    m_again->setVisible(hasProblem && m_file == nullptr);
     m_browse->setEnabled(!m_isReading);
     m_apply->setEnabled(!m_isReading && m_body != nullptr);
     m_mannequin->setEnabled(m_characters.hasOwn(who()));

@@ -25,7 +25,7 @@ public:
                        QWidget* parent);
 
     /// Reads a file, as the button does that asks for one.
-    void read(const QString& path);
+    void read(const QString& path, bool isAgain = false);
     [[nodiscard]] QString stateText() const { return m_state->text(); }
     [[nodiscard]] bool isReading() const { return m_isReading; }
 
@@ -52,6 +52,7 @@ private:
     std::shared_ptr<const DressedBody> m_body; ///< null if what is chosen makes none
     QString m_problem;                         ///< with the file or the choice; empty for none
     QLineEdit* m_path = new QLineEdit(this);
+    QPushButton* m_again = new QPushButton(tr("&Read it again"), this);
     QPushButton* m_browse = new QPushButton(tr("&File…"), this);
     BodyPreview* m_preview;
     QLabel* m_state = dimText({}, this);

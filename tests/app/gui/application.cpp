@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <QApplication>
+#include <QFile>
+#include <QTemporaryDir>
 
 #include <memory>
 
@@ -16,6 +18,8 @@ public:
     void SetUp() override {
         qputenv("QT_QPA_PLATFORM", "offscreen");
         qputenv("TZ", "UTC");
+        qputenv("POSEWIRE_IMPORT", POSEWIRE_IMPORT_PROGRAM);
+        qputenv("XDG_CACHE_HOME", QFile::encodeName(m_cache.path()));
         static int argumentCount = 1;
         static char name[] = "test";
         static char* arguments[] = {name, nullptr};
@@ -26,6 +30,7 @@ public:
     void TearDown() override { m_application.reset(); }
 
 private:
+    QTemporaryDir m_cache; ///< nothing of another run is in it
     std::unique_ptr<QApplication> m_application;
 };
 

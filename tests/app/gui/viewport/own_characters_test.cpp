@@ -222,14 +222,14 @@ TEST(CharacterReading, NobodyWaitsForAFileThatIsNoLongerWanted) {
     std::promise<void> slow;
     const std::shared_future<void> isOver = slow.get_future().share();
     int calls = 0;
-    const auto read = [isOver](const QString& path) {
+    const auto read = [isOver](const QString& path, bool, const std::atomic<bool>*) {
         if (path == "slow") {
             isOver.wait();
         }
         return ReadCharacter(nullptr);
     };
     {
-        CharacterReading reading(nullptr, read);
+        CharacterReading reading(read);
         reading.begin("slow", [&](const ReadCharacter&) { calls += 100; });
         reading.begin("quick", [&](const ReadCharacter&) { ++calls; });
         EXPECT_TRUE(QTest::qWaitFor([&] { return calls != 0; }, 10'000)) << "not held up by the slow one";
