@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <new>
 #include <string_view>
 #include <utility>
 

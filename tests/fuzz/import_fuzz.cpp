@@ -27,8 +27,8 @@ Stage& stage() {
     static int count = 1;
     static char name[] = "import";
     static char* arguments[] = {name, nullptr};
-    static auto* const stage = new Stage{{count, arguments}, {}}; // Qt does not outlive main()
-    return *stage;
+    static auto* const made = new Stage{{count, arguments}, {}}; // Qt does not outlive main()
+    return *made;
 }
 
 /// As the first bytes say, so that each importer has its part.

@@ -15,6 +15,7 @@
 #include <QProcess>
 #include <QSaveFile>
 #include <QStandardPaths>
+#include <QThread>
 
 #include <chrono>
 #include <span>
@@ -148,14 +149,16 @@ void cacheCharacter(const QString& path, const QString& sum, const QByteArray& f
 ReadingMark::ReadingMark(const QString& path, bool isAgain)
     : m_name(cacheFolder() + '/' + QCryptographicHash::hash(path.toUtf8(), QCryptographicHash::Sha1).toHex() +
              ".reading") {
-    QFile mark(m_name);
-    const bool isNew = !mark.exists();
-    if (isNew) {
-        static_cast<void>(mark.open(QIODevice::WriteOnly));
-        mark.close();
+    constexpr int kAttempts = 20; // a program that was killed may take a while to be gone
+    for (int attempt = 0; attempt < kAttempts && !m_lock.isOpen(); ++attempt) {
+        QThread::msleep(attempt == 0 ? 0 : 100);
+        m_isLeft = QFile::exists(m_name) && !isAgain;
+        if (!QFile(m_name).open(QIODevice::ReadWrite)) {
+            break;
+        }
+        m_lock = log::openLocked(QFile::encodeName(m_name).toStdString());
     }
-    m_lock = log::openLocked(QFile::encodeName(m_name).toStdString());
-    m_isLeft = !isNew && m_lock.isOpen() && !isAgain;
+    m_isLeft = m_isLeft && m_lock.isOpen();
 }
 
 ReadingMark::~ReadingMark() {

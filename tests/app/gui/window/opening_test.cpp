@@ -2,6 +2,7 @@
 #include "app/gui/window/health_bar.h"
 #include "tests/app/gui/window/main_window_fixture.h"
 #include "tests/support/golden.h"
+#include "tests/support/paths.h"
 
 #include <QFile>
 #include <QFileInfo>
@@ -51,6 +52,24 @@ TEST_F(MainWindowTest, SaysWhatIsWrongWithACharacterAlsoWhereAFileIsOpenedMeanwh
     emit driver.tableTick();
     emit driver.files().opened(true, "");
     EXPECT_EQ(message->text(), "") << "it has been said";
+}
+
+TEST_F(MainWindowTest, ReadsACharacterAgainOnRequest) {
+    const auto window = makeWindow();
+    auto* again = window->findChild<QToolButton*>("readAgainButton");
+    EXPECT_TRUE(again->isHidden());
+    OwnCharacters& characters = window->viewport().choice().ownCharacters();
+    const auto wait = [&] { return QTest::qWaitFor([&] { return !characters.isRestoring(); }, 20'000); };
+    const QString path = folder.filePath("own.glb");
+    characters.restoreState({QJsonObject{{"character", ""}, {"file", path}}});
+    ASSERT_TRUE(wait());
+    EXPECT_FALSE(again->isHidden());
+    ASSERT_TRUE(QFile::copy(
+        QString::fromStdString(posewire::test::sourcePath("resources/mannequin_low.glb").string()), path));
+    again->click();
+    ASSERT_TRUE(wait());
+    EXPECT_TRUE(again->isHidden());
+    EXPECT_NE(characters.wardrobe().of("Alice"), nullptr);
 }
 
 TEST_F(MainWindowTest, SaysWhyNothingIsComparedAlsoWhenARecordingIsShownThen) {
