@@ -80,6 +80,9 @@ ExitStatus monitorFile(const MonitorOptions& options, Console& console);
 /// The file of a recording. It exists from then on.
 [[nodiscard]] tl::expected<std::unique_ptr<log::ByteSink>, log::FileError>
 createRecording(const MonitorOptions& options);
+/// A recording to it of what is received.
+[[nodiscard]] tl::expected<std::unique_ptr<log::Recording>, log::FileError>
+startRecording(const MonitorOptions& options, const log::PacketLog& log);
 
 /// What monitoring the network and monitoring a file have in common: a log, a session that follows it, what
 /// is shown meanwhile and what is said at the end. During its lifetime the first Ctrl+C is only remembered,
@@ -106,8 +109,9 @@ public:
 
     [[nodiscard]] log::Reception receptionOf(const exporting::MonitorFacts& facts) const;
 
-    /// Says how much was recorded, and if not all of it was, how much that is.
-    void tellRecorded(const log::RecordingFigures& recorded, bool hasFailed);
+    /// Says how much was recorded, and where; if not all of it was, how much that is.
+    void tellRecorded(const log::RecordingFigures& recorded, const std::string& path,
+                      const std::optional<log::FileError>& failure);
 
     /// Says that the file was not read to its end, also in the report.
     void tellInterrupted();

@@ -188,7 +188,8 @@ ExitStatus monitorFile(const MonitorOptions& options, Console& console) {
         status = console.unusable(recorded.error().text);
     }
     if (recorder) {
-        run.tellRecorded(recorder->figures(), !recorded);
+        run.tellRecorded(recorder->figures(), options.record,
+                         recorded ? std::nullopt : std::optional(recorded.error()));
     }
     exporting::MonitorFacts facts;
     facts.durationS = replay.durationS();

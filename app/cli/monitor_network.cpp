@@ -98,39 +98,42 @@ void tellInputs(const net::Receiver& receiver, Console& console) {
     }
 }
 
-/// Reports the failure of a recording at once, and only once.
+/// Reports the failure of a recording at once, and only once, and each file of it that is gone.
 class RecordingWatch {
 public:
     RecordingWatch(MonitorRun& run, Console& console) : m_run(run), m_console(console) {}
 
     [[nodiscard]] bool start(const MonitorOptions& options) {
-        auto started = createRecording(options).and_then([&](std::unique_ptr<log::ByteSink>&& sink) {
-            return log::Recording::start(m_run.log(), std::move(sink), recordingInfo());
-        });
+        auto started = startRecording(options, m_run.log());
         if (!started) {
-            note(started.error());
+            m_console.complain(started.error().text);
             return false;
         }
         m_recording = std::move(*started);
         return true;
     }
 
-    void look() {
-        if (m_recording && m_status == ExitStatus::Fine) {
-            note(m_recording->failure());
+    void look(log::Stamp now) {
+        if (m_recording && !hasFailed()) {
+            tellDisplaced(now);
+            note(m_recording->failure(), now);
         }
     }
-    [[nodiscard]] bool hasFailed() const { return m_status != ExitStatus::Fine; }
-    ExitStatus stop(const log::Reception& reception) {
-        if (m_recording && m_status == ExitStatus::Fine) {
-            note(finish(reception));
+    [[nodiscard]] bool hasFailed() const { return m_failure.has_value(); }
+    ExitStatus stop(const log::Reception& reception, log::Stamp now) {
+        if (!m_recording) {
+            return ExitStatus::Fine;
         }
-        if (m_recording) {
-            const log::RecordingFigures recorded = m_recording->figures();
-            m_run.tellRecorded(recorded, m_status != ExitStatus::Fine);
-            m_status = worse(m_status, recorded.missed == 0 ? ExitStatus::Fine : ExitStatus::Faults);
+        if (!hasFailed()) {
+            const auto failure = finish(reception);
+            tellDisplaced(now);
+            note(failure, now);
         }
-        return m_status;
+        const log::RecordingFigures recorded = m_recording->figures();
+        m_run.tellRecorded(recorded, recorded.path, m_failure);
+        return hasFailed() || m_displaced > 0 ? ExitStatus::Unusable
+               : recorded.missed > 0          ? ExitStatus::Faults
+                                              : ExitStatus::Fine;
     }
 
 private:
@@ -145,17 +148,28 @@ private:
         const auto result = stopped.get();
         return result ? std::nullopt : std::optional(result.error());
     }
-    void note(const std::optional<log::FileError>& failure) {
+    void note(const std::optional<log::FileError>& failure, log::Stamp now) {
+        m_failure = failure;
         if (failure) {
             m_console.complain(failure->text);
-            m_status = ExitStatus::Unusable;
+            m_run.session().report(model::IncidentKind::RecordingEnded, now,
+                                   {words::Kind::RecordingEnded, {{"problem", failure->text}}});
+        }
+    }
+    void tellDisplaced(log::Stamp now) {
+        const std::vector<log::Displaced> all = m_recording->figures().displaced;
+        for (; m_displaced < all.size(); ++m_displaced) {
+            const words::Fact fact = model::factOf(all[m_displaced]);
+            m_console.complain(say(fact, words::Form::Headline));
+            m_run.session().report(model::IncidentKind::RecordingEnded, now, fact);
         }
     }
 
     std::unique_ptr<log::Recording> m_recording;
     MonitorRun& m_run;
     Console& m_console;
-    ExitStatus m_status = ExitStatus::Fine;
+    std::size_t m_displaced = 0; ///< that were told
+    std::optional<log::FileError> m_failure;
 };
 
 /// Says what is wrong with an input, once, and when it is well again; and which connections were turned away,
@@ -258,7 +272,7 @@ double watch(const MonitorOptions& options, const net::Receiver& receiver, Monit
         run.session().setKernel(kernel);
         run.follow(now, receiver.isHeldUp());
         run.show(factsOf(receiver, elapsed.count()), now);
-        recording.look();
+        recording.look(now);
         inputs.look(run.session(), kernel, now);
         const bool isInVain = options.record == "-" && recording.hasFailed();
         if (run.isOver() || isInVain || (hasEnd && left.count() <= 0)) {
@@ -345,7 +359,7 @@ ExitStatus monitorNetwork(const MonitorOptions& options, Console& console) {
     inputs.end();
     receiver.reset(); // what is in the sockets still comes into the log
     const log::Stamp end = run.followToEnd(over);
-    const ExitStatus recorded = recording.stop(run.receptionOf(facts));
+    const ExitStatus recorded = recording.stop(run.receptionOf(facts), end);
     return run.conclude(facts, recorded, end);
 }
 

@@ -119,6 +119,10 @@ log::OutputRules rulesOf(const MonitorOptions& options) {
     return rules;
 }
 
+std::string recordingPath(const MonitorOptions& options) {
+    return options.record == "-" ? std::string(log::kStandardOutput) : options.record;
+}
+
 } // namespace
 
 std::string unitOf(const Limit& limit) {
@@ -233,10 +237,14 @@ log::Reception MonitorRun::receptionOf(const exporting::MonitorFacts& facts) con
             static_cast<std::uint64_t>(facts.receiveBufferBytes)};
 }
 
-void MonitorRun::tellRecorded(const log::RecordingFigures& recorded, bool hasFailed) {
+void MonitorRun::tellRecorded(const log::RecordingFigures& recorded, const std::string& path,
+                              const std::optional<log::FileError>& failure) {
     const std::string packets = packetsText(recorded.packets);
-    const std::string file = m_options.record == "-" ? "standard output" : m_options.record;
-    if (hasFailed) {
+    const std::string file = m_options.record == "-" ? "standard output" : path;
+    if (failure) {
+        if (failure->kind == log::FileError::Kind::Displaced) {
+            return; // nothing is there
+        }
         m_console.complain("at most " + packets + " of " +
                            std::to_string(log::LogReader(m_origin.log()).end()) + " are in " + file);
         return;
@@ -332,8 +340,12 @@ tl::expected<void, std::string> checkOutputs(const MonitorOptions& options) {
 }
 
 tl::expected<std::unique_ptr<log::ByteSink>, log::FileError> createRecording(const MonitorOptions& options) {
-    const std::string path = options.record == "-" ? std::string(log::kStandardOutput) : options.record;
-    return log::createFile(path, rulesOf(options));
+    return log::createFile(recordingPath(options), rulesOf(options));
+}
+
+tl::expected<std::unique_ptr<log::Recording>, log::FileError> startRecording(const MonitorOptions& options,
+                                                                             const log::PacketLog& log) {
+    return log::Recording::start(log, recordingPath(options), recordingInfo(), rulesOf(options));
 }
 
 log::RecordingInfo recordingInfo() {

@@ -22,6 +22,7 @@ struct FileError {
         Damaged,   ///< a capture makes no sense from some byte on; all before it was read
         Cancelled, ///< by the caller
         Unread,    ///< the reader of what was written is gone
+        Displaced, ///< what was written is not under its name any more, or not all of it
     };
     std::string text;
     Kind kind = Kind::Failed;

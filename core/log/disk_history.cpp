@@ -58,10 +58,14 @@ DiskHistory::start(PacketLog& log, const DiskHistoryChoice& choice, const Record
 
 DiskHistory::~DiskHistory() {
     m_thread = {};
+    if (m_isLeft && !m_failure) {
+        static_cast<void>(follow({}).and_then([this] { return endFile(); }));
+    }
     m_log.past().dropBefore(UINT64_MAX);
     std::error_code ignored;
-    for (const File& file : m_files) {
-        fs::remove(pathOf(file.path), ignored);
+    while (!m_isLeft && !m_files.empty()) {
+        fs::remove(pathOf(m_files.front().path), ignored);
+        m_files.pop_front();
     }
 }
 
@@ -151,7 +155,7 @@ tl::expected<std::string, FileError> DiskHistory::createNext() {
         const std::string name = std::string(kPrefix) + std::to_string(processNumber()) + "-" +
                                  std::to_string(++m_fileCount) + std::string(kSuffix);
         const std::string path = nameOf(pathOf(m_choice.folder) / name);
-        auto sink = createFile(path);
+        auto sink = createFile(path, {.isWatched = false}); // readers have it open
         if (sink) {
             m_sink = std::move(*sink);
             return path;

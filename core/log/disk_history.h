@@ -44,7 +44,7 @@ public:
     /// Begins with the oldest packet in memory. Fails if no file can be made. `log` must outlive it.
     static tl::expected<std::unique_ptr<DiskHistory>, FileError>
     start(PacketLog& log, const DiskHistoryChoice& choice, const RecordingInfo& info);
-    /// The log forgets what lay in the files, and they go.
+    /// The log forgets what lay in the files, and they go, but for leave().
     ~DiskHistory();
     DiskHistory(const DiskHistory&) = delete;
     DiskHistory& operator=(const DiskHistory&) = delete;
@@ -53,6 +53,9 @@ public:
     [[nodiscard]] DiskHistoryFigures figures() const;
     /// Why nothing more is kept. Nothing as long as all is well.
     [[nodiscard]] std::optional<FileError> failure() const;
+
+    /// The files stay at the end, with everything that was received, as if the process had died.
+    void leave() { m_isLeft = true; }
 
 private:
     using Result = PcapngWriter::Result;
@@ -88,6 +91,7 @@ private:
     SenderFinder m_senders;
     std::deque<File> m_files; ///< the newest is being written
     std::uint64_t m_fileCount = 0;
+    bool m_isLeft = false;
     std::unique_ptr<ByteSink> m_sink;
     std::optional<PcapngWriter> m_writer;
     std::optional<PastWriter> m_past;

@@ -4,7 +4,9 @@
 #include "core/log/file_names.h"
 #include "core/log/system_files.h"
 
+#include <atomic>
 #include <cerrno>
+#include <charconv>
 #include <cstring>
 #include <filesystem>
 #include <optional>
@@ -14,6 +16,8 @@ namespace posewire::log {
 namespace {
 
 using Kind = FileStatus::Kind;
+
+std::atomic<unsigned> newFileMode = 0600;
 
 constexpr int kInputDescriptor = 0;
 constexpr int kOutputDescriptor = 1;
@@ -26,6 +30,10 @@ tl::unexpected<FileError> unwritable(const std::string& path, int error) {
     }
     return tl::unexpected(FileError{path + ": cannot be written (" + std::strerror(error) +
                                     "); choose another file or folder"});
+}
+
+tl::unexpected<FileError> beingWritten(const std::string& path) {
+    return tl::unexpected(FileError{path + ": is being recorded to at present; choose another name"});
 }
 
 tl::expected<void, FileError> checkInUse(const std::string& path, const FileStatus& status,
@@ -68,6 +76,9 @@ tl::expected<Target, FileError> targetOf(const std::string& path, const OutputRu
         return tl::unexpected(
             FileError{path + ": exists already; choose another name, or add --force to replace it"});
     }
+    if (!isStandard && target->kind == Kind::File && !openLocked(path).isOpen() && errno == EWOULDBLOCK) {
+        return beingWritten(path);
+    }
     return target;
 }
 
@@ -82,7 +93,7 @@ tl::expected<Descriptor, FileError> openTarget(const std::string& path, bool exi
     if (path == kStandardOutput) {
         return duplicateOf(kOutputDescriptor);
     }
-    Descriptor descriptor = exists ? openToWrite(path) : createToWrite(path);
+    Descriptor descriptor = exists ? openToWrite(path) : createToWrite(path, newFileMode);
     if (!descriptor.isOpen()) {
         return unwritable(path, errno);
     }
@@ -90,6 +101,9 @@ tl::expected<Descriptor, FileError> openTarget(const std::string& path, bool exi
     if (status && status->kind == Kind::File) {
         if (const auto checked = checkInUse(path, *status, rules); !checked) {
             return tl::unexpected(checked.error());
+        }
+        if (rules.isWatched && !lockFile(descriptor) && errno == EWOULDBLOCK) {
+            return beingWritten(path);
         }
         if (!makeEmpty(descriptor)) {
             return unwritable(path, errno);
@@ -104,7 +118,7 @@ Descriptor openBeside(const std::string& path, std::string& name) {
     for (int number = 0; number < attempts; ++number) {
         name = folderOf(path) + "/.posewire-" + std::to_string(processNumber()) + '-' +
                std::to_string(number) + ".part";
-        Descriptor descriptor = createToWrite(name);
+        Descriptor descriptor = createToWrite(name, newFileMode);
         if (descriptor.isOpen() || errno != EEXIST) {
             return descriptor;
         }
@@ -115,17 +129,20 @@ Descriptor openBeside(const std::string& path, std::string& name) {
 /// Buffers small pieces.
 class FileSink : public ByteSink {
 public:
-    /// `consequence` ends the messages about failures.
-    FileSink(Descriptor descriptor, std::string name, const char* consequence)
-        : m_descriptor(std::move(descriptor)), m_name(std::move(name)), m_consequence(consequence) {
+    /// `consequence` ends the messages about failures. `isInPlace`: flush() looks whether it still is.
+    FileSink(Descriptor descriptor, std::string name, const char* consequence, bool isInPlace)
+        : m_descriptor(std::move(descriptor)),
+          m_name(std::move(name)),
+          m_consequence(consequence),
+          m_isInPlace(isInPlace) {
         m_waiting.reserve(kBuffer);
     }
     /// Writes the rest; call flush() before to learn of a failure.
-    ~FileSink() override { static_cast<void>(FileSink::flush()); }
+    ~FileSink() override { static_cast<void>(putWaiting()); }
 
     tl::expected<void, FileError> write(std::span<const std::byte> bytes) override {
         if (m_waiting.size() + bytes.size() > kBuffer) {
-            if (auto flushed = flush(); !flushed) {
+            if (auto flushed = putWaiting(); !flushed) {
                 return flushed;
             }
         }
@@ -136,9 +153,7 @@ public:
         return {};
     }
     tl::expected<void, FileError> flush() override {
-        auto result = put(m_waiting);
-        m_waiting.clear();
-        return result;
+        return putWaiting().and_then([this] { return checkPlace(); });
     }
     tl::expected<void, FileError> sync() override {
         if (auto flushed = flush(); !flushed) {
@@ -160,10 +175,31 @@ private:
     /// Between two looks at a full pipe.
     static constexpr std::chrono::milliseconds kPause{100};
 
+    tl::expected<void, FileError> putWaiting() {
+        auto result = put(m_waiting);
+        m_waiting.clear();
+        return result;
+    }
+    /// Who watches a folder may move a file that is being written.
+    [[nodiscard]] tl::expected<void, FileError> checkPlace() const {
+        const auto own = m_isInPlace ? statusOf(m_descriptor.number()) : std::nullopt;
+        if (!own || own->kind != Kind::File) {
+            return {};
+        }
+        const auto there = statusOf(m_name);
+        const char* const what = there && !there->isSameFileAs(*own) ? "another file has taken its place"
+                                 : own->names == 0       ? "it was removed while it was being written"
+                                 : !there                ? "it was moved while it was being written"
+                                 : own->size < m_written ? "another program has cut it"
+                                                         : nullptr;
+        return what == nullptr ? tl::expected<void, FileError>()
+                               : tl::unexpected(FileError{m_name + ": " + what, FileError::Kind::Displaced});
+    }
     tl::expected<void, FileError> put(std::span<const std::byte> bytes) {
         while (!bytes.empty() && !m_hasFailed) {
             const std::ptrdiff_t count = writeSome(m_descriptor.number(), bytes);
             if (count >= 0) {
+                m_written += static_cast<std::uint64_t>(count);
                 bytes = bytes.subspan(static_cast<std::size_t>(count));
             } else if (errno == EAGAIN) {
                 static_cast<void>(hasRoom(m_descriptor.number(), kPause));
@@ -203,6 +239,8 @@ private:
     std::string m_name;
     const char* m_consequence;
     std::vector<std::byte> m_waiting;
+    std::uint64_t m_written = 0;
+    bool m_isInPlace;
     bool m_hasFailed = false;
 };
 
@@ -210,7 +248,7 @@ class WholeFileSink final : public FileSink {
 public:
     WholeFileSink(Descriptor descriptor, std::string path, std::string target, std::string temporary,
                   bool mayReplace)
-        : FileSink(std::move(descriptor), std::move(path), kIsGone),
+        : FileSink(std::move(descriptor), std::move(path), kIsGone, false),
           m_target(std::move(target)),
           m_temporary(std::move(temporary)),
           m_mayReplace(mayReplace) {}
@@ -243,6 +281,19 @@ private:
 
 } // namespace
 
+std::string setFileMode(const std::string& octal) {
+    constexpr unsigned kOwner = 0600;
+    constexpr unsigned kAll = 0666;
+    unsigned mode = 0;
+    const char* const end = octal.data() + octal.size();
+    const auto read = std::from_chars(octal.data(), end, mode, 8);
+    if (read.ec != std::errc() || read.ptr != end || (mode & kOwner) != kOwner || (mode & ~kAll) != 0) {
+        return "--mode: '" + octal + "' is none such as 0600, 0640 or 0664";
+    }
+    newFileMode = mode;
+    return {};
+}
+
 tl::expected<void, FileError> checkOutput(const std::string& path, const OutputRules& rules) {
     const auto target = targetOf(path, rules);
     if (!target) {
@@ -262,7 +313,9 @@ tl::expected<std::unique_ptr<ByteSink>, FileError> createFile(const std::string&
     }
     const bool exists = target->has_value();
     return openTarget(path, exists, rules).map([&](Descriptor&& descriptor) -> std::unique_ptr<ByteSink> {
-        return std::make_unique<FileSink>(std::move(descriptor), path, kStays);
+        bringNameToDisk(path);
+        const bool isInPlace = rules.isWatched && path != kStandardOutput;
+        return std::make_unique<FileSink>(std::move(descriptor), path, kStays, isInPlace);
     });
 }
 
@@ -295,6 +348,20 @@ tl::expected<void, FileError> writeWholeFile(const std::string& path, std::span<
     return createWholeFile(path, rules).and_then([&](const std::unique_ptr<ByteSink>& sink) {
         return sink->write(bytes).and_then([&] { return sink->finish(); });
     });
+}
+
+bool makeFolder(const std::string& path) {
+    namespace fs = std::filesystem;
+    constexpr unsigned kReading = 0444; // who may read a folder may enter it
+    std::error_code failed;
+    const fs::path folder = pathOf(path);
+    const std::string parent = nameOf(folder.parent_path());
+    if (!fs::exists(folder, failed) && (parent.empty() || parent == path || makeFolder(parent)) &&
+        fs::create_directory(folder, failed)) {
+        const unsigned mode = newFileMode;
+        fs::permissions(folder, fs::perms(mode | (mode & kReading) >> 2U), failed);
+    }
+    return fs::is_directory(folder, failed);
 }
 
 tl::expected<void, FileError> copyFile(const std::string& from, const std::string& to,

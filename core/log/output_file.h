@@ -19,7 +19,13 @@ struct OutputRules {
     bool mayReplace = false; ///< an existing file; pipes and devices such as /dev/null need no permission
     /// Files in use, "-" for standard input: never written over, whatever names and links lead to them.
     std::vector<std::string> inUse{};
+    /// A file that grows: nobody else may write it, and it fails as Displaced once its name leads elsewhere.
+    bool isWatched = true;
 };
+
+/// Permissions of the files that are made from now on, in octal; 0600 at first, as motion is that of people.
+/// A file that is replaced keeps its own. Returns in one line what is wrong with the text, or nothing.
+std::string setFileMode(const std::string& octal);
 
 /// Fails if the file may not be written at present: call it before long work.
 tl::expected<void, FileError> checkOutput(const std::string& path, const OutputRules& rules);
@@ -38,6 +44,10 @@ tl::expected<std::unique_ptr<ByteSink>, FileError> createWholeFile(const std::st
 /// Creates, writes and finishes a whole file.
 tl::expected<void, FileError> writeWholeFile(const std::string& path, std::span<const std::byte> bytes,
                                              const OutputRules& rules = {});
+
+/// Makes a folder, and those that it is in, if they are missing, for those who may read the files in it. True
+/// if it is there then.
+bool makeFolder(const std::string& path);
 
 /// Writes the bytes of one file to another, as a whole file.
 tl::expected<void, FileError> copyFile(const std::string& from, const std::string& to,

@@ -3,6 +3,7 @@
 
 #include "core/log/file_names.h"
 #include "core/log/packet_log.h"
+#include "core/log/system_files.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -16,6 +17,36 @@ constexpr std::chrono::milliseconds kPause{50};
 constexpr std::chrono::seconds kSync{1};
 
 constexpr const char* kInEarlierFile = "In an earlier file: ";
+
+bool isDisplaced(const Recorder::Result& result) {
+    return !result && result.error().kind == FileError::Kind::Displaced;
+}
+
+Recorder::Result checkRoom(const std::string& path, std::uint64_t leaveFree) {
+    std::error_code failed;
+    const auto folder = pathOf(path).parent_path();
+    const auto space = leaveFree == 0 ? std::filesystem::space_info{}
+                                      : std::filesystem::space(folder.empty() ? "." : folder, failed);
+    if (leaveFree == 0 || failed || space.available >= leaveFree) {
+        return {};
+    }
+    return tl::unexpected(FileError{path + ": less than " + std::to_string(leaveFree / 1'000'000) +
+                                    " MB are free on its disk; free some, or record to another one"});
+}
+
+/// The next part that nothing has the name of, in a folder that is made if it is missing.
+tl::expected<std::unique_ptr<ByteSink>, FileError> createNext(const std::string& first, unsigned& part,
+                                                              std::string& path) {
+    static_cast<void>(makeFolder(nameOf(pathOf(first).parent_path())));
+    while (true) {
+        path = partPath(first, ++part);
+        auto sink = createFile(path);
+        std::error_code failed;
+        if (sink || !std::filesystem::exists(std::filesystem::symlink_status(pathOf(path), failed))) {
+            return sink;
+        }
+    }
+}
 
 } // namespace
 
@@ -36,9 +67,7 @@ Recorder::Result Recorder::begin(const RecordingInfo& info) {
 }
 
 Recorder::Result Recorder::follow() {
-    const std::uint64_t before = m_writer.packets();
-    const auto written = writeNew();
-    return written && m_writer.packets() != before ? m_sink.flush() : written;
+    return writeNew().and_then([this] { return m_sink.flush(); });
 }
 
 Recorder::Result Recorder::note(std::span<const std::string> notes) {
@@ -94,17 +123,20 @@ std::string partPath(const std::string& path, unsigned part) {
 tl::expected<std::unique_ptr<Recording>, FileError>
 Recording::start(const PacketLog& log, const std::string& path, const RecordingInfo& info,
                  const OutputRules& rules, std::uint64_t from, const RecordingLimits& limits) {
-    auto sink = createFile(path, rules);
+    std::error_code failed;
+    const bool isNew = !std::filesystem::exists(pathOf(path), failed);
+    auto sink = checkRoom(path, limits.leaveFree).and_then([&] { return createFile(path, rules); });
     if (!sink) {
         return tl::unexpected(sink.error());
     }
     std::unique_ptr<Recording> recording(new Recording(log, std::move(*sink), from));
-    recording->m_path = path;
+    recording->m_path = recording->m_file = path;
     recording->m_limits = limits;
-    if (auto room = recording->checkRoom(); !room) {
-        return tl::unexpected(room.error());
+    auto begun = begin(std::move(recording), info);
+    if (!begun && isNew) {
+        std::filesystem::remove(pathOf(path), failed);
     }
-    return begin(std::move(recording), info);
+    return begun;
 }
 
 tl::expected<std::unique_ptr<Recording>, FileError> Recording::start(const PacketLog& log,
@@ -120,6 +152,7 @@ tl::expected<std::unique_ptr<Recording>, FileError> Recording::begin(std::unique
     if (const auto begun = recording->m_recorder->begin(info); !begun) {
         return tl::unexpected(begun.error());
     }
+    recording->m_figures = recording->figuresNow();
     recording->m_thread = std::thread([raw = recording.get()] { raw->run(); });
     return recording;
 }
@@ -174,16 +207,16 @@ void Recording::run() {
             std::unique_lock lock(m_mutex);
             isStopping = m_changed.wait_for(lock, kPause, [this] { return m_isStopping; });
         }
-        if (!note(isStopping ? finish() : m_recorder->follow())) {
+        if (!carryOut([&] { return isStopping ? finish() : m_recorder->follow(); })) {
             return;
         }
         const auto now = std::chrono::steady_clock::now();
         if (!isStopping && now - synced >= kSync) {
             synced = now;
-            if (!note(keepMarks()) || !note(m_recorder->sync())) {
+            if (!carryOut([this] { return keepMarks().and_then([this] { return m_recorder->sync(); }); })) {
                 return;
             }
-            if (const auto room = checkRoom(); !room) {
+            if (const auto room = checkRoom(m_file, m_limits.leaveFree); !room) {
                 static_cast<void>(finish()); // while that still has room
                 note(room);
                 return;
@@ -202,45 +235,74 @@ bool Recording::isFileFull() const {
             std::chrono::steady_clock::now() - m_fileBegin >= m_limits.fileTime);
 }
 
+/// If the file is not where it was, in another one and once more. False if nothing more is written.
+bool Recording::carryOut(const std::function<Result()>& step) {
+    constexpr std::size_t kMost = 8; // who moves every file away would fill the disk
+    Result result = step();
+    while (isDisplaced(result) && !m_path.empty() && m_displaced.size() < kMost && (result = goOn())) {
+        result = step();
+    }
+    return note(result);
+}
+
 /// In another file; where there can be none, this one ends as well as it can.
 Recording::Result Recording::goOn() {
-    auto next = createPart();
-    if (auto ended = finish(); !ended || !next) {
-        return next ? ended : tl::unexpected(next.error());
+    const Result ended = finish();
+    if (!ended && !isDisplaced(ended)) {
+        return ended;
     }
-    m_before = m_kept;
-    const LogFollower follower = m_recorder->follower();
-    m_ended = figuresNow();
+    std::string path;
+    auto next = createPart(path, !ended);
+    if (!next) {
+        return ended ? tl::unexpected(next.error())
+                     : tl::unexpected(FileError{ended.error().text + "; " + next.error().text,
+                                                FileError::Kind::Displaced});
+    }
+    LogFollower follower = m_recorder->follower();
+    std::uint64_t begin = m_recorder->figures().fileBegin;
+    if (ended) {
+        m_before = m_kept;
+        m_ended.push_back(m_recorder->figures());
+        m_ended.back().path = m_file;
+    } else {
+        begin = forgetGone(begin);
+        follower = LogFollower::fromOldest(m_log, begin);
+        m_kept.clear();
+    }
     m_recorder.reset(); // it writes to the sink
     m_sink = std::move(*next);
     m_recorder.emplace(m_log, *m_sink, follower);
+    m_file = path;
     m_fileBegin = std::chrono::steady_clock::now();
+    if (!ended) {
+        m_displaced.push_back({ended.error().text, path, follower.position() - begin});
+    }
     return m_recorder->begin(m_info);
 }
 
-/// Under the next name that nothing has.
-tl::expected<std::unique_ptr<ByteSink>, FileError> Recording::createPart() {
-    while (true) {
-        const std::string path = partPath(m_path, ++m_part);
-        auto sink = createFile(path);
-        std::error_code failed;
-        if (sink || !std::filesystem::exists(std::filesystem::symlink_status(pathOf(path), failed))) {
-            return sink;
-        }
-    }
+/// Of the files that have ended, those from the first one on that is not there as it was. The packet that it
+/// began with; `begin` if all are there.
+std::uint64_t Recording::forgetGone(std::uint64_t begin) {
+    const auto gone = std::ranges::find_if(m_ended, [](const RecordingFigures& one) {
+        const auto there = statusOf(one.path);
+        return !there || there->size != one.bytes;
+    });
+    begin = gone == m_ended.end() ? begin : gone->fileBegin;
+    m_ended.erase(gone, m_ended.end());
+    return begin;
 }
 
-Recording::Result Recording::checkRoom() const {
-    std::error_code failed;
-    const auto folder = pathOf(m_path).parent_path();
-    const auto space = m_limits.leaveFree == 0
-                           ? std::filesystem::space_info{}
-                           : std::filesystem::space(folder.empty() ? "." : folder, failed);
-    if (m_limits.leaveFree == 0 || failed || space.available >= m_limits.leaveFree) {
-        return {};
+/// Under the next name that nothing has; in another folder only if that of the recording cannot be had.
+tl::expected<std::unique_ptr<ByteSink>, FileError> Recording::createPart(std::string& path, bool mayMove) {
+    auto sink = createNext(m_path, m_part, path);
+    if (!sink && mayMove && !m_limits.otherFolder.empty()) {
+        const std::string other = nameOf(pathOf(m_limits.otherFolder) / pathOf(m_path).filename());
+        if (auto elsewhere = createNext(other, m_part, path)) {
+            m_path = other;
+            return elsewhere;
+        }
     }
-    return tl::unexpected(FileError{m_path + ": less than " + std::to_string(m_limits.leaveFree / 1'000'000) +
-                                    " MB are free on its disk; free some, or record to another one"});
+    return sink;
 }
 
 /// Those that are set by now, for the file that is being written, once it has their packets.
@@ -249,7 +311,7 @@ tl::expected<std::vector<std::string>, FileError> Recording::noteMarks() {
         const std::lock_guard lock(m_mutex);
         m_kept = m_marks;
     }
-    if (const auto followed = m_recorder->follow(); !followed) {
+    if (const auto followed = m_recorder->follow(); !followed && !isDisplaced(followed)) {
         return tl::unexpected(followed.error());
     }
     const std::uint64_t first = m_recorder->figures().fileBegin;
@@ -291,9 +353,16 @@ Recording::Result Recording::finish() {
 }
 
 RecordingFigures Recording::figuresNow() const {
-    const RecordingFigures file = m_recorder->figures();
-    return {m_ended.packets + file.packets, m_ended.bytes + file.bytes, m_ended.files + 1,
-            m_ended.missed + file.missed, file.fileBegin};
+    RecordingFigures figures = m_recorder->figures();
+    for (const RecordingFigures& one : m_ended) {
+        figures.packets += one.packets;
+        figures.bytes += one.bytes;
+        figures.missed += one.missed;
+        ++figures.files;
+    }
+    figures.path = m_ended.empty() ? m_file : m_ended.front().path;
+    figures.displaced = m_displaced;
+    return figures;
 }
 
 /// False if nothing more is written. What was written until then is ended as well as that can be.

@@ -7,6 +7,7 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -25,6 +26,14 @@ struct RecordingLimits {
     std::uint64_t fileBytes = 0; ///< of one file, about; 0 for any
     Duration fileTime{};         ///< of one file; 0 for any
     std::uint64_t leaveFree = 0; ///< bytes: it ends before its disk is as full
+    std::string otherFolder{};   ///< to go on in if that of the recording is gone for good; empty for none
+};
+
+/// A file of a recording that was removed, moved, replaced or cut meanwhile.
+struct Displaced {
+    std::string problem; ///< in words, with its name
+    std::string path;    ///< of the file that stands for it, with all of it that the log still had
+    std::uint64_t lost;  ///< packets of it that the log had dropped
 };
 
 /// Where a recording goes on: "take 3.pcapng", "take 3 part 2.pcapng" and so on.
@@ -38,6 +47,8 @@ struct RecordingFigures {
     /// shows them as dropped by this computer.
     std::uint64_t missed = 0;
     std::uint64_t fileBegin = 0; ///< the packet of the log that the newest file begins with, or would have
+    std::string path{};          ///< of the first file that is there, as far as is known
+    std::vector<Displaced> displaced{};
 };
 
 /// Follows a log and writes it down. One thread; `log` and `sink` must outlive it. After a failure nothing
@@ -133,23 +144,27 @@ private:
     void run();
     [[nodiscard]] RecordingFigures figuresNow() const;
     bool note(const Result& result);
+    bool carryOut(const std::function<Result()>& step);
     [[nodiscard]] bool isFileFull() const;
     Result goOn();
-    [[nodiscard]] tl::expected<std::unique_ptr<ByteSink>, FileError> createPart();
+    std::uint64_t forgetGone(std::uint64_t begin);
+    [[nodiscard]] tl::expected<std::unique_ptr<ByteSink>, FileError> createPart(std::string& path,
+                                                                                bool mayMove);
     Result keepMarks();
-    [[nodiscard]] Result checkRoom() const;
     [[nodiscard]] tl::expected<std::vector<std::string>, FileError> noteMarks();
     Result finish();
 
     const PacketLog& m_log;
-    std::string m_path; ///< of the first file; empty if a sink was given
+    std::string m_path; ///< that others are named after; empty if a sink was given
     RecordingInfo m_info;
     RecordingLimits m_limits;
     // The thread's own:
     std::unique_ptr<ByteSink> m_sink;
     std::optional<Recorder> m_recorder;
     unsigned m_part = 1;
-    RecordingFigures m_ended{.files = 0}; ///< of the files that have ended
+    std::string m_file;                    ///< that is being written
+    std::vector<RecordingFigures> m_ended; ///< of each file before
+    std::vector<Displaced> m_displaced;
     std::chrono::steady_clock::time_point m_fileBegin = std::chrono::steady_clock::now();
     std::vector<RecordedMark> m_kept;   ///< marks as they are noted
     std::vector<RecordedMark> m_before; ///< as they were when the file before ended

@@ -43,6 +43,8 @@ struct FileStatus {
     Kind kind = Kind::Stream;
     std::uint64_t volume = 0; ///< equal, as is the number, for every name of a file
     std::uint64_t number = 0;
+    std::uint64_t size = 0;
+    std::uint64_t names = 1; ///< that lead to it; 0 once it was removed
 
     /// Bytes that can be lost.
     [[nodiscard]] bool holdsData() const { return kind == Kind::File || kind == Kind::Disk; }
@@ -57,10 +59,12 @@ struct FileStatus {
 
 /// Opening a pipe without a writer does not wait: reading does.
 [[nodiscard]] Descriptor openToRead(const std::string& path);
-/// Fails with ENXIO for a pipe without a reader. Writing to a full one fails with EAGAIN.
+/// Fails with ENXIO for a pipe without a reader. Writing to a full one fails with EAGAIN. What is written to
+/// a file comes at its end, wherever that is by then (not on Windows).
 [[nodiscard]] Descriptor openToWrite(const std::string& path);
-/// Fails with EEXIST if there is a file of that name.
-[[nodiscard]] Descriptor createToWrite(const std::string& path);
+/// Fails with EEXIST if there is a file of that name. Permissions as chmod has them, if the system knows
+/// them.
+[[nodiscard]] Descriptor createToWrite(const std::string& path, unsigned mode);
 [[nodiscard]] Descriptor duplicateOf(int descriptor);
 
 /// The count of bytes read or written; 0 at the end, negative after a failure.
@@ -85,8 +89,10 @@ void bringNameToDisk(const std::string& path);
 /// Renames a file; fails with EEXIST if the new name is taken and may not be replaced.
 [[nodiscard]] bool giveName(const std::string& from, const std::string& to, bool mayReplace);
 
-/// Opens a file and locks it for as long as it is open. Not open if another owner, in this process or any
-/// other, has it locked, or it cannot be opened. The lock ends with the process, however that ends.
+/// Locks a file for as long as it is open. False, with EWOULDBLOCK, if another owner, in this process or any
+/// other, has it locked. The lock ends with the process, however that ends.
+[[nodiscard]] bool lockFile(const Descriptor& file);
+/// Not open if the file is locked already, or cannot be opened.
 [[nodiscard]] Descriptor openLocked(const std::string& path);
 
 /// The ID of this process.

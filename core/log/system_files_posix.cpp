@@ -25,6 +25,8 @@ FileStatus statusFrom(const Status& status) {
                                             : Kind::Stream;
     result.volume = status.st_dev;
     result.number = status.st_ino;
+    result.size = static_cast<std::uint64_t>(status.st_size);
+    result.names = status.st_nlink;
     return result;
 }
 
@@ -56,12 +58,16 @@ Descriptor openToRead(const std::string& path) {
 }
 
 Descriptor openToWrite(const std::string& path) {
-    return Descriptor(::open(path.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC));
+    return Descriptor(::open(path.c_str(), O_WRONLY | O_APPEND | O_NONBLOCK | O_CLOEXEC));
 }
 
-Descriptor createToWrite(const std::string& path) {
-    constexpr int mode = 0666;
-    return Descriptor(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode));
+Descriptor createToWrite(const std::string& path, unsigned mode) {
+    constexpr int flags = O_WRONLY | O_APPEND | O_CREAT | O_EXCL | O_CLOEXEC;
+    Descriptor file(::open(path.c_str(), flags, S_IRUSR | S_IWUSR));
+    if (file.isOpen()) {
+        ::fchmod(file.number(), mode); // whatever umask and the folder say; some disks know none
+    }
+    return file;
 }
 
 Descriptor duplicateOf(int descriptor) {
@@ -132,9 +138,13 @@ bool giveName(const std::string& from, const std::string& to, bool mayReplace) {
     return !error;
 }
 
+bool lockFile(const Descriptor& file) {
+    return ::flock(file.number(), LOCK_EX | LOCK_NB) == 0;
+}
+
 Descriptor openLocked(const std::string& path) {
     Descriptor file(::open(path.c_str(), O_RDWR | O_CLOEXEC));
-    return file.isOpen() && ::flock(file.number(), LOCK_EX | LOCK_NB) == 0 ? std::move(file) : Descriptor();
+    return file.isOpen() && lockFile(file) ? std::move(file) : Descriptor();
 }
 
 std::uint64_t processNumber() {

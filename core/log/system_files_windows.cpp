@@ -30,9 +30,10 @@ int errnoOf(DWORD error) {
         return ENOENT;
     case ERROR_ACCESS_DENIED:
     case ERROR_SHARING_VIOLATION:
-    case ERROR_LOCK_VIOLATION:
     case ERROR_WRITE_PROTECT:
         return EACCES;
+    case ERROR_LOCK_VIOLATION:
+        return EWOULDBLOCK;
     case ERROR_FILE_EXISTS:
     case ERROR_ALREADY_EXISTS:
         return EEXIST;
@@ -120,6 +121,8 @@ FileStatus statusFrom(HANDLE handle) {
                                                                            : FileStatus::Kind::File;
     status.volume = facts.dwVolumeSerialNumber;
     status.number = (std::uint64_t{facts.nFileIndexHigh} << 32) | facts.nFileIndexLow;
+    status.size = (std::uint64_t{facts.nFileSizeHigh} << 32) | facts.nFileSizeLow;
+    status.names = facts.nNumberOfLinks;
     return status;
 }
 
@@ -174,7 +177,7 @@ Descriptor openToWrite(const std::string& path) {
     return opened(path, GENERIC_WRITE, OPEN_EXISTING);
 }
 
-Descriptor createToWrite(const std::string& path) {
+Descriptor createToWrite(const std::string& path, unsigned) {
     return opened(path, GENERIC_WRITE, CREATE_NEW);
 }
 
@@ -257,14 +260,16 @@ bool giveName(const std::string& from, const std::string& to, bool mayReplace) {
 }
 
 /// Locks a byte behind all that a file can hold: others cannot read or write locked bytes.
-Descriptor openLocked(const std::string& path) {
-    Descriptor file = opened(path, GENERIC_READ | GENERIC_WRITE, OPEN_EXISTING);
+bool lockFile(const Descriptor& file) {
     OVERLAPPED place{};
     place.OffsetHigh = 0x7fffffff;
     constexpr DWORD flags = LOCKFILE_EXCLUSIVE_LOCK | LOCKFILE_FAIL_IMMEDIATELY;
-    const bool isLocked =
-        file.isOpen() && isDone(::LockFileEx(handleOf(file.number()), flags, 0, 1, 0, &place));
-    return isLocked ? std::move(file) : Descriptor();
+    return isDone(::LockFileEx(handleOf(file.number()), flags, 0, 1, 0, &place));
+}
+
+Descriptor openLocked(const std::string& path) {
+    Descriptor file = opened(path, GENERIC_READ | GENERIC_WRITE, OPEN_EXISTING);
+    return file.isOpen() && lockFile(file) ? std::move(file) : Descriptor();
 }
 
 std::uint64_t processNumber() {

@@ -83,6 +83,7 @@ enum class Kind : std::uint16_t {
     Overtaken,
     RelayStopped,
     RecordingEnded,
+    RecordingMoved,
     ClockSet,
     LossLimit,
     JitterLimit,

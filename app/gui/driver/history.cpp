@@ -2,8 +2,8 @@
 #include "app/gui/driver/history.h"
 
 #include "app/gui/base/logging.h"
+#include "core/log/output_file.h"
 
-#include <QDir>
 #include <QFile>
 
 #include <algorithm>
@@ -35,7 +35,7 @@ log::RecordingInfo writtenByUs() {
 }
 
 std::shared_ptr<log::Scratch> scratchIn(const QString& folder) {
-    if (folder.isEmpty() || !QDir().mkpath(folder)) {
+    if (folder.isEmpty() || !log::makeFolder(QFile::encodeName(folder).toStdString())) {
         return std::make_shared<log::Scratch>();
     }
     return std::make_shared<log::Scratch>(QFile::encodeName(folder).toStdString(), tenthOfFree(folder));

@@ -207,6 +207,12 @@ void SessionDriver::hasten() {
     }
 }
 
+SessionDriver::~SessionDriver() {
+    if (!m_takes.end()) {
+        m_history.leave();
+    }
+}
+
 void SessionDriver::tick() {
     const log::Stamp now = m_local.log().timeline().now(m_clock);
     model::Session& live = m_local.session();
@@ -248,10 +254,8 @@ void SessionDriver::tickTables(log::Stamp now) {
     m_receiving.measure(now);
     live.setKernel(m_receiving.state().kernel);
     for (const Relaying::Loop& loop : m_receiving.relaying().takeLoops()) {
-        model::Occurrence one = model::Occurrence::at(model::IncidentKind::RelayLoop, loop.returner, now,
-                                                      live.end() == 0 ? 0 : live.end() - 1);
-        one.detail = {words::Kind::RelayStopped, {{"problem", loop.text.toStdString()}}};
-        live.report(one);
+        live.report(model::IncidentKind::RelayLoop, now,
+                    {words::Kind::RelayStopped, {{"problem", loop.text.toStdString()}}}, loop.returner);
         emit relayStopped();
     }
     m_receiving.examine(live, now);

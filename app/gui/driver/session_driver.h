@@ -148,6 +148,8 @@ public:
     /// that can be looked back at is in memory.
     explicit SessionDriver(const log::Clock& clock, const QString& cacheFolder = {},
                            QObject* parent = nullptr);
+    /// Ends the take. The history on disk stays unless all takes are there.
+    ~SessionDriver() override;
 
     [[nodiscard]] Commands& commands() { return m_commands; }
     [[nodiscard]] Playback& playback() { return m_playback; }

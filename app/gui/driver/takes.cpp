@@ -8,10 +8,10 @@
 #include "core/words/say.h"
 
 #include <QDateTime>
-#include <QDir>
 #include <QFile>
 
 #include <algorithm>
+#include <utility>
 
 namespace posewire::gui {
 
@@ -30,11 +30,6 @@ log::RecordedMark markOn(const model::SessionView& live, std::uint64_t packet, c
 
 } // namespace
 
-Takes::~Takes() {
-    m_recording.reset();
-    m_ending.clear(); // waits for each
-}
-
 QString Takes::toggle(const RecordingChoice& choice) {
     QString problem;
     if (isRecording()) {
@@ -48,20 +43,62 @@ QString Takes::toggle(const RecordingChoice& choice) {
 
 void Takes::follow(log::Stamp now) {
     keepMarks();
-    const std::string problem = takeProblem();
-    if (problem.empty()) {
-        return;
+    if (isRecording()) {
+        tellDisplaced(now, m_take);
+        if (m_take.recording->failure()) {
+            m_ending.push_back(std::exchange(m_take, {}));
+        }
     }
-    model::Occurrence one = model::Occurrence::at(model::IncidentKind::RecordingEnded, log::kNoSender, now,
-                                                  m_live.end() == 0 ? 0 : m_live.end() - 1);
-    one.detail = {words::Kind::RecordingEnded, {{"problem", problem}}};
-    m_live.report(one);
-    emit changed(QString::fromStdString(say(one.detail, words::Form::Sentence)));
+    std::erase_if(m_ending, [&](Take& take) {
+        const bool isOver = !take.ending.valid() || isReady(take.ending);
+        if (isOver) {
+            conclude(now, take);
+        }
+        return isOver;
+    });
+}
+
+bool Takes::end() {
+    if (isRecording()) {
+        stop();
+    }
+    for (Take& take : m_ending) {
+        take.ending.wait();
+        conclude(m_live.now(), take);
+    }
+    m_ending.clear();
+    return !m_isAnyLost;
+}
+
+void Takes::conclude(log::Stamp now, Take& take) {
+    const auto problem = take.recording->failure();
+    if (!problem) {
+        emit recorded(QFile::decodeName(take.recording->figures().path.c_str()), take.seconds);
+    }
+    tellDisplaced(now, take);
+    if (problem) {
+        m_isAnyLost = true;
+        tell(now, {words::Kind::RecordingEnded, {{"problem", problem->text}}});
+    }
+}
+
+void Takes::tellDisplaced(log::Stamp now, Take& take) {
+    const std::vector<log::Displaced> all = take.recording->figures().displaced;
+    while (take.told < all.size()) {
+        tell(now, model::factOf(all[take.told++]));
+    }
+}
+
+void Takes::tell(log::Stamp now, const words::Fact& what) {
+    const QString sentence = QString::fromStdString(say(what, words::Form::Sentence));
+    qCWarning(filesLog).noquote() << sentence;
+    m_live.report(model::IncidentKind::RecordingEnded, now, what);
+    emit changed(sentence);
 }
 
 QString Takes::start(const RecordingChoice& choice) {
     const QString folder = recordingFolder(choice);
-    if (!QDir().mkpath(folder)) {
+    if (!log::makeFolder(QFile::encodeName(folder).toStdString())) {
         return tr("%1 cannot be made: choose another folder under Recording options.").arg(folder);
     }
     const log::Stamp begin = m_live.now();
@@ -69,60 +106,46 @@ QString Takes::start(const RecordingChoice& choice) {
     m_from = choice.preRollSeconds == 0 ? m_live.end() : m_live.packetFrom(begin - preRoll);
     const auto first = m_live.packet(m_from);
     m_fromStamp = first ? first->stamp : begin;
-    m_path = nextTakePath(choice, QDateTime::currentDateTime());
+    const QString path = nextTakePath(choice, QDateTime::currentDateTime());
     const log::RecordingLimits limits{static_cast<std::uint64_t>(choice.fileMegabytes) * 1'000'000,
                                       std::chrono::minutes(choice.fileMinutes),
-                                      static_cast<std::uint64_t>(choice.freeMegabytes) * 1'000'000};
-    auto recording = log::Recording::start(m_log, QFile::encodeName(m_path).toStdString(), writtenByUs(), {},
+                                      static_cast<std::uint64_t>(choice.freeMegabytes) * 1'000'000,
+                                      QFile::encodeName(recordingFolder({})).toStdString()};
+    auto recording = log::Recording::start(m_log, QFile::encodeName(path).toStdString(), writtenByUs(), {},
                                            m_from, limits);
     if (!recording) {
         return QString::fromStdString(recording.error().text);
     }
-    m_recording = std::move(*recording);
+    m_take = {.recording = std::move(*recording)};
     m_annotations = {};
     keepMarks();
-    qCInfo(filesLog).noquote() << "recording to" << m_path << "from packet" << m_from;
+    qCInfo(filesLog).noquote() << "recording to" << path << "from packet" << m_from;
     return {};
 }
 
 void Takes::stop() {
-    qCInfo(filesLog).noquote() << "recorded" << m_path;
+    const TakeState now = *state();
+    qCInfo(filesLog).noquote() << "recorded" << now.path;
     keepMarks();
-    std::vector<std::string> notes = notesAtEnd();
-    m_ending.push_back(std::async(std::launch::async, [recording = std::shared_ptr(std::move(m_recording)),
-                                                       notes = std::move(notes)]() mutable {
-        const auto stopped = recording->stop(std::move(notes));
-        return stopped ? std::string() : stopped.error().text;
-    }));
+    m_take.seconds = now.seconds;
+    m_take.ending =
+        std::async(std::launch::async, [recording = m_take.recording, notes = notesAtEnd()]() mutable {
+            static_cast<void>(recording->stop(std::move(notes)));
+        });
+    m_ending.push_back(std::exchange(m_take, {}));
 }
 
 std::optional<TakeState> Takes::state() const {
-    if (m_recording == nullptr) {
+    if (!isRecording()) {
         return std::nullopt;
     }
-    return TakeState{m_path, log::secondsOf(m_live.now() - m_fromStamp), m_recording->figures()};
-}
-
-std::string Takes::takeProblem() {
-    std::string problem;
-    if (m_recording != nullptr) {
-        if (const auto why = m_recording->failure()) {
-            problem = why->text;
-            m_recording.reset();
-        }
-    }
-    std::erase_if(m_ending, [&](std::future<std::string>& ending) {
-        const bool isOver = isReady(ending);
-        if (const std::string text = isOver ? ending.get() : std::string(); !text.empty()) {
-            problem = text;
-        }
-        return isOver;
-    });
-    return problem;
+    const log::RecordingFigures figures = m_take.recording->figures();
+    return TakeState{QFile::decodeName(figures.path.c_str()), log::secondsOf(m_live.now() - m_fromStamp),
+                     figures};
 }
 
 void Takes::keepMarks() {
-    if (m_recording == nullptr || m_live.choices().annotations == m_annotations) {
+    if (!isRecording() || m_live.choices().annotations == m_annotations) {
         return;
     }
     m_annotations = m_live.choices().annotations;
@@ -137,7 +160,7 @@ void Takes::keepMarks() {
         marks.push_back(markOn(m_live, comment->first, comment->second));
     }
     marks.resize(std::min(marks.size(), kMostNotes));
-    m_recording->setMarks(std::move(marks));
+    m_take.recording->setMarks(std::move(marks));
 }
 
 std::vector<std::string> Takes::notesAtEnd() const {
@@ -154,7 +177,7 @@ std::vector<std::string> Takes::notesAtEnd() const {
 }
 
 log::Reception Takes::reception() const {
-    const auto first = m_live.packet(m_recording->figures().fileBegin);
+    const auto first = m_live.packet(m_take.recording->figures().fileBegin);
     const auto last = m_live.end() == 0 ? std::nullopt : m_live.packet(m_live.end() - 1);
     log::Reception reception;
     reception.time = m_live.now() - (first ? first->stamp : m_fromStamp);

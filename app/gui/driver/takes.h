@@ -30,41 +30,53 @@ class Takes final : public QObject {
 public:
     /// Both must outlive it.
     explicit Takes(model::Origin& origin) : m_log(origin.log()), m_live(origin.session()) {}
-    /// Waits until everything is in its file.
-    ~Takes() override;
+    ~Takes() override { static_cast<void>(end()); }
 
     /// Begins a take with what the pre-roll wants of the past, or ends it. Returns why it cannot begin; empty
     /// if it does.
     QString toggle(const RecordingChoice& choice);
-    [[nodiscard]] bool isRecording() const { return m_recording != nullptr; }
+    [[nodiscard]] bool isRecording() const { return m_take.recording != nullptr; }
     [[nodiscard]] std::optional<TakeState> state() const;
 
-    /// Has the marks and comments of the take as they are now noted in its file. A take that ended by itself
-    /// is an incident of this computer.
+    /// Has the marks and comments of the take as they are now noted in its file. A take that ended by itself,
+    /// or had to go on in another file, is an incident of this computer.
     void follow(log::Stamp now);
 
+    /// Ends the take and waits until everything is in its file. False if not all takes are on the disk.
+    [[nodiscard]] bool end();
+
 signals:
-    /// A take began or ended; `problem` is why it ended by itself, else empty.
+    /// A take began or ended; `problem` is why it ended by itself or is in another file, else empty.
     void changed(const QString& problem);
+    /// It is on the disk, under that name.
+    void recorded(const QString& path, double seconds);
 
 private:
+    struct Take {
+        std::shared_ptr<log::Recording> recording{}; ///< null while none runs
+        std::size_t told = 0;                        ///< of its files that are gone
+        double seconds = 0;
+        std::future<void> ending{};
+    };
+
     QString start(const RecordingChoice& choice);
     /// Ends it, with notes of how it was received and of the incidents of its time.
     void stop();
     void keepMarks();
-    /// Why a take has ended by itself, or could not be ended well, since this was asked last; else empty.
-    [[nodiscard]] std::string takeProblem();
+    void tell(log::Stamp now, const words::Fact& what);
+    void tellDisplaced(log::Stamp now, Take& take);
+    void conclude(log::Stamp now, Take& take);
     [[nodiscard]] std::vector<std::string> notesAtEnd() const;
     [[nodiscard]] log::Reception reception() const;
 
     const log::PacketLog& m_log;
     model::Session& m_live;
-    std::unique_ptr<log::Recording> m_recording; ///< null while none runs
-    QString m_path;
+    Take m_take;
+    bool m_isAnyLost = false;         ///< a take is not on the disk, or not all of it
     std::uint64_t m_from = 0;         ///< the first packet
     model::Annotations m_annotations; ///< as they are noted
     log::Stamp m_fromStamp{};
-    std::vector<std::future<std::string>> m_ending; ///< with what went wrong
+    std::vector<Take> m_ending;
 };
 
 } // namespace posewire::gui

@@ -209,10 +209,6 @@ void toggleRecording(Window& window) {
         box.exec();
     } else if (take && !takes.isRecording()) {
         window.opening().noteRecent(take->path);
-        const QFileInfo file(take->path);
-        window.say(tr("Recorded %1, under File > Open recent: %2, in %3")
-                       .arg(duration(take->seconds), file.fileName(),
-                            QDir::toNativeSeparators(file.absolutePath())));
     }
 }
 

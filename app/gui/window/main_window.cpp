@@ -26,6 +26,7 @@
 #include <QComboBox>
 #include <QDir>
 #include <QDockWidget>
+#include <QFileInfo>
 #include <QKeyEvent>
 #include <QMenu>
 #include <QMenuBar>
@@ -264,6 +265,12 @@ void MainWindow::connectDriver() {
         m_menus.showStates();
         showTake();
         say(problem, HelpTopic::RecordingFailed);
+    });
+    connect(&m_driver.takes(), &Takes::recorded, this, [this](const QString& path, double seconds) {
+        m_opening->noteRecent(path);
+        const QFileInfo file(path);
+        say(tr("Recorded %1, under File > Open recent: %2, in %3")
+                .arg(duration(seconds), file.fileName(), QDir::toNativeSeparators(file.absolutePath())));
     });
     connect(&m_viewport->choice(), &ViewChoice::changed, this, showStates);
     showReceiving();

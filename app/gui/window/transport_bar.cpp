@@ -160,6 +160,11 @@ void TransportBar::restyle() {
 
 void TransportBar::showTake(const std::optional<TakeState>& take) {
     m_record->setChecked(take.has_value());
+    QPalette colours;
+    if (take && !take->figures.displaced.empty()) {
+        colours.setColor(QPalette::ButtonText, theme().error);
+    }
+    m_record->setPalette(colours);
     if (!take) {
         m_record->setText(tr("Record   R"));
         m_record->setToolTip(tr("Record what is received to a file (R)"));

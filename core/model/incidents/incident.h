@@ -38,7 +38,7 @@ enum class IncidentKind : std::uint8_t {
     ScaleChange,
     Overtaken,
     RelayLoop,
-    RecordingEnded, ///< by itself: its disk is full, say
+    RecordingEnded, ///< by itself: its disk is full, say; or in another file, as its own is gone
     ClockSet,
     Fragments, ///< do not get here
     LossLimit,

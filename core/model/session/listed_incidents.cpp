@@ -3,6 +3,7 @@
 
 #include "core/log/clock.h"
 #include "core/log/ip_packet.h"
+#include "core/log/recording.h"
 #include "core/model/accounting/attribution.h"
 #include "core/model/accounting/count_history.h"
 #include "core/model/session/accounts.h"
@@ -292,6 +293,14 @@ std::vector<ForeignText> addressesOf(const SessionView& session, const Incident&
         }
     }
     return addresses.empty() ? std::vector{session.roster().addressOf(incident.sender)} : addresses;
+}
+
+words::Fact factOf(const log::Displaced& file) {
+    words::Fact fact{words::Kind::RecordingMoved, {{"problem", file.problem}, {"file", file.path}}};
+    if (file.lost > 0) {
+        fact.values.push_back({"packets", counted(words::Kind::Packets, file.lost)});
+    }
+    return fact;
 }
 
 words::Fact factOf(const SessionView& session, const ListedIncident& listed) {

@@ -9,6 +9,10 @@
 #include <string_view>
 #include <vector>
 
+namespace posewire::log {
+struct Displaced;
+}
+
 namespace posewire::model {
 
 struct Stream;
@@ -50,6 +54,8 @@ struct ListedIncident {
 [[nodiscard]] std::vector<ForeignText> addressesOf(const SessionView& session, const Incident& incident);
 
 [[nodiscard]] words::Fact factOf(const SessionView& session, const ListedIncident& listed);
+/// A recording that had to go on in another file.
+[[nodiscard]] words::Fact factOf(const log::Displaced& file);
 /// Of several outages that last at once, or several characters that are sent twice: all of them, with the
 /// cause if it is one.
 [[nodiscard]] words::Fact factOf(const SessionView& session, std::span<const ListedIncident> together);

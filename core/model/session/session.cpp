@@ -30,4 +30,10 @@ bool Session::forget(log::SenderId sender) {
     return true;
 }
 
+void Session::report(IncidentKind kind, log::Stamp now, words::Fact detail, log::SenderId sender) {
+    Occurrence one = Occurrence::at(kind, sender, now, end() == 0 ? 0 : end() - 1);
+    one.detail = std::move(detail);
+    m_ingest.incidents().report(one);
+}
+
 } // namespace posewire::model

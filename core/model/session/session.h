@@ -45,7 +45,7 @@ public:
     /// Holds for what comes from now on.
     void setThresholds(const Thresholds& thresholds) { m_ingest.incidents().setThresholds(thresholds); }
     /// Something that no packet tells: it happened in this computer.
-    void report(const Occurrence& one) { m_ingest.incidents().report(one); }
+    void report(IncidentKind kind, log::Stamp now, words::Fact detail, log::SenderId sender = log::kNoSender);
     /// What the operator declares about a sender counts instead of what was detected, also for the senders
     /// that follow it on the same host. Nothing happens where there is no such sender.
     void setOverride(log::SenderId sender, const SenderOverride& overrides) {

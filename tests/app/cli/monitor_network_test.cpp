@@ -9,6 +9,9 @@
 
 #include <gmock/gmock.h>
 
+#include <filesystem>
+#include <fstream>
+
 namespace posewire::cli::test {
 namespace {
 
@@ -78,6 +81,45 @@ TEST(MonitorNetwork, CountsEveryDatagramThatWasSentAndRecordsIt) {
     EXPECT_GT(report["local"]["receiveBufferBytes"], 0);
     EXPECT_EQ(report["sources"][0]["characters"].size(), 2U);
     EXPECT_EQ(reportOf(recording), report) << "a recording gives the report that was made live";
+}
+
+TEST(MonitorNetwork, GoesOnInAnotherFileIfThatOfTheRecordingIsGone) {
+    namespace fs = std::filesystem;
+    for (const bool isAtEnd : {false, true}) {
+        const fs::path folder = newPath();
+        const fs::path next = folder / "take part 2.pcapng";
+        fs::create_directory(folder);
+        Monitor monitor({"--record", QString::fromStdString((folder / "take.pcapng").string())});
+        const ProgramRun sender = runProgram({"send", "--to", monitor.place(), "--duration", "0.3"});
+        ASSERT_EQ(sender.status, 0) << sender.err;
+        fs::remove_all(folder);
+        for (int i = 0; !isAtEnd && i < 500 && !fs::exists(next); ++i) {
+            QThread::msleep(10);
+        }
+        const ProgramRun run = monitor.end();
+        EXPECT_EQ(run.status, 2);
+        EXPECT_THAT(run.err, testing::HasSubstr("take.pcapng: it was removed while it was being written; "));
+        EXPECT_THAT(run.err, testing::HasSubstr(" packets, " + std::to_string(fs::file_size(next)) +
+                                                " bytes to " + next.string()));
+        const Json report = Json::parse(run.out, nullptr, false);
+        EXPECT_EQ(report["incidents"].back()["kind"], "local");
+        EXPECT_EQ(reportOf(next.string())["sources"], report["sources"]);
+    }
+}
+
+TEST(MonitorNetwork, ClaimsNoRecordingThatIsNotThere) {
+    namespace fs = std::filesystem;
+    const fs::path folder = newPath();
+    fs::create_directory(folder);
+    Monitor monitor({"--record", QString::fromStdString((folder / "take.pcapng").string())});
+    const ProgramRun sender = runProgram({"send", "--to", monitor.place(), "--duration", "0.1"});
+    ASSERT_EQ(sender.status, 0) << sender.err;
+    fs::remove_all(folder);
+    std::ofstream(folder) << "a file";
+    const ProgramRun run = monitor.end();
+    EXPECT_EQ(run.status, 2);
+    EXPECT_THAT(run.err, testing::HasSubstr("take part 2.pcapng: cannot be written"));
+    EXPECT_THAT(run.err, testing::Not(testing::ContainsRegex("recorded|at most")));
 }
 
 TEST(MonitorNetwork, RecordsWhatALimitSaysOfASilenceUntilTheEnd) {

@@ -57,6 +57,22 @@ TEST_F(OutputFile, IsNotReplacedWithoutLeave) {
     EXPECT_EQ(content("old"), "new");
 }
 
+TEST_F(OutputFile, IsNeverOneThatIsBeingRecordedTo) {
+    auto sink = createFile(path("new"));
+    ASSERT_TRUE(sink && (*sink)->write(bytes("recorded")) && (*sink)->flush());
+    for (const auto create : {createFile, createWholeFile}) {
+        const auto refused = create(path("new"), {.mayReplace = true});
+        ASSERT_FALSE(refused);
+        EXPECT_EQ(refused.error().text,
+                  path("new") + ": is being recorded to at present; choose another name");
+    }
+    EXPECT_FALSE(checkOutput(path("new"), {.mayReplace = true}));
+    EXPECT_TRUE((*sink)->finish());
+    EXPECT_EQ(content("new"), "recorded");
+    sink->reset();
+    EXPECT_TRUE(createFile(path("new"), {.mayReplace = true}));
+}
+
 TEST_F(OutputFile, IsNeverOneThatIsInUse) {
     fs::create_hard_link(path("old"), path("twin"));
     std::vector<std::string> names{"old", "twin", "./old"};
@@ -138,6 +154,37 @@ TEST_F(OutputFile, IsWrittenBehindALinkAndKeepsItsRights) {
     EXPECT_TRUE(fs::is_symlink(path("link")));
     EXPECT_EQ(content("old"), "new");
     EXPECT_EQ(fs::status(path("old")).permissions(), fs::perms::owner_read | fs::perms::owner_write);
+}
+
+TEST_F(OutputFile, IsPrivateUnlessOthersAreToReadIt) {
+    const auto modeOf = [this](const std::string& name) {
+        return static_cast<unsigned>(fs::status(path(name)).permissions());
+    };
+    const auto make = [&](const std::string& name) {
+        EXPECT_TRUE(createFile(path(name)));
+        EXPECT_TRUE(writeWholeFile(path(name + " whole"), bytes("new")));
+        EXPECT_TRUE(makeFolder(path(name + " in/folder")));
+    };
+    make("private");
+    EXPECT_EQ(setFileMode("0664"), "");
+    make("shared");
+    EXPECT_TRUE(writeWholeFile(path("private whole"), bytes("newer"), {.mayReplace = true}));
+    for (const char* const wrong : {"", "8", "0444", "0755", "1600", "-600", "0600 "}) {
+        EXPECT_NE(setFileMode(wrong), "") << wrong;
+    }
+    EXPECT_EQ(setFileMode("600"), "");
+    for (const char* const file : {"private", "private whole"}) {
+        EXPECT_EQ(modeOf(file), 0600U) << file;
+    }
+    for (const char* const file : {"shared", "shared whole"}) {
+        EXPECT_EQ(modeOf(file), 0664U) << file;
+    }
+    for (const char* const folder : {"private in", "private in/folder"}) {
+        EXPECT_EQ(modeOf(folder), 0700U) << folder;
+    }
+    for (const char* const folder : {"shared in", "shared in/folder"}) {
+        EXPECT_EQ(modeOf(folder), 0775U) << folder;
+    }
 }
 
 TEST_F(OutputFile, IsNoPipeWithoutAReader) {

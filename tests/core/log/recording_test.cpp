@@ -159,15 +159,170 @@ TEST(Recording, EndsItsFileWhereItCannotGoOnInAnother) {
     const std::string folder = newFile();
     const std::string moved = newFile();
     std::filesystem::create_directory(folder);
-    const auto recording = Recording::start(log, folder + "/take", {}, {}, 0, {.fileBytes = 10'000});
+    const auto recording = Recording::start(log, folder + "/take", {});
     ASSERT_TRUE(recording) << recording.error().text;
-    std::filesystem::rename(folder, moved);
-    (*recording)->setMarks({{7, "", ""}});
     append(log, 0, 100);
+    ASSERT_TRUE(waitFor([&] { return (*recording)->figures().packets == 100; }));
+    (*recording)->setMarks({{7, "", ""}});
+    std::filesystem::rename(folder, moved);
+    std::ofstream(pathOf(folder)) << "a file";
     ASSERT_TRUE(waitFor([&] { return (*recording)->failure().has_value(); }));
+    EXPECT_THAT((*recording)->failure()->text, testing::HasSubstr("moved while it was being written; "));
     EXPECT_THAT((*recording)->failure()->text, testing::HasSubstr("take part 2: cannot be written"));
+    EXPECT_TRUE((*recording)->figures().displaced.empty());
+    EXPECT_FALSE((*recording)->stop());
     EXPECT_EQ(recordedInFile(moved + "/take").size(), 100U);
     EXPECT_THAT(notesIn(moved + "/take"), testing::ElementsAre("Mark on packet 7"));
+}
+
+/// A recording of 100 packets in a folder of its own, of which its file is taken away.
+class DisplacedRecording : public testing::Test {
+protected:
+    void begin(const RecordingLimits& limits = {}) {
+        std::filesystem::create_directory(m_folder);
+        auto recording = Recording::start(m_log, m_path, {}, {}, 0, limits);
+        ASSERT_TRUE(recording) << recording.error().text;
+        m_recording = std::move(*recording);
+        append(m_log, 0, 100);
+        ASSERT_TRUE(waitFor([&] { return m_recording->figures().packets == 100; }));
+    }
+    /// Goes on in the file of that name, which has all that was received and will be.
+    void expectAllIn(const std::string& path, const std::string& problem) {
+        ASSERT_TRUE(waitFor([&] { return !m_recording->figures().displaced.empty(); }));
+        const Displaced told = m_recording->figures().displaced.front();
+        EXPECT_THAT(told.problem, testing::StartsWith(m_path + ": "));
+        EXPECT_THAT(told.problem, testing::HasSubstr(problem));
+        EXPECT_EQ(told.path, path);
+        EXPECT_EQ(told.lost, 0U);
+        append(m_log, 100, 103);
+        EXPECT_TRUE(m_recording->stop({"at its end"}));
+        EXPECT_EQ(m_recording->figures().path, path);
+        EXPECT_EQ(m_recording->figures().packets, 103U);
+        EXPECT_EQ(m_recording->figures().bytes, std::filesystem::file_size(path));
+        EXPECT_EQ(recordedInFile(path).size(), 103U);
+        EXPECT_THAT(notesIn(path), testing::Contains("at its end"));
+        EXPECT_EQ(m_recording->figures().displaced.size(), 1U);
+    }
+
+    PacketLog m_log;
+    const std::string m_folder = newFile();
+    const std::string m_path = nameOf(pathOf(m_folder) / "take.pcapng");
+    const std::string m_next = partPath(m_path, 2);
+    std::unique_ptr<Recording> m_recording;
+};
+
+TEST_F(DisplacedRecording, IsWholeInANewFileIfItsOwnIsRemoved) {
+    begin();
+    m_recording->setMarks({{7, "", "here"}});
+    std::filesystem::remove(m_path);
+    expectAllIn(m_next, "removed");
+    EXPECT_THAT(notesIn(m_next), testing::Contains("Mark on packet 7: here"));
+}
+
+TEST_F(DisplacedRecording, IsWholeInANewFileIfItsOwnIsMoved) {
+    begin();
+    const std::string moved = newFile();
+    std::filesystem::rename(m_path, moved);
+    expectAllIn(m_next, "moved");
+    EXPECT_EQ(recordedInFile(moved).size(), 100U) << "ended as well as it can";
+}
+
+TEST_F(DisplacedRecording, MakesItsFolderAgain) {
+    begin();
+    std::filesystem::remove_all(m_folder);
+    expectAllIn(m_next, "removed");
+}
+
+TEST_F(DisplacedRecording, GoesOnInTheOtherFolderIfItsOwnCannotBeMade) {
+    const std::string other = newFile();
+    begin({.otherFolder = other});
+    std::filesystem::remove_all(m_folder);
+    std::ofstream(pathOf(m_folder)) << "a file";
+    const std::string path = nameOf(pathOf(other) / "take part 3.pcapng");
+    expectAllIn(path, "removed");
+}
+
+TEST_F(DisplacedRecording, IsWholeInANewFileIfItsOwnIsReplaced) {
+    begin();
+    const std::string foreign = newFile();
+    std::ofstream(pathOf(foreign)) << "of somebody else";
+    std::filesystem::rename(foreign, m_path);
+    expectAllIn(m_next, "another file");
+    EXPECT_EQ(std::filesystem::file_size(m_path), 16U);
+}
+
+#ifndef _WIN32 // where a hole takes the place of what was cut
+TEST_F(DisplacedRecording, IsWholeInANewFileIfItsOwnIsCut) {
+    begin();
+    std::filesystem::resize_file(m_path, 100);
+    append(m_log, 100, 103); // no hole hides that
+    ASSERT_TRUE(waitFor([&] { return !m_recording->figures().displaced.empty(); }));
+    EXPECT_TRUE(m_recording->stop());
+    EXPECT_EQ(recordedInFile(m_next).size(), 103U);
+}
+#endif
+
+TEST_F(DisplacedRecording, IsWholeIfItsFileGoesAtTheLastMoment) {
+    begin();
+    std::filesystem::remove(m_path);
+    EXPECT_TRUE(m_recording->stop());
+    EXPECT_EQ(m_recording->figures().path, m_next);
+    EXPECT_EQ(recordedInFile(m_next).size(), 100U);
+}
+
+TEST_F(DisplacedRecording, HasTheEarlierFilesThatAreGoneToo) {
+    begin({.fileBytes = 10'000});
+    ASSERT_TRUE(waitFor([&] { return m_recording->figures().files == 2; }));
+    append(m_log, 100, 103);
+    ASSERT_TRUE(waitFor([&] { return m_recording->figures().packets == 103; }));
+    std::filesystem::remove_all(m_folder);
+    ASSERT_TRUE(waitFor([&] { return !m_recording->figures().displaced.empty(); }));
+    EXPECT_TRUE(m_recording->stop());
+    const std::string path = m_recording->figures().path;
+    EXPECT_EQ(path, partPath(m_path, 3));
+    EXPECT_EQ(recordedInFile(path).size(), 103U);
+    EXPECT_EQ(m_recording->figures().displaced.front().lost, 0U);
+}
+
+TEST_F(DisplacedRecording, KeepsTheEarlierFilesThatAreThere) {
+    begin({.fileBytes = 10'000});
+    ASSERT_TRUE(waitFor([&] { return m_recording->figures().files == 2; }));
+    append(m_log, 100, 103);
+    ASSERT_TRUE(waitFor([&] { return m_recording->figures().packets == 103; }));
+    std::filesystem::remove(m_next);
+    ASSERT_TRUE(waitFor([&] { return !m_recording->figures().displaced.empty(); }));
+    EXPECT_TRUE(m_recording->stop());
+    EXPECT_EQ(m_recording->figures().path, m_path);
+    EXPECT_EQ(m_recording->figures().packets, 103U);
+    EXPECT_EQ(m_recording->figures().files, 2U);
+    EXPECT_EQ(recordedInFile(partPath(m_path, 3)).size(), 3U);
+}
+
+TEST_F(DisplacedRecording, EndsIfEveryFileIsTakenAway) {
+    begin();
+    std::size_t removed = 0;
+    ASSERT_TRUE(waitFor([&] {
+        removed += std::filesystem::remove_all(m_folder);
+        return m_recording->failure().has_value();
+    })) << removed;
+    EXPECT_EQ(m_recording->failure()->kind, FileError::Kind::Displaced);
+}
+
+TEST_F(DisplacedRecording, SaysWhatTheLogHadDropped) {
+    PacketLog log(kSmallLog);
+    std::filesystem::create_directory(m_folder);
+    const auto recording = Recording::start(log, m_path, {});
+    ASSERT_TRUE(recording) << recording.error().text;
+    for (std::uint32_t sample = 0; sample < 5000; sample += 500) {
+        append(log, sample, sample + 500);
+        ASSERT_TRUE(waitFor([&] { return (*recording)->figures().packets == sample + 500; }));
+    }
+    std::filesystem::remove(m_path);
+    ASSERT_TRUE(waitFor([&] { return !(*recording)->figures().displaced.empty(); }));
+    ASSERT_TRUE((*recording)->stop());
+    const std::uint64_t lost = (*recording)->figures().displaced.front().lost;
+    EXPECT_GT(lost, 0U);
+    EXPECT_EQ((*recording)->figures().packets + lost, 5000U);
 }
 
 /// Whose disk stands still while its gate is closed.
@@ -254,9 +409,11 @@ TEST(Recording, HasMarksInTheFileOfTheirPacketBeforeItEnds) {
 
 TEST(Recording, BeginsNothingOnADiskThatIsTooFull) {
     PacketLog log;
-    const auto recording = Recording::start(log, newFile(), {}, {}, 0, {.leaveFree = UINT64_MAX});
+    const std::string path = newFile();
+    const auto recording = Recording::start(log, path, {}, {}, 0, {.leaveFree = UINT64_MAX});
     ASSERT_FALSE(recording);
     EXPECT_THAT(recording.error().text, testing::HasSubstr("MB are free on its disk"));
+    EXPECT_FALSE(std::filesystem::exists(path));
 }
 
 TEST(Recording, EndsWithNotesOnAllOfIt) {
@@ -315,6 +472,18 @@ private:
     rlimit m_before{};
     void (*m_handler)(int);
 };
+
+TEST(Recording, LeavesNoFileThatItCouldNotBegin) {
+    PacketLog log;
+    const std::string path = newFile();
+    const std::string old = newFile();
+    std::ofstream(pathOf(old)) << "old";
+    const FileSizeLimit limit(10);
+    EXPECT_FALSE(Recording::start(log, path, {}));
+    EXPECT_FALSE(std::filesystem::exists(path));
+    EXPECT_FALSE(Recording::start(log, old, {}, {.mayReplace = true}));
+    EXPECT_TRUE(std::filesystem::exists(old));
+}
 
 TEST(Recording, KeepsWhatWasWrittenBeforeAFailureAndReportsItAgainAndAgain) {
     constexpr std::size_t most = 100'000;

@@ -109,6 +109,10 @@ TEST_F(MainWindowTest, SaysWhereATakeIsAndOffersToOpenIt) {
     ASSERT_TRUE(driver.takes().isRecording());
     const QString path = driver.takes().state()->path;
     action(*window, "record")->trigger();
+    EXPECT_TRUE(QTest::qWaitFor([&] {
+        driver.takes().follow({});
+        return !window->message().isEmpty();
+    }));
     const QString said = window->findChild<HealthBar*>("healthBar")->findChild<QLabel*>("message")->text();
     EXPECT_TRUE(said.contains(QFileInfo(path).fileName()) && said.contains(folder.path()))
         << qPrintable(said);

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/driver/takes.h"
+
+#include "app/gui/driver/session_driver.h"
+#include "core/log/output_file.h"
+#include "tests/support/manual_clock.h"
+
+#include <QDir>
+#include <QFile>
+#include <QSignalSpy>
+#include <QTemporaryDir>
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <functional>
+#include <thread>
+
+namespace posewire::gui {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// Takes of a log in which 100 packets are, and of a session that follows it.
+class TakesTest : public testing::Test {
+protected:
+    void SetUp() override {
+        const std::vector<std::byte> bytes(100, std::byte{7});
+        const log::SenderId sender =
+            m_origin.log().senders().intern({"10.0.0.2:5", log::Transport::Udp, 9763});
+        for (int i = 0; i < 100; ++i) {
+            m_origin.log().writer().append(bytes, {.stamp = log::Stamp(i * 1ms), .sender = sender});
+        }
+        m_origin.log().writer().publish();
+        m_origin.session().follow(log::Stamp(1s));
+    }
+    void begin() {
+        ASSERT_EQ(
+            m_takes.toggle({.folder = m_folder, .pattern = "take", .preRollSeconds = 60, .freeMegabytes = 0}),
+            "");
+        ASSERT_TRUE(until([this] { return m_takes.state()->figures.packets == 100; }));
+    }
+    bool until(const std::function<bool()>& condition) {
+        const auto end = std::chrono::steady_clock::now() + 10s;
+        while (!condition() && std::chrono::steady_clock::now() < end) {
+            m_takes.follow(log::Stamp(1s));
+            std::this_thread::sleep_for(1ms);
+        }
+        return condition();
+    }
+    /// Of recordings.
+    [[nodiscard]] std::vector<words::Kind> told() {
+        std::vector<words::Kind> kinds;
+        for (const model::Incident& one : m_origin.session().verdicts().incidents().all()) {
+            if (one.kind == model::IncidentKind::RecordingEnded) {
+                kinds.push_back(one.detail.kind);
+            }
+        }
+        return kinds;
+    }
+
+    const QTemporaryDir m_place;
+    const QString m_folder = m_place.filePath("takes");
+    model::Origin m_origin;
+    Takes m_takes{m_origin};
+    QSignalSpy m_changed{&m_takes, &Takes::changed};
+    QSignalSpy m_recorded{&m_takes, &Takes::recorded};
+};
+
+TEST_F(TakesTest, AreCalledRecordedOnceTheyAreOnTheDisk) {
+    begin();
+    ASSERT_EQ(m_takes.toggle({}), "");
+    EXPECT_EQ(m_recorded.count(), 0);
+    ASSERT_TRUE(until([this] { return m_recorded.count() == 1; }));
+    EXPECT_EQ(m_recorded[0][0].toString(), m_folder + "/take.pcapng");
+    EXPECT_TRUE(told().empty());
+    EXPECT_TRUE(m_takes.end());
+}
+
+TEST_F(TakesTest, GoOnInAnotherFileIfTheirOwnIsGone) {
+    begin();
+    ASSERT_TRUE(QDir(m_folder).removeRecursively());
+    ASSERT_TRUE(until([this] { return !told().empty(); }));
+    EXPECT_EQ(told(), std::vector{words::Kind::RecordingMoved});
+    EXPECT_NE(m_changed.last()[0].toString(), "");
+    ASSERT_EQ(m_takes.toggle({}), "");
+    ASSERT_TRUE(until([this] { return m_recorded.count() == 1; }));
+    EXPECT_EQ(m_recorded[0][0].toString(), m_folder + "/take part 2.pcapng");
+    EXPECT_TRUE(QFile::exists(m_folder + "/take part 2.pcapng"));
+    EXPECT_TRUE(m_takes.end());
+}
+
+TEST_F(TakesTest, AreNotOnTheDiskIfTheyEndedByThemselves) {
+    begin();
+    for (int i = 0; i < 20'000 && m_takes.isRecording(); ++i) {
+        QDir(m_folder).removeRecursively(); // whatever is made there
+        m_takes.follow(log::Stamp(1s));
+        std::this_thread::sleep_for(1ms);
+    }
+    ASSERT_FALSE(m_takes.isRecording());
+    EXPECT_EQ(told().back(), words::Kind::RecordingEnded);
+    EXPECT_EQ(m_recorded.count(), 0);
+    EXPECT_FALSE(m_takes.end());
+}
+
+/// A whole run with a history, whose take is taken away meanwhile, or not.
+void run(const QString& folder, bool isTakenAway) {
+    const log::SystemClock clock;
+    SessionDriver driver(clock, folder);
+    EXPECT_EQ(driver.history().keep(std::uint64_t{64} << 20), "");
+    EXPECT_EQ(driver.takes().toggle({.folder = folder + "/takes", .freeMegabytes = 0}), "");
+    for (int i = 0; isTakenAway && i < 20'000 && driver.takes().isRecording(); ++i) {
+        QDir(folder + "/takes").removeRecursively();
+        driver.takes().follow(log::Stamp());
+        std::this_thread::sleep_for(1ms);
+    }
+    EXPECT_NE(driver.takes().isRecording(), isTakenAway);
+}
+
+TEST(TakesAtTheEnd, LeaveTheHistoryIfTheyAreNotOnTheDisk) {
+    for (const bool isTakenAway : {false, true}) {
+        const QTemporaryDir folder;
+        run(folder.path(), isTakenAway);
+        const QStringList files = QDir(folder.path()).entryList({"history-*.pcapng"}, QDir::Files);
+        EXPECT_EQ(files.size(), isTakenAway ? 1 : 0);
+    }
+}
+
+} // namespace
+} // namespace posewire::gui
