@@ -2,6 +2,7 @@
 #include "app/cli/command.h"
 
 #include "app/usage/usage.h"
+#include "core/log/output_file.h"
 #include "core/model/accounting/other_formats.h"
 
 #include <QtGlobal>
@@ -41,6 +42,12 @@ ExitStatus readingStatus(const tl::expected<void, log::FileError>& result, const
 DeclaredOption addUp(usage::Arguments arguments, std::string& up) {
     return arguments.choice("--up auto|y|z", up,
                             "axis that is up in types 02, 21 and 22, instead of what poses look like");
+}
+
+void addOutputs(usage::Arguments arguments, bool& replaces) {
+    arguments.force(replaces);
+    arguments.read("--mode OCTAL", log::setFileMode,
+                   "permissions of files that are made, such as 0640 for a shared folder; 0600 by default");
 }
 
 } // namespace posewire::cli

@@ -53,6 +53,9 @@ struct Command {
 /// `--up`: declared about all senders.
 DeclaredOption addUp(usage::Arguments arguments, std::string& up);
 
+/// `--force` and `--mode`, of a command that writes files.
+void addOutputs(usage::Arguments arguments, bool& replaces);
+
 Command addDecodeCommand(CommandLine& program);
 Command addEncodeCommand(CommandLine& program);
 Command addExportCommand(CommandLine& program);

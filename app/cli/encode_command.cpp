@@ -96,7 +96,7 @@ Command addEncodeCommand(CommandLine& program) {
         .add("-o,--output FILE", options->output,
              "where the datagrams go, back to back; - for standard output")
         .showDefault();
-    arguments.force(options->replaces);
+    addOutputs(arguments, options->replaces);
     return {"encode", [options](Console& console) { return encode(*options, console); }};
 }
 

@@ -435,7 +435,7 @@ Command addExportCommand(CommandLine& program) {
     arguments.add("--characters LIST", options->characters,
                   "names or IDs, with commas between them (default: all); may be given several times");
     addUp(arguments, options->up);
-    arguments.force(options->replaces);
+    addOutputs(arguments, options->replaces);
     return {"export", [options](Console& console) {
                 if (options->fromSeconds && options->untilSeconds &&
                     *options->fromSeconds >= *options->untilSeconds) {

@@ -261,7 +261,7 @@ Command addMonitorCommand(CommandLine& program) {
                   "write everything received there as pcapng; - for standard output, instead of the table");
     arguments.add("--report FILE", options->report,
                   "write a report there as HTML: what was received, what not, and whose fault it was");
-    arguments.force(options->replaces);
+    addOutputs(arguments, options->replaces);
     addUp(arguments, options->up);
     arguments.verbose(options->isVerbose,
                       "where it listens and each new sender; the JSON then has what is kept in memory, too");
@@ -283,7 +283,7 @@ Command addReportCommand(CommandLine& program) {
         .required();
     arguments.add("-o,--output FILE", options->report, "the HTML file; - for standard output").required();
     addUp(arguments, options->up);
-    arguments.force(options->replaces);
+    addOutputs(arguments, options->replaces);
     arguments.add("--from SECONDS", options->fromSeconds, "begin this many seconds after the first datagram")
         .seconds();
     arguments.add("--to SECONDS", options->toSeconds, "end this many seconds after the first datagram")

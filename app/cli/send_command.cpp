@@ -301,7 +301,7 @@ void addTruth(Arguments arguments, SendOptions& options, DeclaredOption file) {
              "write what was really sent to this file, as JSON with monitor's names")
         .excludes(file)
         .needs(arguments.option("--duration"));
-    arguments.force(options.replaces);
+    addOutputs(arguments, options.replaces);
 }
 
 } // namespace

@@ -258,5 +258,9 @@ int main(int argc, char** argv) {
     if (!problem.isEmpty()) {
         window.say(problem, HelpTopic::SettingsUnusable);
     }
-    return QApplication::exec();
+    const int status = QApplication::exec();
+    if (options->forgetsHistory) {
+        driver.history().discardLost(); // its own goes with the driver
+    }
+    return status;
 }

@@ -168,6 +168,11 @@ struct Declared {
                        "language of the window, such as en; that of the system by default");
         arguments.read("--size WxH", into(options.size), "size of the window");
         arguments.flag("--no-tour", options.skipsTour, "do not offer the user guide at the first start");
+        arguments.read("--mode OCTAL", log::setFileMode,
+                       "permissions of recordings, reports and all other files that are made, such as 0640 "
+                       "for a shared folder; 0600 by default");
+        arguments.flag("--forget-history", options.forgetsHistory,
+                       "at the end, remove what earlier runs have left of the history on disk, too");
         arguments.verbose(options.isVerbose, "inputs, files, settings and OpenGL");
         arguments.flag("--startup-time", options.printsStartupTime,
                        "print how long it took until the window was on screen");

@@ -38,6 +38,7 @@ struct Options {
     std::optional<ThemeChoice> theme;
     QString screenshotPart; ///< name of the dock or bar that the picture is of; empty for the window
     bool skipsTour = false;
+    bool forgetsHistory = false; ///< at the end, also that of earlier runs
     bool printsStartupTime = false;
     bool isVerbose = false;
 };

@@ -77,6 +77,37 @@ TEST(Outputs, AreNeverTheInput) {
     }
 }
 
+TEST(Outputs, AreNoFileThatAnotherProcessRecordsTo) {
+    const std::string recorded = newPath();
+    const auto sink = log::createFile(recorded);
+    ASSERT_TRUE(sink);
+    for (auto arguments : writing(smallRecording(), recorded)) {
+        arguments.emplace_back("--force");
+        expectRefusal(runProgram(arguments), recorded + ": is being recorded to at present");
+    }
+    EXPECT_TRUE((*sink)->finish()) << "it is where it was";
+}
+
+#ifndef _WIN32
+TEST(Outputs, ArePrivateUnlessAskedFor) {
+    for (const auto& [option, mode] :
+         {std::pair{std::vector<std::string>{}, 0600}, {{"--mode", "0640"}, 0640}}) {
+        const std::string out = newPath();
+        auto all = writing(smallRecording(), out);
+        all.push_back({"send", "--to", "127.0.0.1:9", "--duration", "0.01", "--truth", out});
+        for (auto arguments : all) {
+            arguments.insert(arguments.end(), option.begin(), option.end());
+            EXPECT_LE(runProgram(arguments).status, 1) << arguments[0];
+            EXPECT_EQ(static_cast<int>(fs::status(out).permissions()), mode) << arguments[0];
+            fs::remove(out);
+        }
+    }
+    const ProgramRun run = runProgram({"encode", "-", "--mode", "0755"});
+    EXPECT_EQ(run.status, 2);
+    EXPECT_THAT(run.err, HasSubstr("--mode: '0755' is none such as"));
+}
+#endif
+
 TEST(Outputs, AreNotTwoInOneFile) {
     const std::string path = newPath();
     expectRefusal(runProgram({"monitor", smallRecording(), "--record", path, "--report", path}),

@@ -74,10 +74,14 @@ TEST(Options, DemoHasTwoCharactersUnlessTold) {
 }
 
 TEST(Options, ReadEverythingElse) {
-    const auto options = parse({"take.bin", "--layout", "check", "--reset-layout", "--settings", "s.json",
-                                "--theme", "light", "--screenshot", "p.png", "--force", "--after", "1.5",
-                                "--size", "1600x1000", "--language", "en", "--startup-time", "--verbose"});
+    const auto options =
+        parse({"take.bin",  "--layout", "check",        "--reset-layout",  "--settings", "s.json",
+               "--theme",   "light",    "--screenshot", "p.png",           "--force",    "--after",
+               "1.5",       "--size",   "1600x1000",    "--language",      "en",         "--startup-time",
+               "--verbose", "--mode",   "0600",         "--forget-history"});
     ASSERT_TRUE(options);
+    EXPECT_TRUE(options->forgetsHistory);
+    EXPECT_FALSE(parse({"--mode", "world"}));
     EXPECT_EQ(options->file, "take.bin");
     EXPECT_EQ(options->layout, "check");
     EXPECT_TRUE(options->resetsLayout);
