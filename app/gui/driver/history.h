@@ -32,7 +32,11 @@ public:
     /// before goes. Returns why it cannot; empty if it can.
     QString keep(std::uint64_t most);
     /// What is on the disk stays there at the end, for the next run to offer it.
-    void leave() { m_onDisk ? m_onDisk->leave() : void(); }
+    void leave() {
+        if (m_onDisk) {
+            m_onDisk->leave();
+        }
+    }
     /// Null while none is kept.
     [[nodiscard]] const log::DiskHistory* onDisk() const { return m_onDisk.get(); }
     [[nodiscard]] const QString& folder() const { return m_folder; }

@@ -70,7 +70,6 @@ TEST_F(SettingsFileTest, ReadsBackWhatWasWritten) {
 
 TEST_F(SettingsFileTest, KeepsWhatAnotherWindowChanged) {
     SettingsFile other(path);
-    QString problem;
     Settings ours = file.read(&problem);
     Settings theirs = other.read(&problem);
     ours.theme = ThemeChoice::Dark;
