@@ -17,7 +17,7 @@
 namespace posewire::model {
 namespace {
 
-constexpr int kSeeds = 200;
+constexpr int kSeeds = 100;
 constexpr std::array<const char*, 4> kHosts{"10.0.0.1:50001", "10.0.0.2:50001", "10.0.0.3:50001",
                                             "10.0.0.4:50001"};
 constexpr std::array<std::uint8_t, 4> kTypes{2, 21, 24, 25};
