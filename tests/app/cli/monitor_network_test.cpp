@@ -73,13 +73,16 @@ TEST(MonitorNetwork, CountsEveryDatagramThatWasSentAndRecordsIt) {
     ASSERT_EQ(sender.status, 0) << sender.err;
     const ProgramRun run = monitor.end();
     EXPECT_EQ(run.status, 0) << run.err;
-    const Json report = Json::parse(run.out, nullptr, false);
+    Json report = Json::parse(run.out, nullptr, false);
     ASSERT_TRUE(report.is_object()) << run.out;
     ASSERT_EQ(report["sources"].size(), 1U);
     const std::uint64_t received = report["sources"][0]["datagrams"];
     EXPECT_EQ(received + report["local"]["kernelDropped"].get<std::uint64_t>(), sentBy(sender));
     EXPECT_GT(report["local"]["receiveBufferBytes"], 0);
     EXPECT_EQ(report["sources"][0]["characters"].size(), 2U);
+    for (const char* const counter : {"noPort", "reassemblyFailures"}) { // of the whole computer: others count
+        report["local"][counter] = 0;
+    }
     EXPECT_EQ(reportOf(recording), report) << "a recording gives the report that was made live";
 }
 
