@@ -80,7 +80,8 @@ TEST(MonitorNetwork, CountsEveryDatagramThatWasSentAndRecordsIt) {
     EXPECT_EQ(received + report["local"]["kernelDropped"].get<std::uint64_t>(), sentBy(sender));
     EXPECT_GT(report["local"]["receiveBufferBytes"], 0);
     EXPECT_EQ(report["sources"][0]["characters"].size(), 2U);
-    for (const char* const counter : {"noPort", "reassemblyFailures"}) { // of the whole computer: others count
+    for (const char* const counter :
+         {"noPort", "reassemblyFailures"}) { // of the whole computer: others count
         report["local"][counter] = 0;
     }
     EXPECT_EQ(reportOf(recording), report) << "a recording gives the report that was made live";
