@@ -160,11 +160,12 @@ void TransportBar::restyle() {
 
 void TransportBar::showTake(const std::optional<TakeState>& take) {
     m_record->setChecked(take.has_value());
-    QPalette colours;
-    if (take && !take->figures.displaced.empty()) {
-        colours.setColor(QPalette::ButtonText, theme().error);
+    const bool isDisplaced = take && !take->figures.displaced.empty();
+    if (m_record->property("alarm") != isDisplaced) {
+        m_record->setProperty("alarm", isDisplaced);
+        m_record->style()->unpolish(m_record);
+        m_record->style()->polish(m_record);
     }
-    m_record->setPalette(colours);
     if (!take) {
         m_record->setText(tr("Record   R"));
         m_record->setToolTip(tr("Record what is received to a file (R)"));
