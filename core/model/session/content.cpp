@@ -198,7 +198,9 @@ void Content::compareClocks(log::Stamp stamp) {
         const auto ahead = m_roll.hasEnded(sender) ? std::nullopt : clockAhead(sender);
         Sender::Clock& clock = sender.clock;
         clock.looks = ahead ? clock.looks + 1 : 0;
-        clock.aheadMs = clock.looks > 1 ? std::max(*ahead, clock.aheadMs - kLess) : ahead.value_or(0);
+        const std::int32_t before = std::exchange(clock.lookMs, ahead.value_or(0));
+        const std::int32_t both = std::min(clock.lookMs, before); // a damaged time code is in one alone
+        clock.aheadMs = clock.looks > 2 ? std::max(both, clock.aheadMs - kLess) : both;
         if (clock.looks >= kLooks) {
             all.push_back(&sender);
         }

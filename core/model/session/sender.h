@@ -48,6 +48,7 @@ struct Sender {
     /// See Content.
     struct Clock {
         std::int32_t aheadMs = 0; ///< of this computer's, as the time of day
+        std::int32_t lookMs = 0;  ///< the same at the last look
         std::int32_t toldMs = 0;  ///< by which it is apart from the others'
         int looks = 0;
     } clock{};

@@ -275,7 +275,9 @@ TEST_F(ContentTest, ClocksOfTwoHostsThatAreApartAreToldOnceWithTheDifference) {
         m_session.follow(m_now);
     };
     sendBoth(3, 0);
-    EXPECT_TRUE(of(IncidentKind::TimeCode).empty());
+    sendBoth(0.5, 8000);
+    sendBoth(3, 0);
+    EXPECT_TRUE(of(IncidentKind::TimeCode).empty()) << "damaged, as long as one look sees it";
     sendBoth(3, 3000);
     ASSERT_EQ(of(IncidentKind::TimeCode).size(), 1U);
     EXPECT_EQ(of(IncidentKind::TimeCode)[0].detail.kind, words::Kind::ClocksApart);
