@@ -44,25 +44,28 @@ words::Fact contradictionOf(const NullPoseRecord& record) {
     return error ? words::Fact{words::Kind::Contradiction, {{"what", *std::move(error)}}} : words::Fact();
 }
 
-/// How far the clock of a sender is ahead of this computer's, if it sends the time of day: type 25 or time
-/// codes that are near it. A playback has those of its recording, or counts from 0.
-std::optional<std::int32_t> clockAhead(const Sender& sender) {
-    constexpr std::int32_t kDay = 86'400'000; // ms
+/// How far the clock of a sender is ahead of this computer's, in ms, if it sends the time of day: type 25 or
+/// time codes that are near it. A playback has those of its recording, or counts from 0. With the packet that
+/// says so.
+std::optional<std::pair<std::int32_t, std::uint64_t>> clockAhead(const Sender& sender) {
+    constexpr std::int32_t kDay = 86'400'000;
     constexpr std::int32_t kNear = 300'000;
-    std::optional<std::int32_t> found;
+    std::optional<std::pair<std::int32_t, std::uint64_t>> found;
     for (const Character* character : sender.characters) {
         for (const Stream* stream : character->streams) {
-            const wire::Datagram& newest = stream->newest.datagram;
-            const auto* timeCode = std::get_if<wire::TimeCode>(&newest.body);
-            const std::int64_t sent = timeCode != nullptr ? timeCode->milliseconds() : newest.header.timeCode;
-            const auto here = log::millisecondsOf(stream->accounting.lastStamp().time_since_epoch());
+            const Message& newest = stream->newest;
+            const auto* timeCode = std::get_if<wire::TimeCode>(&newest.datagram.body);
+            const std::int64_t sent =
+                timeCode != nullptr ? timeCode->milliseconds() : newest.datagram.header.timeCode;
+            const auto here = log::millisecondsOf(newest.stamp.time_since_epoch());
             const auto ahead = static_cast<std::int32_t>(
                 std::remainder(static_cast<double>(sent) - std::fmod(here, kDay), kDay));
-            const bool isTime = std::abs(ahead) < kNear && (timeCode != nullptr || sent > kNear);
-            if (isTime && timeCode != nullptr) {
-                return ahead;
+            if (std::abs(ahead) < kNear && (timeCode != nullptr || sent > kNear)) {
+                found = {ahead, newest.packet};
             }
-            found = isTime ? ahead : found;
+            if (found && timeCode != nullptr) {
+                return found;
+            }
         }
     }
     return found;
@@ -195,12 +198,15 @@ void Content::compareClocks(log::Stamp stamp) {
     constexpr std::int32_t kLess = 20; // at a look: what arrives late is no other clock
     std::vector<Sender*> all;
     m_roll.senders().forEach([&](Sender& sender) {
-        const auto ahead = m_roll.hasEnded(sender) ? std::nullopt : clockAhead(sender);
+        const auto seen = m_roll.hasEnded(sender) ? std::nullopt : clockAhead(sender);
         Sender::Clock& clock = sender.clock;
-        clock.looks = ahead ? clock.looks + 1 : 0;
-        const std::int32_t before = std::exchange(clock.lookMs, ahead.value_or(0));
-        const std::int32_t both = std::min(clock.lookMs, before); // a damaged time code is in one alone
-        clock.aheadMs = clock.looks > 2 ? std::max(both, clock.aheadMs - kLess) : both;
+        const bool isNew = seen && std::exchange(clock.packet, seen->second) != seen->second;
+        clock.looks = seen ? clock.looks + (isNew ? 1 : 0) : 0;
+        if (isNew) {
+            const std::int32_t before = std::exchange(clock.lookMs, seen->first);
+            const std::int32_t both = std::min(clock.lookMs, before); // a damaged time code is in one alone
+            clock.aheadMs = clock.looks > 2 ? std::max(both, clock.aheadMs - kLess) : both;
+        }
         if (clock.looks >= kLooks) {
             all.push_back(&sender);
         }

@@ -47,9 +47,10 @@ struct Sender {
     SenderOverride overrides{};
     /// See Content.
     struct Clock {
-        std::int32_t aheadMs = 0; ///< of this computer's, as the time of day
-        std::int32_t lookMs = 0;  ///< the same at the last look
-        std::int32_t toldMs = 0;  ///< by which it is apart from the others'
+        std::int32_t aheadMs = 0;          ///< of this computer's, as the time of day
+        std::int32_t lookMs = 0;           ///< the same at the last look
+        std::uint64_t packet = UINT64_MAX; ///< of that
+        std::int32_t toldMs = 0;           ///< by which it is apart from the others'
         int looks = 0;
     } clock{};
 
