@@ -57,4 +57,6 @@ function(posewire_embed target)
   file(CONFIGURE OUTPUT "${folder}/${ARG_HEADER}" @ONLY CONTENT
     "#pragma once\n#include <string_view>\nnamespace @ARG_NAMESPACE@ {\n@declarations@}\n")
   target_include_directories(${target} PRIVATE "${folder}")
+  # Longer than every compiler has to take.
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:Clang>:-Wno-overlength-strings>)
 endfunction()
