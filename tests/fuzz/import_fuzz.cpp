@@ -56,9 +56,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const QByteArray answer = program.readAllStandardOutput();
     const bool isCharacter = program.exitStatus() == QProcess::NormalExit && program.exitCode() == 0;
     const bool isSound =
-        program.exitStatus() == QProcess::CrashExit ||
-        (isCharacter ? render::unflatten(std::as_bytes(std::span(answer.data(), answer.size()))).has_value()
-                     : !answer.isEmpty());
+        isCharacter ? render::unflatten(std::as_bytes(std::span(answer.data(), answer.size()))).has_value()
+                    : program.error() != QProcess::FailedToStart;
     if (!isOver || !isSound) {
         std::abort();
     }
