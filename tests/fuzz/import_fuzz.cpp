@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include "render/mesh/flat_character.h"
 
 #include <QCoreApplication>

@@ -274,6 +274,7 @@ SettingsFile::SettingsFile(QString path) : m_path(std::move(path)) {
 
 Settings SettingsFile::read(QString* problem) {
     problem->clear();
+    m_known = objectOf(jsonOf(Settings()));
     if (!QFile::exists(m_path)) {
         qCInfo(settingsLog).noquote() << "none in" << m_path;
         return {};
