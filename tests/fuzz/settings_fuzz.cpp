@@ -4,6 +4,7 @@
 
 #include <QApplication>
 #include <QDockWidget>
+#include <QJsonDocument>
 
 #include <cstddef>
 #include <cstdint>
@@ -59,7 +60,7 @@ void checkSettings(const QByteArray& bytes) {
         require(!settings.error().isEmpty());
         return;
     }
-    const auto again = parseSettings(jsonOf(*settings));
+    const auto again = parseSettings(QJsonDocument(jsonOf(*settings)).toJson());
     require(again && *again == *settings);
     require(settings->window.width() >= 0 && settings->window.right() >= settings->window.left() - 1);
     require(settings->inputs.relays.size() <= 256);

@@ -26,10 +26,6 @@ namespace posewire::gui {
 
 namespace {
 
-QJsonObject objectOf(const QByteArray& json) {
-    return QJsonDocument::fromJson(json).object();
-}
-
 int numberOf(const QJsonObject& object, const char* key, int usual, int most) {
     const int number = object[QLatin1String(key)].toInt(usual);
     return number >= 0 && number <= most ? number : usual;
@@ -238,31 +234,30 @@ tl::expected<Settings, QString> parseSettings(const QByteArray& json) {
     return settingsOf(*object);
 }
 
-QByteArray jsonOf(const Settings& settings) {
+QJsonObject jsonOf(const Settings& settings) {
     const QJsonObject window{{"x", settings.window.x()},
                              {"y", settings.window.y()},
                              {"width", settings.window.width()},
                              {"height", settings.window.height()},
                              {"maximized", settings.isMaximized}};
-    const QJsonObject object{{"schema", kSchema},
-                             {"theme", themeName(settings.theme)},
-                             {"layout", settings.layout},
-                             {"window", window},
-                             {"docks", QString::fromLatin1(settings.docks.toBase64())},
-                             {"docksSum", sumOf(settings.docks)},
-                             {"alerts", jsonOf(settings.alerts)},
-                             {"panels", settings.panels},
-                             {"receiving", jsonOf(settings.inputs)},
-                             {"history", jsonOf(settings.history)},
-                             {"recording", jsonOf(settings.recording)},
-                             {"viewport", settings.viewport},
-                             {"filter", settings.filter},
-                             {"file", settings.file},
-                             {"fileFilter", settings.fileFilter},
-                             {"comparedFile", settings.comparedFile},
-                             {"tour", settings.isGuideOffered ? 1 : 0},
-                             {"recentFiles", QJsonArray::fromStringList(settings.recentFiles)}};
-    return QJsonDocument(object).toJson();
+    return {{"schema", kSchema},
+            {"theme", themeName(settings.theme)},
+            {"layout", settings.layout},
+            {"window", window},
+            {"docks", QString::fromLatin1(settings.docks.toBase64())},
+            {"docksSum", sumOf(settings.docks)},
+            {"alerts", jsonOf(settings.alerts)},
+            {"panels", settings.panels},
+            {"receiving", jsonOf(settings.inputs)},
+            {"history", jsonOf(settings.history)},
+            {"recording", jsonOf(settings.recording)},
+            {"viewport", settings.viewport},
+            {"filter", settings.filter},
+            {"file", settings.file},
+            {"fileFilter", settings.fileFilter},
+            {"comparedFile", settings.comparedFile},
+            {"tour", settings.isGuideOffered ? 1 : 0},
+            {"recentFiles", QJsonArray::fromStringList(settings.recentFiles)}};
 }
 
 SettingsFile::SettingsFile(QString path) : m_path(std::move(path)) {
@@ -274,7 +269,7 @@ SettingsFile::SettingsFile(QString path) : m_path(std::move(path)) {
 
 Settings SettingsFile::read(QString* problem) {
     problem->clear();
-    m_known = objectOf(jsonOf(Settings()));
+    m_known = jsonOf(Settings());
     if (!QFile::exists(m_path)) {
         qCInfo(settingsLog).noquote() << "none in" << m_path;
         return {};
@@ -292,7 +287,7 @@ Settings SettingsFile::read(QString* problem) {
         return {};
     }
     qCInfo(settingsLog).noquote() << "read from" << m_path;
-    m_known = objectOf(jsonOf(*settings));
+    m_known = jsonOf(*settings);
     return *std::move(settings);
 }
 
@@ -310,7 +305,7 @@ QString SettingsFile::setAside(const QString& reason) const {
 
 QString SettingsFile::write(const Settings& settings) {
     constexpr std::chrono::milliseconds kPatience(500); // for another window that writes
-    const QJsonObject own = objectOf(jsonOf(settings));
+    const QJsonObject own = jsonOf(settings);
     if (own == m_known) {
         return {};
     }
@@ -319,7 +314,7 @@ QString SettingsFile::write(const Settings& settings) {
     }
     QLockFile lock(m_path + QStringLiteral(".lock"));
     static_cast<void>(lock.tryLock(kPatience)); // the file is whole without, too
-    QJsonObject whole = objectOf(readSmallFile(m_path).value_or(QByteArray()));
+    QJsonObject whole = QJsonDocument::fromJson(readSmallFile(m_path).value_or(QByteArray())).object();
     for (auto entry = own.constBegin(); entry != own.constEnd(); ++entry) {
         if (entry.value() != m_known.value(entry.key()) || !whole.contains(entry.key())) {
             whole.insert(entry.key(), entry.value());

@@ -89,7 +89,7 @@ struct Settings {
 /// Also those that earlier versions wrote. What is missing, larger than it can be or of the wrong kind is as
 /// shipped. The error says why nothing could be read.
 [[nodiscard]] tl::expected<Settings, QString> parseSettings(const QByteArray& json);
-[[nodiscard]] QByteArray jsonOf(const Settings& settings);
+[[nodiscard]] QJsonObject jsonOf(const Settings& settings);
 
 class SettingsFile {
 public:
