@@ -15,6 +15,15 @@ namespace posewire::gui {
 
 namespace {
 
+QString senderAmong(const model::SessionView& view, const model::CharacterKey& key,
+                    const model::Roster::Namesakes& namesakes) {
+    const QString address = shown(view.roster().addressOf(key.sender));
+    const qsizetype port = std::max<qsizetype>(0, address.lastIndexOf(QLatin1Char(':'))); // with its colon
+    return namesakes.ofSameId == 0                           ? QString()
+           : namesakes.ofSameIdAndHost == namesakes.ofSameId ? address.mid(port)
+                                                             : address;
+}
+
 /// Nothing before a stream is silent.
 PropertyValue ageState(double age, double rateHz) {
     const double patience = patienceAt(rateHz);
@@ -62,21 +71,17 @@ QString characterName(model::SessionView& view, const model::CharacterKey& key) 
 
 QString nameApart(const model::SessionView& view, const model::CharacterKey& key) {
     QString name = shown(view.roster().displayName(key));
-    if (view.roster().namesakes(key).all != 0) {
+    const auto namesakes = view.roster().namesakes(key);
+    if (namesakes.all != 0) {
         name += QStringLiteral(" · %1").arg(key.character);
-        const QString sender = senderApart(view, key);
+        const QString sender = senderAmong(view, key, namesakes);
         name += sender.isEmpty() ? QString() : QStringLiteral(" · ") + sender;
     }
     return name;
 }
 
 QString senderApart(const model::SessionView& view, const model::CharacterKey& key) {
-    const auto namesakes = view.roster().namesakes(key);
-    const QString address = shown(view.roster().addressOf(key.sender));
-    const qsizetype port = std::max<qsizetype>(0, address.lastIndexOf(QLatin1Char(':'))); // with its colon
-    return namesakes.ofSameId == 0                           ? QString()
-           : namesakes.ofSameIdAndHost == namesakes.ofSameId ? address.mid(port)
-                                                             : address;
+    return senderAmong(view, key, view.roster().namesakes(key));
 }
 
 CharacterMark characterMark(model::SessionView& view, const model::CharacterKey& key) {
