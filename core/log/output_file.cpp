@@ -180,7 +180,7 @@ private:
         m_waiting.clear();
         return result;
     }
-    /// Who watches a folder may move a file that is being written.
+    /// Fails if the name of the file no longer leads to it, or another program has cut it.
     [[nodiscard]] tl::expected<void, FileError> checkPlace() const {
         const auto own = m_isInPlace ? statusOf(m_descriptor.number()) : std::nullopt;
         if (!own || own->kind != Kind::File) {

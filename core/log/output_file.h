@@ -19,7 +19,8 @@ struct OutputRules {
     bool mayReplace = false; ///< an existing file; pipes and devices such as /dev/null need no permission
     /// Files in use, "-" for standard input: never written over, whatever names and links lead to them.
     std::vector<std::string> inUse{};
-    /// A file that grows: nobody else may write it, and it fails as Displaced once its name leads elsewhere.
+    /// The file grows: other programs are kept from writing to it, and writing fails as Displaced once its
+    /// name leads elsewhere.
     bool isWatched = true;
 };
 

@@ -18,7 +18,7 @@ namespace posewire::render {
 /// its limits.
 tl::expected<ImportedCharacter, std::string> importCharacter(const std::string& path);
 
-/// The same from memory; `extension` ("glb") names the format.
+/// Does the same with a file in memory, whose format is that of the extension ("glb").
 tl::expected<ImportedCharacter, std::string> importCharacter(std::span<const std::byte> bytes,
                                                              const std::string& extension);
 

@@ -67,7 +67,7 @@ struct ActionsOf {
     static bool isIn(const QWidget& owner) {
         return std::invoke(function, std::invoke(part, static_cast<const Owner&>(owner))) == value;
     }
-    /// Whether a function of a part returns true for fixed arguments.
+    /// The same for a function with arguments, which are fixed.
     template <auto part, auto function, auto... arguments>
     static bool isFor(const QWidget& owner) {
         return std::invoke(function, std::invoke(part, static_cast<const Owner&>(owner)), arguments...);

@@ -31,7 +31,7 @@ public:
     /// Keeps as many bytes at most, and no more than a tenth of what is free; 0 for none. What was kept
     /// before goes. Returns why it cannot; empty if it can.
     QString keep(std::uint64_t most);
-    /// What is on the disk stays there at the end, for the next run to offer it.
+    /// Keeps the files beyond the end of the program: the next run offers them.
     void leave() {
         if (m_onDisk) {
             m_onDisk->leave();

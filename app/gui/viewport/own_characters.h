@@ -35,8 +35,8 @@ using ReadCharacter = tl::expected<std::shared_ptr<const CharacterFile>, QString
 [[nodiscard]] ReadCharacter readCharacterFile(const QString& path, bool isAgain = false,
                                               const std::atomic<bool>* isUnwanted = nullptr);
 
-/// The same on a thread of its own; `done` is called on the window's thread, unless this is gone or another
-/// reading was begun.
+/// Reads a character file on a thread of its own. Calls `done` on the window's thread, unless this object has
+/// gone or has begun to read another file.
 class CharacterReading final {
 public:
     using Reader =
@@ -92,7 +92,7 @@ public:
     void restoreState(const QJsonArray& state);
     [[nodiscard]] bool isRestoring() const { return !m_waiting.empty(); }
 
-    /// Of those that are kept; the mannequin stands in for it.
+    /// True if a character that was chosen could not be read: the mannequin stands in for it.
     [[nodiscard]] bool hasFailed() const { return !m_failed.empty(); }
     /// All that failed, also those whose reading did not come to an end.
     void readAgain();
