@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <ranges>
 #include <tuple>
 #include <utility>
 
@@ -26,6 +27,8 @@ constexpr qreal kToSpare = 6;
 constexpr qreal kMostWhole = 2.4;
 constexpr qreal kMostNamed = 3.2;
 constexpr qreal kMostBrief = 5;
+/// For the others there would hardly be room, and nobody reads so many: they have their marks.
+constexpr int kMostTried = 100;
 
 struct Candidate {
     QRectF plate;
@@ -107,10 +110,57 @@ std::vector<Candidate> candidatesOf(const LabelPlace& place, const QSizeF& size,
     return all;
 }
 
+/// The picture is this many squares wide and high.
+constexpr std::size_t kSide = 16;
+
+/// Those that a rectangle touches, row by row; of what is out of the picture, the nearest.
+auto squaresOf(const QRectF& rect, const QRectF& view) {
+    const auto at = [](qreal place, qreal length) {
+        return static_cast<std::size_t>(std::clamp(kSide * place / std::max(length, 1.0), 0.0, kSide - 1.0));
+    };
+    const std::size_t left = at(rect.left() - view.left(), view.width());
+    const std::size_t top = at(rect.top() - view.top(), view.height());
+    const std::size_t columns = at(rect.right() - view.left(), view.width()) - left + 1;
+    const std::size_t rows = at(rect.bottom() - view.top(), view.height()) - top + 1;
+    return std::views::iota(std::size_t{0}, rows * columns) | std::views::transform([=](std::size_t i) {
+               return (top + i / columns) * kSide + left + i % columns;
+           });
+}
+
+/// Rectangles by the squares of the picture that they touch, so that a label is compared with few.
+class Crowd {
+public:
+    explicit Crowd(const QRectF& view) : m_view(view) {}
+
+    void add(const QRectF& rect, std::size_t which = 0) {
+        for (const std::size_t square : squaresOf(rect, m_view)) {
+            m_squares[square].push_back({rect, which});
+        }
+    }
+    /// Whether any for which `isMeant(which)` is partly in `room`.
+    template <class Predicate>
+    [[nodiscard]] bool isAnyIn(const QRectF& room, Predicate isMeant) const {
+        return std::ranges::any_of(squaresOf(room, m_view), [&](std::size_t square) {
+            return std::ranges::any_of(m_squares[square], [&](const auto& one) {
+                return one.first.intersects(room) && isMeant(one.second);
+            });
+        });
+    }
+
+private:
+    QRectF m_view;
+    std::array<std::vector<std::pair<QRectF, std::size_t>>, kSide * kSide> m_squares;
+};
+
 class Placing {
 public:
-    Placing(std::span<const LabelPlace> places, const QRectF& view, std::vector<QRectF> taken)
-        : m_places(places), m_view(view), m_taken(std::move(taken)) {}
+    Placing(std::span<const LabelPlace> places, const QRectF& view, const std::vector<QRectF>& taken)
+        : m_places(places), m_view(view), m_heads(view), m_taken(view) {
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            m_heads.add(places[i].head, i);
+        }
+        std::ranges::for_each(taken, [this](const QRectF& room) { m_taken.add(room); });
+    }
 
     PlacedLabel place(std::size_t which) {
         const LabelPlace& own = m_places[which];
@@ -120,16 +170,20 @@ public:
         const std::array forms{std::tuple(LabelForm::Whole, own.whole, kMostWhole),
                                std::tuple(LabelForm::Named, own.named, kMostNamed),
                                std::tuple(LabelForm::Brief, own.brief, kMostBrief)};
-        for (const bool mayCover : {false, true}) { // rather short than on somebody's head
-            for (const auto& [form, size, most] : forms) {
-                if (size.isEmpty()) {
-                    continue;
-                }
-                if (const auto found = find(which, form, size, most, mayCover)) {
-                    m_taken.push_back(found->plate);
-                    return *found;
-                }
+        ++m_tried;
+        std::optional<PlacedLabel> best;
+        for (const auto& [form, size, most] : forms) { // rather short than on somebody's head
+            const bool isTried = !size.isEmpty() && m_tried <= kMostTried;
+            const std::optional<PlacedLabel> found = isTried ? find(which, form, size, most) : std::nullopt;
+            best = best ? best : found;
+            if (found && !isOnHead(found->plate, which, false)) {
+                best = found;
+                break;
             }
+        }
+        if (best) {
+            m_taken.add(best->plate);
+            return *best;
         }
         const QRectF mark(own.anchor - QPointF(4, 4), QSizeF(8, 8));
         const bool isBehind = isOnHead(mark, which, true) || isTaken(mark);
@@ -137,15 +191,15 @@ public:
     }
 
 private:
-    std::optional<PlacedLabel> find(std::size_t which, LabelForm form, const QSizeF& size, qreal most,
-                                    bool mayCover) const {
+    /// The best place on nobody's head, else the best.
+    std::optional<PlacedLabel> find(std::size_t which, LabelForm form, const QSizeF& size, qreal most) const {
         const LabelPlace& own = m_places[which];
         const std::optional<Candidate> kept = keptPlace(which, form, size);
         const qreal spare = kept || (own.before && own.before->form > form) ? kToSpare : 0;
         std::optional<PlacedLabel> second;
         for (const Candidate& one : candidatesOf(own, size, most, m_view)) {
             if (kept && one.cost > kept->cost - size.height()) {
-                return PlacedLabel{kept->plate, form, kept->offset};
+                break;
             }
             if (!isFree(one.plate, which, spare)) {
                 continue;
@@ -155,10 +209,7 @@ private:
             }
             second = second ? second : std::optional(PlacedLabel{one.plate, form, one.offset});
         }
-        if (kept) {
-            return PlacedLabel{kept->plate, form, kept->offset};
-        }
-        return mayCover ? second : std::nullopt;
+        return kept ? PlacedLabel{kept->plate, form, kept->offset} : second;
     }
     /// Where it was in the picture before, if it may be there again.
     [[nodiscard]] std::optional<Candidate> keptPlace(std::size_t which, LabelForm form,
@@ -177,33 +228,31 @@ private:
         return !isTaken(wide) && !m_places[which].head.intersects(plate) && !isOnHead(plate, which, true);
     }
     [[nodiscard]] bool isTaken(const QRectF& room) const {
-        return std::ranges::any_of(m_taken, [&](const QRectF& other) { return other.intersects(room); });
+        return m_taken.isAnyIn(room, [](std::size_t) { return true; });
     }
     /// On the head of somebody else; `isNearer`: only of somebody as near or nearer.
     [[nodiscard]] bool isOnHead(const QRectF& plate, std::size_t which, bool isNearer) const {
-        for (std::size_t i = 0; i < m_places.size(); ++i) {
-            const bool isMeant = !isNearer || m_places[i].depth <= m_places[which].depth + kAsNear;
-            if (i != which && isMeant && m_places[i].head.intersects(plate)) {
-                return true;
-            }
-        }
-        return false;
+        return m_heads.isAnyIn(plate, [&](std::size_t other) {
+            return other != which && (!isNearer || m_places[other].depth <= m_places[which].depth + kAsNear);
+        });
     }
 
     std::span<const LabelPlace> m_places;
     QRectF m_view;
-    std::vector<QRectF> m_taken;
+    Crowd m_heads;
+    Crowd m_taken;
+    int m_tried = 0;
 };
 
 } // namespace
 
 std::vector<PlacedLabel> placeLabels(std::span<const LabelPlace> places, const QRectF& view,
-                                     std::vector<QRectF> taken) {
+                                     const std::vector<QRectF>& taken) {
     std::vector<std::size_t> order(places.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::ranges::stable_sort(
         order, {}, [&](std::size_t which) { return std::pair(-places[which].weight, places[which].depth); });
-    Placing placing(places, view, std::move(taken));
+    Placing placing(places, view, taken);
     std::vector<PlacedLabel> placed(places.size());
     for (const std::size_t which : order) {
         placed[which] = placing.place(which);
@@ -211,8 +260,9 @@ std::vector<PlacedLabel> placeLabels(std::span<const LabelPlace> places, const Q
     return placed;
 }
 
-std::optional<QLineF> leaderOf(const PlacedLabel& label, const LabelPlace& place,
-                               std::span<const QRectF> nearer) {
+std::optional<QLineF> leaderOf(const PlacedLabel& label, std::span<const LabelPlace> places,
+                               std::size_t which) {
+    const LabelPlace& place = places[which];
     const bool isAbove = label.plate.bottom() <= place.anchor.y() + kApart;
     const bool isLeft = label.plate.center().x() < place.head.center().x();
     const QPointF end =
@@ -224,21 +274,11 @@ std::optional<QLineF> leaderOf(const PlacedLabel& label, const LabelPlace& place
     QLineF line(std::clamp(end.x(), label.plate.left() + kLeader, label.plate.right() - kLeader),
                 std::clamp(end.y(), label.plate.top(), label.plate.bottom()), end.x(), end.y());
     qreal seen = 1;
-    for (const QRectF& head : nearer) {
-        seen = std::min(seen, entryInto(head, line));
+    for (const LabelPlace& other : places) {
+        seen = other.depth + kAsNear < place.depth ? std::min(seen, entryInto(other.head, line)) : seen;
     }
     line.setP2(line.pointAt(seen));
     return line.length() > 1 ? std::optional(line) : std::nullopt;
-}
-
-std::vector<QRectF> headsBefore(std::span<const LabelPlace> places, std::size_t which) {
-    std::vector<QRectF> heads;
-    for (const LabelPlace& place : places) {
-        if (place.depth + kAsNear < places[which].depth) {
-            heads.push_back(place.head);
-        }
-    }
-    return heads;
 }
 
 QString initialsOf(const QString& name) {

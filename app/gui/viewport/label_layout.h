@@ -44,14 +44,12 @@ struct LabelPlace {
 /// that of somebody nearer, and rather not on any head. Where there is no room for all text, the short form.
 /// In the order given.
 [[nodiscard]] std::vector<PlacedLabel> placeLabels(std::span<const LabelPlace> places, const QRectF& view,
-                                                   std::vector<QRectF> taken);
+                                                   const std::vector<QRectF>& taken);
 
-/// The line from a plate to its head; nothing if they are so close that none is needed. It ends where it
-/// would go on behind a head that is `nearer`.
-[[nodiscard]] std::optional<QLineF> leaderOf(const PlacedLabel& label, const LabelPlace& place,
-                                             std::span<const QRectF> nearer = {});
-/// Heads of those that are nearer to the eye than the one at `which`.
-[[nodiscard]] std::vector<QRectF> headsBefore(std::span<const LabelPlace> places, std::size_t which);
+/// The line from a plate to the head of the place at `which`; nothing if they are so close that none is
+/// needed. It ends where it would go on behind a nearer head.
+[[nodiscard]] std::optional<QLineF> leaderOf(const PlacedLabel& label, std::span<const LabelPlace> places,
+                                             std::size_t which);
 
 /// "ML", of "Mira Lindqvist"; "ML2", of "Mira Lindqvist 2"; "C7", of "Character 7".
 [[nodiscard]] QString initialsOf(const QString& name);

@@ -87,20 +87,24 @@ bool isBehindAnother(const SceneFrame& frame, std::size_t which, const QPointF& 
     constexpr float kFlesh = 0.3F; // metres around the origins of segments
     const render::Ray ray = frame.camera.rayThrough(screenPoint(there, view), aspectOf(view));
     const float own = glm::dot(frame.figures[which].labelPosition - ray.origin, ray.direction);
-    const auto mayMeet = [&ray](const Figure& figure) {
-        const glm::vec3 offset = figure.bounds.centre() - ray.origin;
-        const float along = glm::dot(offset, ray.direction);
-        return glm::distance(offset, along * ray.direction) <= figure.bounds.radius() + kFlesh;
+    const auto mayMeet = [&](const Figure& figure) {
+        const glm::vec3 least = (figure.bounds.min - kFlesh - ray.origin) / ray.direction;
+        const glm::vec3 most = (figure.bounds.max + kFlesh - ray.origin) / ray.direction;
+        const glm::vec3 in = glm::min(least, most);
+        const glm::vec3 out = glm::max(least, most);
+        const float begin = std::max({in.x, in.y, in.z});
+        return begin < own && begin <= std::min({out.x, out.y, out.z});
     };
-    std::vector<render::PickTarget> others;
-    for (std::size_t i = 0; i < frame.figures.size(); ++i) {
-        const Figure& figure = frame.figures[i];
-        if (i != which && figure.body != nullptr && !figure.bounds.isEmpty() && mayMeet(figure)) {
-            others.push_back(targetOf(figure, static_cast<std::uint32_t>(i)));
+    const auto isInTheWay = [&](const Figure& figure) {
+        if (&figure == &frame.figures[which] || figure.body == nullptr || figure.bounds.isEmpty() ||
+            !mayMeet(figure)) {
+            return false;
         }
-    }
-    const auto pick = render::pickSegment(ray, others);
-    return pick && pick->distance < own;
+        const render::PickTarget target = targetOf(figure, 0);
+        const auto pick = render::pickSegment(ray, std::span(&target, 1));
+        return pick && pick->distance < own;
+    };
+    return std::ranges::any_of(frame.figures, isInTheWay);
 }
 
 QRectF roomOf(const SceneFrame& frame, const model::CharacterKey& key, const QSizeF& view) {

@@ -30,6 +30,8 @@ public:
 
     /// True while what is on screen is what was last asked for, or, with data streaming, next to it.
     [[nodiscard]] bool isSettled() const;
+    /// True if a picture is on its way: presented() follows.
+    [[nodiscard]] bool isDrawing() const { return m_drawing != nullptr; }
     [[nodiscard]] const SceneFrame* shown() const { return m_shown.get(); }
     /// Empty before start(), as are the following.
     [[nodiscard]] QString rendererName() const {

@@ -40,20 +40,11 @@ qreal paintText(QPainter& painter, qreal left, const QRectF& row, const QString&
     return left + width;
 }
 
-struct LabelText {
-    QString name;
-    QString status;
-    QString shortName;
-    qreal whole = 0; ///< widths of a plate
-    qreal named = 0; ///< 0 where initials are no shorter
-    qreal brief = 0;
-};
-
 qreal markSide(const QFontMetricsF& metrics) {
     return 0.65 * metrics.height();
 }
 
-LabelText textOf(const ViewportLabel& label, const QFontMetricsF& metrics, qreal width) {
+LabelText measured(const ViewportLabel& label, const QFontMetricsF& metrics, qreal width) {
     const qreal unit = metrics.height();
     LabelText text;
     text.status = healthText(label.state.health, label.state.text);
@@ -308,8 +299,27 @@ void ViewportOverlay::setCard(const EmptyState& card) {
     }
 }
 
+const LabelText& ViewportOverlay::textOf(const ViewportLabel& label, const QFontMetricsF& metrics) {
+    constexpr qsizetype kMost = 2048; // ages in them change
+    const QString key = healthSymbol(label.state.health) + label.state.text + QChar() + label.name;
+    auto known = m_labelTexts.find(key);
+    if (known == m_labelTexts.end()) {
+        if (m_labelTexts.size() >= kMost) {
+            m_labelTexts.clear();
+        }
+        known = m_labelTexts.insert(key, measured(label, metrics, width()));
+    }
+    return *known;
+}
+
+void ViewportOverlay::changeEvent(QEvent* event) {
+    QWidget::changeEvent(event);
+    m_labelTexts.clear();
+}
+
 void ViewportOverlay::resizeEvent(QResizeEvent* event) {
     QWidget::resizeEvent(event);
+    m_labelTexts.clear();
     if (m_message != nullptr) {
         m_message->place();
     }
@@ -331,36 +341,34 @@ std::vector<QRectF> ViewportOverlay::takenRoom() const {
     return taken;
 }
 
-void ViewportOverlay::placeAll() {
+std::vector<LabelPlace> ViewportOverlay::placeAll(const std::vector<QRectF>& taken) {
     const QFontMetricsF metrics(tabularFont());
     const qreal height = metrics.height() + 8;
     std::vector<LabelPlace> places;
     for (const ViewportLabel& label : m_labels) {
-        const LabelText text = textOf(label, metrics, width());
+        const LabelText& text = textOf(label, metrics);
         const auto before = m_before.find(label.key);
         places.push_back({label.anchor, label.head, label.depth, weightOf(label), QSizeF(text.whole, height),
                           QSizeF(text.brief, height),
                           before == m_before.end() ? std::nullopt : std::optional(before->second),
                           QSizeF(text.named, height)});
     }
-    m_placed = placeLabels(places, rect(), takenRoom());
+    m_placed = placeLabels(places, rect(), taken);
     m_before.clear();
     for (std::size_t i = 0; i < m_labels.size(); ++i) {
         m_before[m_labels[i].key] = m_placed[i];
     }
+    return places;
 }
 
 void ViewportOverlay::paintEvent(QPaintEvent* /*event*/) {
     QPainter painter(this);
     painter.setRenderHint(QPainter::Antialiasing);
     painter.setFont(tabularFont());
-    placeAll();
-    std::vector<LabelPlace> places;
-    for (const ViewportLabel& label : m_labels) {
-        places.push_back({label.anchor, label.head, label.depth});
-    }
+    std::vector<QRectF> taken = takenRoom();
+    const std::vector<LabelPlace> places = placeAll(taken);
     for (std::size_t i = 0; i < m_labels.size(); ++i) {
-        if (const auto leader = leaderOf(m_placed[i], places[i], headsBefore(places, i))) {
+        if (const auto leader = leaderOf(m_placed[i], places, i)) {
             painter.setPen(QPen(theme().panel, 3));
             painter.drawLine(*leader);
             painter.setPen(QPen(m_labels[i].mark.colour, 1.4, styleOf(m_labels[i])));
@@ -370,7 +378,6 @@ void ViewportOverlay::paintEvent(QPaintEvent* /*event*/) {
     for (std::size_t i = 0; i < m_labels.size(); ++i) {
         paintLabel(painter, m_labels[i], m_placed[i]);
     }
-    std::vector<QRectF> taken = takenRoom();
     for (const PlacedLabel& label : m_placed) {
         if (label.form != LabelForm::None) {
             taken.push_back(label.plate);
@@ -379,8 +386,7 @@ void ViewportOverlay::paintEvent(QPaintEvent* /*event*/) {
     paintTexts(painter, taken);
 }
 
-void ViewportOverlay::paintLabel(QPainter& painter, const ViewportLabel& label,
-                                 const PlacedLabel& placed) const {
+void ViewportOverlay::paintLabel(QPainter& painter, const ViewportLabel& label, const PlacedLabel& placed) {
     const QFontMetricsF metrics(painter.font());
     const qreal unit = metrics.height();
     const qreal side = markSide(metrics);
@@ -396,7 +402,7 @@ void ViewportOverlay::paintLabel(QPainter& painter, const ViewportLabel& label,
     paintPlate(painter, plate, QPen(border, 1, styleOf(label)), kBackgroundOpacity);
     paintMark(painter, QRectF(plate.left() + 0.6 * unit, plate.center().y() - side / 2, side, side),
               label.mark);
-    const LabelText text = textOf(label, metrics, width());
+    const LabelText& text = textOf(label, metrics);
     const bool isWhole = placed.form == LabelForm::Whole;
     qreal x = plate.left() + unit + side;
     const QString name = isWhole                           ? text.name

@@ -5,6 +5,8 @@
 #include "app/gui/viewport/label_layout.h"
 #include "app/gui/viewport/picking.h"
 
+#include <QFontMetricsF>
+#include <QHash>
 #include <QWidget>
 
 #include <map>
@@ -21,6 +23,16 @@ void paintPlate(QPainter& painter, const QRectF& plate, const QPen& border, doub
 
 /// Lays the few choices over the picture: axes, framing, projection.
 void addViewportButtons(ViewportWidget& viewport);
+
+/// What a label says, as far as there is room for it, and how wide its plate is.
+struct LabelText {
+    QString name;
+    QString status;
+    QString shortName;
+    qreal whole = 0; ///< widths of a plate
+    qreal named = 0; ///< 0 where initials are no shorter
+    qreal brief = 0;
+};
 
 /// Drawn over the picture: labels, words of overlays, and a card of text where there is no picture to see.
 class ViewportOverlay final : public QWidget {
@@ -41,16 +53,19 @@ public:
 protected:
     void paintEvent(QPaintEvent* event) override;
     void resizeEvent(QResizeEvent* event) override;
+    void changeEvent(QEvent* event) override;
 
 private:
     [[nodiscard]] std::vector<QRectF> takenRoom() const;
-    void placeAll();
-    void paintLabel(QPainter& painter, const ViewportLabel& label, const PlacedLabel& placed) const;
+    std::vector<LabelPlace> placeAll(const std::vector<QRectF>& taken);
+    const LabelText& textOf(const ViewportLabel& label, const QFontMetricsF& metrics);
+    void paintLabel(QPainter& painter, const ViewportLabel& label, const PlacedLabel& placed);
     void paintTexts(QPainter& painter, std::vector<QRectF>& taken) const;
 
     std::vector<ViewportLabel> m_labels;
     std::vector<PlacedLabel> m_placed; ///< by label
     std::map<model::CharacterKey, PlacedLabel> m_before;
+    QHash<QString, LabelText> m_labelTexts; ///< by what is said, in this font and width
     std::vector<ViewportText> m_texts;
     EmptyState m_card;
     MessageCard* m_message = nullptr; ///< made with the first card

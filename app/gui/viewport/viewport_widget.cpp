@@ -138,7 +138,9 @@ void ViewportWidget::setReceiving(const ReceivingState& receiving) {
 }
 
 void ViewportWidget::updateOverlay() {
-    updatePanes();
+    if (!m_pictures->isDrawing()) { // else labels change with the next picture
+        updatePanes();
+    }
     updateWords();
     if (const QString problem = m_pictures->failure(); !problem.isEmpty()) {
         m_overlay->setCard(

@@ -15,12 +15,15 @@
 
 #include <algorithm>
 #include <optional>
+#include <ranges>
 
 namespace posewire::gui {
 
 namespace {
 
 constexpr int kMessageMs = 12'000;
+/// No window has room for more.
+constexpr std::size_t kMostEntries = 24;
 
 /// From the first packet that can still be looked at to the newest.
 std::optional<double> historySeconds(model::SessionView& session) {
@@ -143,7 +146,7 @@ void HealthBar::refreshCharacters() {
     m_shown = boardOf(*m_session, BoardOrder::TroubleFirst);
     const bool isForMessage = m_shown.empty() && m_message->isVisible();
     qobject_cast<QHBoxLayout*>(layout())->setStretchFactor(m_entriesArea, isForMessage ? 0 : 1);
-    while (m_entries.size() < m_shown.size()) {
+    while (m_entries.size() < std::min(m_shown.size(), kMostEntries)) {
         auto* entry = new ColourText(ColourText::Look::Plain, this);
         const std::size_t index = m_entries.size();
         connect(entry, &ColourText::clicked, this, [this, index, entry] { explain(m_shown[index], *entry); });
@@ -167,7 +170,7 @@ void HealthBar::measure(const QFontMetrics& metrics) {
     };
     grow(m_stateWidth, tr("99 lost, network"), tr("10.0 % lost, network, over"));
     grow(m_whatWidth, tr("10.0 % lost"), tr("10.0 % lost, over"));
-    for (const model::CharacterKey& key : m_shown) {
+    for (const model::CharacterKey& key : m_shown | std::views::take(kMostEntries)) {
         const model::TakeVerdict& verdict = m_session->verdicts().of(key);
         grow(m_stateWidth, gui::said(verdict.said, words::Form::Brief), tr("10.0 % lost, network, over"));
         grow(m_whatWidth, whatOf(verdict), tr("10.0 % lost, over"));
@@ -187,11 +190,12 @@ void HealthBar::fitEntries() {
     const int room = m_entriesArea->width() + spacing;
     const int reserve = metrics.horizontalAdvance(QStringLiteral("■ + 00 more")) + 2 * spacing;
     const auto all = m_shown.size();
+    const auto most = std::min(all, kMostEntries);
     const auto widthOf = [&](int name, int state) { return beside + name + state + spacing; };
     const auto fittingWith = [&](int least) {
         return static_cast<int>(all) * least <= room
-                   ? all
-                   : std::min<std::size_t>(all, std::max(0, (room - reserve) / least));
+                   ? most
+                   : std::min<std::size_t>(most, std::max(0, (room - reserve) / least));
     };
     const std::size_t fitting = fittingWith(widthOf(leastName, m_whatWidth));
     const bool isBrief = fittingWith(widthOf(m_nameWidth, m_stateWidth)) < fitting;

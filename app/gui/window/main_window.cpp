@@ -33,6 +33,7 @@
 #include <QScreen>
 #include <QStatusBar>
 #include <QTabBar>
+#include <QTimer>
 #include <QToolBar>
 #include <QToolButton>
 #include <QTreeView>
@@ -43,6 +44,9 @@
 namespace posewire::gui {
 
 namespace {
+
+/// Milliseconds: half of what passes between two ticks.
+constexpr int kAfterTick = 8;
 
 bool isPressing(const QKeyEvent& event, bool isSpaceOnly) {
     const bool isPlain = (event.modifiers() & ~Qt::KeypadModifier) == Qt::NoModifier;
@@ -242,7 +246,9 @@ void MainWindow::connectDriver() {
     connect(m_verdict, &VerdictBar::evidenceRequested, m_docks, &Docks::showEvidence);
     connect(&m_driver, &SessionDriver::moved, m_viewport, &ViewportWidget::refresh);
     connect(&m_driver, &SessionDriver::moved, m_transport, &TransportBar::refresh);
-    connect(&m_driver, &SessionDriver::tableTick, m_docks, &Docks::refresh);
+    // After what the tick has changed is painted: the two together would hold up what the mouse does.
+    connect(&m_driver, &SessionDriver::tableTick, m_docks,
+            [this] { QTimer::singleShot(kAfterTick, m_docks, &Docks::refresh); });
     connect(&m_driver, &SessionDriver::tableTick, this, [this, showTake] {
         showReceiving();
         if (m_sounds.isDue(m_driver.commands().live().verdicts().incidents(), m_settings.alerts)) {

@@ -139,10 +139,11 @@ bool hasNamesake(const SessionView& session, const Incident& incident) {
         return false;
     }
     const std::vector<CharacterKey> own = incident.characters();
-    return std::ranges::any_of(session.atNow().roster().listed(), [&](const Character* one) {
-        const CharacterKey namesake{incident.sender, one->key.character};
-        return one->key.sender != incident.sender && std::ranges::find(own, namesake) != own.end() &&
-               !session.roster().isSame(one->key, namesake);
+    return std::ranges::any_of(session.roster().characters(), [&](const Character& one) {
+        const CharacterKey namesake{incident.sender, one.key.character};
+        return one.key.sender != incident.sender && std::ranges::find(own, namesake) != own.end() &&
+               session.atNow().roster().findListed(one.key) != nullptr &&
+               !session.roster().isSame(one.key, namesake);
     });
 }
 

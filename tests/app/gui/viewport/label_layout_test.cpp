@@ -35,7 +35,7 @@ TEST(LabelLayout, StandsAboveTheHeadWhereThereIsRoom) {
     EXPECT_EQ(placed[0].form, LabelForm::Whole);
     EXPECT_NEAR(placed[0].plate.center().x(), 300, 1);
     EXPECT_NEAR(placed[0].plate.bottom(), 200, 1);
-    EXPECT_FALSE(leaderOf(placed[0], labelAt(300, 200, 5)));
+    EXPECT_FALSE(leaderOf(placed[0], std::vector{labelAt(300, 200, 5)}, 0));
 }
 
 TEST(LabelLayout, NeverLiesOnAnotherLabelOnButtonsOrOnItsOwnOrANearerHead) {
@@ -166,32 +166,31 @@ TEST(LabelLayout, ComesBackToItsHeadWhenThereIsRoom) {
     std::vector places{labelAt(300, 200, 5)};
     const QRectF above(200, 170, 200, 28);
     places[0].before = placeLabels(places, kViewport, {above})[0];
-    EXPECT_TRUE(leaderOf(*places[0].before, places[0]));
+    EXPECT_TRUE(leaderOf(*places[0].before, places, 0));
     const PlacedLabel back = placeLabels(places, kViewport, {})[0];
-    EXPECT_FALSE(leaderOf(back, places[0]));
+    EXPECT_FALSE(leaderOf(back, places, 0));
 }
 
 TEST(LabelLayout, HasALineToAHeadThatItIsAwayFrom) {
     const QRectF above(200, 100, 200, 97);
     const auto placed = placeLabels(std::vector{labelAt(300, 195, 5)}, kViewport, {above});
     ASSERT_LE(placed[0].form, LabelForm::Brief);
-    EXPECT_TRUE(leaderOf(placed[0], labelAt(300, 195, 5)));
+    EXPECT_TRUE(leaderOf(placed[0], std::vector{labelAt(300, 195, 5)}, 0));
 }
 
 TEST(LabelLayout, HasNoLineOnANearerHead) {
-    const std::vector places{labelAt(300, 195, 5), labelAt(300, 130, 2)};
+    std::vector places{labelAt(300, 195, 5), labelAt(300, 130, 2)};
     const PlacedLabel placed{QRectF(260, 90, 80, 24), LabelForm::Brief, {}};
-    const auto nearer = headsBefore(places, 0);
-    ASSERT_EQ(nearer.size(), 1U);
-    EXPECT_TRUE(headsBefore(places, 1).empty());
-    const auto leader = leaderOf(placed, places[0], nearer);
+    const auto leader = leaderOf(placed, places, 0);
     ASSERT_TRUE(leader);
     EXPECT_NEAR(leader->y1(), 114, 0.1);
     EXPECT_NEAR(leader->y2(), places[1].head.top(), 0.1) << "it goes on behind";
-    const std::vector beside{QRectF(400, 100, 40, 60)};
-    EXPECT_NEAR(leaderOf(placed, places[0], beside)->y2(), 195, 0.1);
-    const std::vector around{QRectF(250, 80, 100, 200)};
-    EXPECT_FALSE(leaderOf(placed, places[0], around));
+    places[1].depth = 5;
+    EXPECT_NEAR(leaderOf(placed, places, 0)->y2(), 195, 0.1) << "no nearer";
+    places[1] = {{}, QRectF(400, 100, 40, 60), 2};
+    EXPECT_NEAR(leaderOf(placed, places, 0)->y2(), 195, 0.1);
+    places[1].head = QRectF(250, 80, 100, 200);
+    EXPECT_FALSE(leaderOf(placed, places, 0));
 }
 
 TEST(LabelLayout, IsNotThereWhereTheHeadIsOutOfSight) {

@@ -156,7 +156,7 @@ TEST_F(RoomTest, EveryDockShowsItsTitleAndItsFirstRowsAt1280By720) {
             QTest::qWait(5);
             m_driver.tick();
             emit m_driver.tableTick();
-            QTest::qWait(5);
+            QTest::qWait(20);
             EXPECT_EQ(m_window.size(), kRoom);
             EXPECT_LE(m_window.minimumSizeHint().width(), kRoom.width()) << offenders();
             const QRect place = dock->geometry();
