@@ -12,6 +12,8 @@ constexpr log::Duration kWatch = std::chrono::milliseconds(500);
 constexpr log::Duration kLong = std::chrono::seconds(1);
 /// Of a stream while others of its character go on: before it is too old.
 constexpr log::Duration kEnded = std::chrono::milliseconds(500);
+/// So many in a row are not lost by chance while other streams of the character come.
+constexpr double kSamplesOfEnd = 10;
 constexpr log::Duration kNone = log::Duration::zero();
 /// What happened is not seen in any window of a limit any more.
 constexpr double kWindowAndMore = 1.5;
@@ -451,7 +453,7 @@ void IncidentFollower::checkEnded(log::Stamp stamp) {
             const log::Duration silent =
                 character.lastSampled - std::max(stream->accounting.lastStamp(), character.lastSilence.to);
             const bool isOver = stream->isEstablished() && stamp - character.lastSampled < kSilent &&
-                                silent > patienceWith(std::span(&stream, 1), kEnded, 3);
+                                silent > patienceWith(std::span(&stream, 1), kEnded, kSamplesOfEnd);
             if (isOver && !std::exchange(stream->hasEnded, true)) {
                 Occurrence one = Occurrence::at(IncidentKind::Step, key.sender,
                                                 stream->accounting.lastStamp(), m_lastPacket);

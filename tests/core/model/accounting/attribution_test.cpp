@@ -145,6 +145,19 @@ TEST_F(AttributionTest, LosesNothingOfAStreamThatWasNotSentForASecond) {
     }
 }
 
+TEST_F(AttributionTest, LosesAFewSamplesOfOneStreamThatComesRarely) {
+    for (std::uint32_t sample = 1; sample <= 100; ++sample, m_at += 500ms) {
+        put(sample, {});
+        if (sample <= 50 || sample > 54) {
+            put(sample, {.type = 24});
+        }
+    }
+    follow();
+    const StreamCounts counts = m_session.roster().streams().back().accounting.counts();
+    EXPECT_EQ(counts.lost, 4U);
+    EXPECT_EQ(counts.samples, 96U);
+}
+
 TEST_F(AttributionTest, LosesWhatIsMissingOfAPauseHoweverLong) {
     for (std::uint32_t sample = 1; sample <= 1'000; ++sample, m_at += 4ms) {
         for (const std::uint8_t type : std::initializer_list<std::uint8_t>{2, 24, 25}) {
