@@ -35,17 +35,16 @@ struct ImportedBone {
     bool hasWeights = false;
 };
 
-/// A texture as it came: a whole PNG, JPEG …, or texels.
 struct ImportedTexture {
     /// As the file calls it, for messages.
     std::string name;
-    /// The bytes of a picture file; empty where there are texels, or where it could not be had.
+    /// The bytes of a picture file, while it is read.
     std::vector<std::byte> encoded;
-    /// Where `width` is not 0: red, green, blue, alpha of each texel, the top row first.
+    /// Red, green, blue, alpha of each texel, the top row first.
     std::vector<std::uint8_t> texels;
     int width = 0;
     int height = 0;
-    /// Why there is neither; empty where there is.
+    /// Why there are none; empty if there are.
     std::string problem;
 };
 

@@ -14,7 +14,7 @@
 namespace posewire::render {
 namespace {
 
-constexpr std::array<char, 8> kMagic{'P', 'W', 'C', 'H', 'A', 'R', 0, 1};
+constexpr std::array<char, 8> kMagic{'P', 'W', 'C', 'H', 'A', 'R', 0, 2};
 
 static_assert(sizeof(glm::vec2) == 8 && sizeof(glm::vec3) == 12 && sizeof(glm::vec4) == 16 &&
               sizeof(JointIndices) == 4);
@@ -120,15 +120,23 @@ ImportedBone boneFrom(FlatReader& in) {
     return bone;
 }
 
+/// Both are 0 if there is no picture.
+bool isSize(int width, int height) {
+    return (width == 0) == (height == 0) && std::min(width, height) >= 0 &&
+           std::max(width, height) <= kMostTextureSide;
+}
+
+std::size_t texelBytes(const ImportedTexture& texture) {
+    return std::size_t{4} * static_cast<std::size_t>(texture.width) *
+           static_cast<std::size_t>(texture.height);
+}
+
 ImportedTexture textureFrom(FlatReader& in) {
     ImportedTexture texture;
     texture.width = in.number<std::int32_t>();
     texture.height = in.number<std::int32_t>();
-    const std::size_t size = in.count(kMostTextureBytes);
-    if (texture.width != 0) {
-        texture.texels = in.array<std::uint8_t>(size);
-    } else {
-        texture.encoded = in.array<std::byte>(size);
+    if (isSize(texture.width, texture.height)) {
+        texture.texels = in.array<std::uint8_t>(texelBytes(texture));
     }
     texture.name = in.text();
     texture.problem = in.text();
@@ -136,20 +144,14 @@ ImportedTexture textureFrom(FlatReader& in) {
 }
 
 bool isSound(const ImportedTexture& texture) {
-    if (texture.width == 0) {
-        return texture.height == 0 && texture.texels.empty() && texture.encoded.size() <= kMostTextureBytes;
-    }
-    return texture.width > 0 && texture.height > 0 && texture.width <= kMostTextureSide &&
-           texture.height <= kMostTextureSide && texture.encoded.empty() &&
-           texture.texels.size() <= kMostTextureBytes &&
-           texture.texels.size() == std::size_t{4} * static_cast<std::size_t>(texture.width) *
-                                        static_cast<std::size_t>(texture.height);
+    return texture.encoded.empty() && isSize(texture.width, texture.height) &&
+           texture.texels.size() == texelBytes(texture);
 }
 
 bool areSound(const std::vector<ImportedTexture>& textures) {
     std::size_t bytes = 0;
     for (const ImportedTexture& texture : textures) {
-        bytes += texture.texels.size() + texture.encoded.size();
+        bytes += texture.texels.size();
         if (!isSound(texture)) {
             return false;
         }
@@ -252,9 +254,7 @@ std::vector<std::byte> flatten(const ImportedCharacter& character) {
     for (const ImportedTexture& texture : character.textures) {
         out.number(static_cast<std::int32_t>(texture.width));
         out.number(static_cast<std::int32_t>(texture.height));
-        out.count(texture.texels.size() + texture.encoded.size());
         out.array(texture.texels);
-        out.array(texture.encoded);
         out.text(texture.name);
         out.text(texture.problem);
     }

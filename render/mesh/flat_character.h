@@ -11,9 +11,9 @@
 #include <tl/expected.hpp>
 
 /// A character as it passes from the program that reads foreign files to the window, and as it is cached: in
-/// one piece and in the byte order of this computer. Version 1:
+/// one piece and in the byte order of this computer. Version 2:
 ///
-///     "PWCHAR" 0 1                  magic, the last byte is the version
+///     "PWCHAR" 0 2                  magic, the last byte is the version
 ///     u32 × 7                       vertices, indices, texture places (0 or one per vertex), parts,
 ///     textures, bones,
 ///                                   files beside
@@ -28,8 +28,7 @@
 ///     two-sided,
 ///               4 masked)
 ///     bone:     i32 parent, f32 × 3 position, f32 × 4 orientation (w x y z), u32 has weights, text name
-///     texture:  i32 width, i32 height, u32 length, bytes (a picture file, or texels if the width is not 0),
-///               text name, text problem
+///     texture:  i32 width, i32 height, u8 × 4 per texel, text name, text problem
 ///     file beside: text
 ///     text:     u32 length, at most kLongestFlatText, and UTF-8
 namespace posewire::render {

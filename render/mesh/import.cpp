@@ -4,6 +4,7 @@
 #include "render/mesh/flat_character.h"
 #include "render/mesh/import_materials.h"
 #include "render/mesh/own_folder.h"
+#include "render/mesh/texture_pictures.h"
 
 #include <algorithm>
 #include <array>
@@ -110,6 +111,7 @@ public:
         if (!m_hasTexturePlaces) {
             m_character.texturePlaces.clear();
         }
+        readPictures(m_character.textures);
         if (const auto sound = validate(m_character); !sound) {
             return tl::make_unexpected(sound.error());
         }

@@ -40,7 +40,7 @@ def check(program, path):
     assert seconds <= MOST_SECONDS and kib <= MOST_KIB, told
     assert re.fullmatch(rb"(no )?Landlock[ 0-9]*, (no )?seccomp\n|none\n", error) or error.count(b"\n") <= 4, told
     if status == 0:
-        assert out.startswith(b"PWCHAR\0\1"), told
+        assert out.startswith(b"PWCHAR\0\2"), told
     elif status in (1, 2):
         assert 0 < len(out) < 500 and out.decode().isprintable(), told
     else:

@@ -147,7 +147,7 @@ TEST_F(CharacterImportTest, AnAnswerIsNotTrusted) {
         const ReadCharacter read = readCharacterFile(kReadable, true);
         return read ? QString() : read.error();
     };
-    EXPECT_TRUE(answering("printf 'PWCHAR\\0\\1'; exit 0").contains("answer"));
+    EXPECT_TRUE(answering("printf 'PWCHAR\\0\\2'; exit 0").contains("answer"));
     EXPECT_TRUE(answering("exit 0").contains("crashed"));
     EXPECT_TRUE(answering("printf 'bad \\033[31m bones'; exit 1").contains("bad"));
     EXPECT_FALSE(answering("printf 'bad \\033[31m bones'; exit 1").contains(QChar(27)));
