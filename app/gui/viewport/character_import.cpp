@@ -28,6 +28,7 @@ constexpr std::chrono::seconds kLongest{30};
 constexpr int kLongestSentence = 400;
 constexpr qint64 kMostCached = qint64{512} * 1024 * 1024;
 constexpr int kSealBytes = 32;
+constexpr qint64 kMostNoteBytes = 256;
 
 /// Installed, in a folder of ours alone, or built.
 QString importProgram() {
@@ -45,6 +46,18 @@ QString cacheFolder() {
     return folder;
 }
 
+/// A file in the cache about the file at a path.
+QString nameFor(const QString& path, const char* ending) {
+    return cacheFolder() + '/' + QCryptographicHash::hash(path.toUtf8(), QCryptographicHash::Sha1).toHex() +
+           ending;
+}
+
+/// Of another file with the same, its bytes are taken for unchanged.
+QByteArray sizeAndTime(const QFileInfo& file) {
+    return QByteArray::number(file.size()) + ' ' +
+           QByteArray::number(file.lastModified().toMSecsSinceEpoch()) + ' ';
+}
+
 QString entryOf(const QString& sum) {
     return cacheFolder() + '/' + sum + ".character";
 }
@@ -54,9 +67,7 @@ QByteArray sealOf(const QString& path, QByteArrayView flat, const render::Import
     QCryptographicHash seal(QCryptographicHash::Sha256);
     seal.addData(flat);
     for (const std::string& name : character.filesBeside) {
-        const QFileInfo file(folder, QFile::decodeName(name.c_str()));
-        seal.addData(QByteArray::number(file.size()) + ' ' +
-                     QByteArray::number(file.lastModified().toMSecsSinceEpoch()) + ' ');
+        seal.addData(sizeAndTime(QFileInfo(folder, QFile::decodeName(name.c_str()))));
     }
     return seal.result();
 }
@@ -112,6 +123,21 @@ tl::expected<QByteArray, QString> readOutside(const QString& path, ReadingMark& 
     return answer;
 }
 
+QString notedSum(const QString& path) {
+    QFile note(nameFor(path, ".sum"));
+    const QByteArray begin = sizeAndTime(QFileInfo(path));
+    const QByteArray text = note.open(QIODevice::ReadOnly) ? note.read(kMostNoteBytes) : QByteArray();
+    return text.startsWith(begin) ? QString::fromLatin1(text.mid(begin.size())) : QString();
+}
+
+void noteSum(const QString& path, const QString& sum) {
+    QSaveFile note(nameFor(path, ".sum"));
+    if (note.open(QIODevice::WriteOnly)) {
+        note.write(sizeAndTime(QFileInfo(path)) + sum.toLatin1());
+        note.commit();
+    }
+}
+
 std::optional<render::ImportedCharacter> cachedCharacter(const QString& path, const QString& sum) {
     QFile entry(entryOf(sum));
     if (!entry.open(QIODevice::ReadWrite | QIODevice::ExistingOnly) ||
@@ -146,9 +172,7 @@ void cacheCharacter(const QString& path, const QString& sum, const QByteArray& f
     }
 }
 
-ReadingMark::ReadingMark(const QString& path, bool isAgain)
-    : m_name(cacheFolder() + '/' + QCryptographicHash::hash(path.toUtf8(), QCryptographicHash::Sha1).toHex() +
-             ".reading") {
+ReadingMark::ReadingMark(const QString& path, bool isAgain) : m_name(nameFor(path, ".reading")) {
     constexpr int kAttempts = 20; // a program that was killed may take a while to be gone
     for (int attempt = 0; attempt < kAttempts && !m_lock.isOpen(); ++attempt) {
         QThread::msleep(attempt == 0 ? 0 : 100);

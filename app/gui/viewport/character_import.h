@@ -44,6 +44,11 @@ private:
 [[nodiscard]] tl::expected<QByteArray, QString> readOutside(const QString& path, ReadingMark& mark,
                                                             const std::atomic<bool>* isUnwanted = nullptr);
 
+/// The SHA-256 of a file as it was noted, in hexadecimal, while size and time stay: the next start does not
+/// open the file. Empty for one that was not.
+[[nodiscard]] QString notedSum(const QString& path);
+void noteSum(const QString& path, const QString& sum);
+
 /// Characters that were read once, in the user's cache by the SHA-256 of their file, at most 512 MB: the
 /// longest unused go first. Each entry is the flat form and a seal over it and over size and time of the
 /// files beside, so a damaged or outdated one is not found.

@@ -58,26 +58,30 @@ characterOf(const QString& path, const QString& sum, ReadingMark& mark, const st
 } // namespace
 
 ReadCharacter readCharacterFile(const QString& path, bool isAgain, const std::atomic<bool>* isUnwanted) {
-    QFile file(path);
-    QCryptographicHash sum(QCryptographicHash::Sha256);
     if (const QFileInfo info(path); info.exists() && !info.isFile()) { // opening a pipe would wait
         return tl::unexpected(tr("%1 is not a file").arg(path));
-    }
-    if (!file.open(QIODevice::ReadOnly)) {
-        return tl::unexpected(tr("%1 cannot be opened: %2").arg(path, file.errorString()));
-    }
-    if (file.size() > static_cast<qint64>(render::kMostImportedBytes)) {
-        return tl::unexpected(tr("%1 is larger than 256 MB").arg(path));
     }
     ReadingMark mark(path, isAgain);
     if (mark.isLeft()) {
         return tl::unexpected(tr("%1 was not read to its end the last time, so it is not read automatically")
                                   .arg(QFileInfo(path).fileName()));
     }
-    sum.addData(&file);
     auto read = std::make_shared<CharacterFile>();
     read->path = path;
-    read->sum = QString::fromLatin1(sum.result().toHex());
+    read->sum = notedSum(path);
+    if (read->sum.isEmpty()) {
+        QFile file(path);
+        if (!file.open(QIODevice::ReadOnly)) {
+            return tl::unexpected(tr("%1 cannot be opened: %2").arg(path, file.errorString()));
+        }
+        if (file.size() > static_cast<qint64>(render::kMostImportedBytes)) {
+            return tl::unexpected(tr("%1 is larger than 256 MB").arg(path));
+        }
+        QCryptographicHash sum(QCryptographicHash::Sha256);
+        sum.addData(&file);
+        read->sum = QString::fromLatin1(sum.result().toHex());
+        noteSum(path, read->sum);
+    }
     auto character = characterOf(path, read->sum, mark, isUnwanted);
     if (!character) {
         return tl::unexpected(

@@ -110,6 +110,26 @@ TEST_F(CharacterImportTest, AFileThatWasReadComesFromTheCache) {
     EXPECT_TRUE(readCharacterFile(kReadable));
 }
 
+TEST_F(CharacterImportTest, AFileThatWasReadIsNotOpenedAgainUntilItChanges) {
+    QFile source(kReadable);
+    ASSERT_TRUE(source.open(QIODevice::ReadOnly));
+    const QByteArray bytes = source.readAll();
+    const QString path = write("own.glb", bytes);
+    const QDateTime time = QFileInfo(path).lastModified();
+    const ReadCharacter first = readCharacterFile(path);
+    ASSERT_TRUE(first) << first.error().toStdString();
+    write("own.glb", QByteArray(bytes.size(), 'x'));
+    QFile file(path);
+    ASSERT_TRUE(file.open(QIODevice::ReadWrite));
+    ASSERT_TRUE(file.setFileTime(time, QFileDevice::FileModificationTime));
+    file.close();
+    const ReadCharacter kept = readCharacterFile(path);
+    ASSERT_TRUE(kept) << kept.error().toStdString();
+    EXPECT_EQ((*kept)->sum, (*first)->sum);
+    write("own.glb", "longer or shorter");
+    EXPECT_FALSE(readCharacterFile(path));
+}
+
 TEST_F(CharacterImportTest, ATextureThatChangedMakesTheCacheOld) {
     render::ImportedCharacter character = *render::importCharacter(kReadable.toStdString());
     character.filesBeside = {"skin.png"};
