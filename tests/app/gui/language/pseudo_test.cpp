@@ -219,6 +219,7 @@ protected:
     void refresh() {
         m_driver.tick();
         emit m_driver.tableTick();
+        m_window.docks().refresh();
         QTest::qWait(5);
     }
 
