@@ -27,6 +27,8 @@ Stage& stage() {
     static char name[] = "import";
     static char* arguments[] = {name, nullptr};
     static auto* const made = new Stage{{count, arguments}, {}}; // Qt does not outlive main()
+    static const int cleared = std::atexit([] { made->folder.remove(); });
+    static_cast<void>(cleared);
     return *made;
 }
 
