@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <numeric>
-#include <ranges>
 #include <tuple>
 #include <utility>
 
@@ -110,37 +109,22 @@ std::vector<Candidate> candidatesOf(const LabelPlace& place, const QSizeF& size,
     return all;
 }
 
-/// The picture is this many squares wide and high.
-constexpr std::size_t kSide = 16;
-
-/// Those that a rectangle touches, row by row; of what is out of the picture, the nearest.
-auto squaresOf(const QRectF& rect, const QRectF& view) {
-    const auto at = [](qreal place, qreal length) {
-        return static_cast<std::size_t>(std::clamp(kSide * place / std::max(length, 1.0), 0.0, kSide - 1.0));
-    };
-    const std::size_t left = at(rect.left() - view.left(), view.width());
-    const std::size_t top = at(rect.top() - view.top(), view.height());
-    const std::size_t columns = at(rect.right() - view.left(), view.width()) - left + 1;
-    const std::size_t rows = at(rect.bottom() - view.top(), view.height()) - top + 1;
-    return std::views::iota(std::size_t{0}, rows * columns) | std::views::transform([=](std::size_t i) {
-               return (top + i / columns) * kSide + left + i % columns;
-           });
-}
-
-/// Rectangles by the squares of the picture that they touch, so that a label is compared with few.
+/// Rectangles by the squares of the picture that they touch, so that a label is compared with few. What is
+/// out of the picture is in the nearest square.
 class Crowd {
 public:
     explicit Crowd(const QRectF& view) : m_view(view) {}
 
     void add(const QRectF& rect, std::size_t which = 0) {
-        for (const std::size_t square : squaresOf(rect, m_view)) {
+        static_cast<void>(isAnySquare(rect, [&](std::size_t square) {
             m_squares[square].push_back({rect, which});
-        }
+            return false;
+        }));
     }
     /// Whether any for which `isMeant(which)` is partly in `room`.
     template <class Predicate>
     [[nodiscard]] bool isAnyIn(const QRectF& room, Predicate isMeant) const {
-        return std::ranges::any_of(squaresOf(room, m_view), [&](std::size_t square) {
+        return isAnySquare(room, [&](std::size_t square) {
             return std::ranges::any_of(m_squares[square], [&](const auto& one) {
                 return one.first.intersects(room) && isMeant(one.second);
             });
@@ -148,6 +132,25 @@ public:
     }
 
 private:
+    static constexpr std::size_t kSide = 16; ///< squares
+    static std::size_t squareAt(qreal place, qreal length) {
+        return static_cast<std::size_t>(std::clamp(kSide * place / std::max(length, 1.0), 0.0, kSide - 1.0));
+    }
+    /// Of those that a rectangle touches.
+    template <class Predicate>
+    bool isAnySquare(const QRectF& rect, Predicate isMeant) const {
+        const std::size_t right = squareAt(rect.right() - m_view.left(), m_view.width());
+        const std::size_t bottom = squareAt(rect.bottom() - m_view.top(), m_view.height());
+        for (std::size_t y = squareAt(rect.top() - m_view.top(), m_view.height()); y <= bottom; ++y) {
+            for (std::size_t x = squareAt(rect.left() - m_view.left(), m_view.width()); x <= right; ++x) {
+                if (isMeant(y * kSide + x)) {
+                    return true;
+                }
+            }
+        }
+        return false;
+    }
+
     QRectF m_view;
     std::array<std::vector<std::pair<QRectF, std::size_t>>, kSide * kSide> m_squares;
 };

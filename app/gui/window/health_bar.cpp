@@ -15,7 +15,7 @@
 
 #include <algorithm>
 #include <optional>
-#include <ranges>
+#include <span>
 
 namespace posewire::gui {
 
@@ -170,7 +170,7 @@ void HealthBar::measure(const QFontMetrics& metrics) {
     };
     grow(m_stateWidth, tr("99 lost, network"), tr("10.0 % lost, network, over"));
     grow(m_whatWidth, tr("10.0 % lost"), tr("10.0 % lost, over"));
-    for (const model::CharacterKey& key : m_shown | std::views::take(kMostEntries)) {
+    for (const model::CharacterKey& key : std::span(m_shown).first(std::min(m_shown.size(), kMostEntries))) {
         const model::TakeVerdict& verdict = m_session->verdicts().of(key);
         grow(m_stateWidth, gui::said(verdict.said, words::Form::Brief), tr("10.0 % lost, network, over"));
         grow(m_whatWidth, whatOf(verdict), tr("10.0 % lost, over"));
