@@ -115,12 +115,12 @@ void CommandPalette::list(const QString& typed) {
             meant.push_back(i);
         }
     }
-    const auto disabled = std::ranges::stable_partition(
-        meant, [this](std::size_t i) { return m_commands[i].action->isEnabled(); });
-    std::stable_partition(meant.begin(), disabled.begin(), [&](std::size_t i) {
+    const auto disabled = std::stable_partition(
+        meant.begin(), meant.end(), [this](std::size_t i) { return m_commands[i].action->isEnabled(); });
+    std::stable_partition(meant.begin(), disabled, [&](std::size_t i) {
         return m_commands[i].name.startsWith(typed.trimmed(), Qt::CaseInsensitive);
     });
-    m_choices = static_cast<int>(std::distance(meant.begin(), disabled.begin()));
+    m_choices = static_cast<int>(std::distance(meant.begin(), disabled));
     for (const std::size_t i : meant) {
         const Command& command = m_commands[i];
         const QAction& action = *command.action;
