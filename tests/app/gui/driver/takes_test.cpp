@@ -21,6 +21,25 @@ namespace {
 
 using namespace std::chrono_literals;
 
+/// A folder that is also the user's home, in which a take goes on if it can be nowhere else.
+struct Place {
+    Place() { qputenv("HOME", QFile::encodeName(folder.path())); }
+    ~Place() { qputenv("HOME", before); }
+
+    /// Whatever is made there, until the take has ended by itself.
+    void removeWhatIsRecorded(Takes& takes) const {
+        for (int i = 0; i < 20'000 && takes.isRecording(); ++i) {
+            QDir(folder.filePath("takes")).removeRecursively();
+            QDir(folder.filePath("Documents")).removeRecursively();
+            takes.follow(log::Stamp(1s));
+            std::this_thread::sleep_for(1ms);
+        }
+    }
+
+    const QByteArray before = qgetenv("HOME");
+    const QTemporaryDir folder;
+};
+
 /// Takes of a log in which 100 packets are, and of a session that follows it.
 class TakesTest : public testing::Test {
 protected:
@@ -59,8 +78,8 @@ protected:
         return kinds;
     }
 
-    const QTemporaryDir m_place;
-    const QString m_folder = m_place.filePath("takes");
+    const Place m_place;
+    const QString m_folder = m_place.folder.filePath("takes");
     model::Origin m_origin;
     Takes m_takes{m_origin};
     QSignalSpy m_changed{&m_takes, &Takes::changed};
@@ -92,11 +111,7 @@ TEST_F(TakesTest, GoOnInAnotherFileIfTheirOwnIsGone) {
 
 TEST_F(TakesTest, AreNotOnTheDiskIfTheyEndedByThemselves) {
     begin();
-    for (int i = 0; i < 20'000 && m_takes.isRecording(); ++i) {
-        QDir(m_folder).removeRecursively(); // whatever is made there
-        m_takes.follow(log::Stamp(1s));
-        std::this_thread::sleep_for(1ms);
-    }
+    m_place.removeWhatIsRecorded(m_takes);
     ASSERT_FALSE(m_takes.isRecording());
     EXPECT_EQ(told().back(), words::Kind::RecordingEnded);
     EXPECT_EQ(m_recorded.count(), 0);
@@ -104,24 +119,23 @@ TEST_F(TakesTest, AreNotOnTheDiskIfTheyEndedByThemselves) {
 }
 
 /// A whole run with a history, whose take is taken away meanwhile, or not.
-void run(const QString& folder, bool isTakenAway) {
+void run(const Place& place, bool isTakenAway) {
+    const QString folder = place.folder.path();
     const log::SystemClock clock;
     SessionDriver driver(clock, folder);
     EXPECT_EQ(driver.history().keep(std::uint64_t{64} << 20), "");
     EXPECT_EQ(driver.takes().toggle({.folder = folder + "/takes", .freeMegabytes = 0}), "");
-    for (int i = 0; isTakenAway && i < 20'000 && driver.takes().isRecording(); ++i) {
-        QDir(folder + "/takes").removeRecursively();
-        driver.takes().follow(log::Stamp());
-        std::this_thread::sleep_for(1ms);
+    if (isTakenAway) {
+        place.removeWhatIsRecorded(driver.takes());
     }
     EXPECT_NE(driver.takes().isRecording(), isTakenAway);
 }
 
 TEST(TakesAtTheEnd, LeaveTheHistoryIfTheyAreNotOnTheDisk) {
     for (const bool isTakenAway : {false, true}) {
-        const QTemporaryDir folder;
-        run(folder.path(), isTakenAway);
-        const QStringList files = QDir(folder.path()).entryList({"history-*.pcapng"}, QDir::Files);
+        const Place place;
+        run(place, isTakenAway);
+        const QStringList files = QDir(place.folder.path()).entryList({"history-*.pcapng"}, QDir::Files);
         EXPECT_EQ(files.size(), isTakenAway ? 1 : 0);
     }
 }
