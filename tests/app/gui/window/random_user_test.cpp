@@ -17,6 +17,7 @@ namespace {
 TEST(RandomUser, EndsNothing) {
     const QTemporaryDir folder;
     const QString before = QDir::currentPath();
+    const QByteArray home = qgetenv("HOME");
     qputenv("HOME", QFile::encodeName(folder.path()));
     QDir::setCurrent(folder.path());
     const int seconds = std::max(1, qEnvironmentVariableIntValue("POSEWIRE_SECONDS"));
@@ -47,6 +48,7 @@ TEST(RandomUser, EndsNothing) {
     EXPECT_GT(done, 10);
     EXPECT_NE(driver.commands().live().end(), 0U) << "it has received meanwhile";
     QDir::setCurrent(before);
+    qputenv("HOME", home);
 }
 
 } // namespace
