@@ -35,16 +35,21 @@ struct ImportedBone {
     bool hasWeights = false;
 };
 
+/// Bytes of that many texels.
+[[nodiscard]] inline std::size_t texelBytes(int width, int height) {
+    return std::size_t{4} * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+}
+
 struct ImportedTexture {
     /// As the file calls it, for messages.
     std::string name;
-    /// The bytes of a picture file, while it is read.
+    /// The bytes of a picture file, until readPictures() decodes it.
     std::vector<std::byte> encoded;
     /// Red, green, blue, alpha of each texel, the top row first.
     std::vector<std::uint8_t> texels;
     int width = 0;
     int height = 0;
-    /// Why there are none; empty if there are.
+    /// Why there are no texels; empty if there are.
     std::string problem;
 };
 

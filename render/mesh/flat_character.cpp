@@ -126,17 +126,12 @@ bool isSize(int width, int height) {
            std::max(width, height) <= kMostTextureSide;
 }
 
-std::size_t texelBytes(const ImportedTexture& texture) {
-    return std::size_t{4} * static_cast<std::size_t>(texture.width) *
-           static_cast<std::size_t>(texture.height);
-}
-
 ImportedTexture textureFrom(FlatReader& in) {
     ImportedTexture texture;
     texture.width = in.number<std::int32_t>();
     texture.height = in.number<std::int32_t>();
     if (isSize(texture.width, texture.height)) {
-        texture.texels = in.array<std::uint8_t>(texelBytes(texture));
+        texture.texels = in.array<std::uint8_t>(texelBytes(texture.width, texture.height));
     }
     texture.name = in.text();
     texture.problem = in.text();
@@ -145,7 +140,8 @@ ImportedTexture textureFrom(FlatReader& in) {
 
 bool isSound(const ImportedTexture& texture) {
     return texture.encoded.empty() && isSize(texture.width, texture.height) &&
-           texture.texels.size() == texelBytes(texture);
+           texture.texels.size() <= kMostTextureBytes &&
+           texture.texels.size() == texelBytes(texture.width, texture.height);
 }
 
 bool areSound(const std::vector<ImportedTexture>& textures) {

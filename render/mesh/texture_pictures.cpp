@@ -20,11 +20,7 @@ namespace {
 static_assert(STBI_MAX_DIMENSIONS == kMostTextureSide);
 constexpr int kChannels = 4;
 
-std::size_t bytesOf(int width, int height) {
-    return std::size_t{kChannels} * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-}
-
-/// Leaves the size of the picture at 0 if it cannot be told.
+/// Sets the size to 0 if the format is unknown.
 void measure(ImportedTexture& texture) {
     int channels = 0;
     if (stbi_info_from_memory(reinterpret_cast<const stbi_uc*>(texture.encoded.data()),
@@ -46,14 +42,14 @@ void decode(ImportedTexture& texture) {
         texture.problem = std::string("it cannot be decoded: ") + stbi_failure_reason();
         return;
     }
-    texture.texels.assign(texels, texels + bytesOf(texture.width, texture.height));
+    texture.texels.assign(texels, texels + texelBytes(texture.width, texture.height));
     stbi_image_free(texels);
 }
 
 void shrink(ImportedTexture& texture, double scale) {
     const int width = std::max(1, static_cast<int>(std::lround(texture.width * scale)));
     const int height = std::max(1, static_cast<int>(std::lround(texture.height * scale)));
-    std::vector<std::uint8_t> texels(bytesOf(width, height));
+    std::vector<std::uint8_t> texels(texelBytes(width, height));
     if (stbir_resize_uint8_srgb(texture.texels.data(), texture.width, texture.height, 0, texels.data(), width,
                                 height, 0, kChannels, kChannels - 1, 0) == 0) {
         texture = {texture.name, {}, {}, 0, 0, "it is too large"};

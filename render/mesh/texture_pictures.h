@@ -7,11 +7,11 @@
 
 namespace posewire::render {
 
-/// Texels of all textures of a character together.
+/// Limit for all textures of a character together.
 inline constexpr double kMostTexels = 2048.0 * 2048.0;
 
-/// Makes texels of the pictures in `encoded` (PNG, JPEG, BMP, TGA, GIF, PSD), and all textures smaller by the
-/// same factor if they would be too many. A picture that cannot be read leaves its problem.
+/// Decodes the pictures in `encoded` (PNG, JPEG, BMP, TGA, GIF, PSD). If all textures together exceed
+/// kMostTexels, scales them down by the same factor. Sets `problem` for a picture that cannot be decoded.
 void readPictures(std::vector<ImportedTexture>& textures);
 
 } // namespace posewire::render

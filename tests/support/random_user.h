@@ -16,16 +16,17 @@
 
 namespace posewire::test {
 
-/// Does anything that can be done with a window: chooses actions, presses keys, clicks, drags and turns the
-/// wheel, also in the dialogs and menus that come of it; those are closed after a while. The same seed does
-/// the same as long as the window offers the same.
+/// Operates a window at random: triggers actions, presses keys, clicks and drags, also in the dialogs and
+/// menus that open, and closes those after a while. The same seed repeats the same steps as long as the
+/// window offers the same widgets.
 class RandomUser {
 public:
-    /// `mayChoose` spares actions that would end the test.
+    /// `mayChoose` excludes actions that would end the test.
     RandomUser(QMainWindow& window, unsigned seed, std::function<bool(const QAction&)> mayChoose)
         : m_window(window), m_random(seed), m_mayChoose(std::move(mayChoose)) {}
 
-    /// Goes on until stop(). Each thing is a call of its own, so that it can be done in a dialog that waits.
+    /// Continues until stop(). Each step is a timer of its own, so that steps also reach a dialog that
+    /// blocks.
     void start() {
         m_isActive = true;
         QTimer::singleShot(kPause, &m_window, [this] {

@@ -67,7 +67,7 @@ struct ActionsOf {
     static bool isIn(const QWidget& owner) {
         return std::invoke(function, std::invoke(part, static_cast<const Owner&>(owner))) == value;
     }
-    /// The same for a function with arguments, which are fixed.
+    /// Calls a function of a part with fixed arguments and returns its result.
     template <auto part, auto function, auto... arguments>
     static bool isFor(const QWidget& owner) {
         return std::invoke(function, std::invoke(part, static_cast<const Owner&>(owner)), arguments...);

@@ -46,13 +46,13 @@ QString cacheFolder() {
     return folder;
 }
 
-/// A file in the cache about the file at a path.
+/// Path of a cache file that belongs to the file at `path`.
 QString nameFor(const QString& path, const char* ending) {
     return cacheFolder() + '/' + QCryptographicHash::hash(path.toUtf8(), QCryptographicHash::Sha1).toHex() +
            ending;
 }
 
-/// Of another file with the same, its bytes are taken for unchanged.
+/// While both stay the same, the file is assumed to be unchanged.
 QByteArray sizeAndTime(const QFileInfo& file) {
     return QByteArray::number(file.size()) + ' ' +
            QByteArray::number(file.lastModified().toMSecsSinceEpoch()) + ' ';

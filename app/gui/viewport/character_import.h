@@ -44,8 +44,8 @@ private:
 [[nodiscard]] tl::expected<QByteArray, QString> readOutside(const QString& path, ReadingMark& mark,
                                                             const std::atomic<bool>* isUnwanted = nullptr);
 
-/// The SHA-256 of a file as it was noted, in hexadecimal, while size and time stay: the next start does not
-/// open the file. Empty for one that was not.
+/// The SHA-256 that noteSum() recorded for a file, in hexadecimal, so that the next start need not open the
+/// file. Empty if there is no record, or if the size or time of the file has changed since.
 [[nodiscard]] QString notedSum(const QString& path);
 void noteSum(const QString& path, const QString& sum);
 

@@ -26,7 +26,7 @@ constexpr qreal kToSpare = 6;
 constexpr qreal kMostWhole = 2.4;
 constexpr qreal kMostNamed = 3.2;
 constexpr qreal kMostBrief = 5;
-/// For the others there would hardly be room, and nobody reads so many: they have their marks.
+/// Only this many labels are placed as text. Any others appear as marks, since they would hardly fit.
 constexpr int kMostTried = 100;
 
 struct Candidate {
@@ -109,8 +109,8 @@ std::vector<Candidate> candidatesOf(const LabelPlace& place, const QSizeF& size,
     return all;
 }
 
-/// Rectangles by the squares of the picture that they touch, so that a label is compared with few. What is
-/// out of the picture is in the nearest square.
+/// A grid over the picture that finds overlapping rectangles without comparing all of them. A rectangle
+/// outside the picture belongs to the nearest square.
 class Crowd {
 public:
     explicit Crowd(const QRectF& view) : m_view(view) {}
@@ -121,7 +121,7 @@ public:
             return false;
         }));
     }
-    /// Whether any for which `isMeant(which)` is partly in `room`.
+    /// True if `room` overlaps a rectangle for which `isMeant(which)` returns true.
     template <class Predicate>
     [[nodiscard]] bool isAnyIn(const QRectF& room, Predicate isMeant) const {
         return isAnySquare(room, [&](std::size_t square) {
@@ -136,7 +136,7 @@ private:
     static std::size_t squareAt(qreal place, qreal length) {
         return static_cast<std::size_t>(std::clamp(kSide * place / std::max(length, 1.0), 0.0, kSide - 1.0));
     }
-    /// Of those that a rectangle touches.
+    /// True if `isMeant(square)` returns true for any square that the rectangle touches.
     template <class Predicate>
     bool isAnySquare(const QRectF& rect, Predicate isMeant) const {
         const std::size_t right = squareAt(rect.right() - m_view.left(), m_view.width());
@@ -175,7 +175,7 @@ public:
                                std::tuple(LabelForm::Brief, own.brief, kMostBrief)};
         ++m_tried;
         std::optional<PlacedLabel> best;
-        for (const auto& [form, size, most] : forms) { // rather short than on somebody's head
+        for (const auto& [form, size, most] : forms) { // a shorter form is better than covering a head
             const bool isTried = !size.isEmpty() && m_tried <= kMostTried;
             const std::optional<PlacedLabel> found = isTried ? find(which, form, size, most) : std::nullopt;
             best = best ? best : found;
@@ -194,7 +194,7 @@ public:
     }
 
 private:
-    /// The best place on nobody's head, else the best.
+    /// Prefers the best place that covers no head. Returns nothing if no place is free.
     std::optional<PlacedLabel> find(std::size_t which, LabelForm form, const QSizeF& size, qreal most) const {
         const LabelPlace& own = m_places[which];
         const std::optional<Candidate> kept = keptPlace(which, form, size);

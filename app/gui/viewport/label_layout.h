@@ -46,8 +46,8 @@ struct LabelPlace {
 [[nodiscard]] std::vector<PlacedLabel> placeLabels(std::span<const LabelPlace> places, const QRectF& view,
                                                    const std::vector<QRectF>& taken);
 
-/// The line from a plate to the head of the place at `which`; nothing if they are so close that none is
-/// needed. It ends where it would go on behind a nearer head.
+/// The line from a plate to the head of the place at `which`, cut off at the first head in front of it. Empty
+/// if the plate is close enough without one.
 [[nodiscard]] std::optional<QLineF> leaderOf(const PlacedLabel& label, std::span<const LabelPlace> places,
                                              std::size_t which);
 

@@ -21,7 +21,7 @@ namespace posewire::gui {
 
 namespace {
 
-/// Taken out of the character.
+/// Moves the texels out of the character and adds a remark for each texture that has none.
 std::vector<render::TextureImage> texturesOf(render::ImportedCharacter& character, QStringList* remarks) {
     std::vector<render::TextureImage> textures;
     for (render::ImportedTexture& texture : character.textures) {

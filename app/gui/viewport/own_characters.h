@@ -92,7 +92,7 @@ public:
     void restoreState(const QJsonArray& state);
     [[nodiscard]] bool isRestoring() const { return !m_waiting.empty(); }
 
-    /// True if a character that was chosen could not be read: the mannequin stands in for it.
+    /// True if a chosen character could not be read and the mannequin replaces it.
     [[nodiscard]] bool hasFailed() const { return !m_failed.empty(); }
     /// All that failed, also those whose reading did not come to an end.
     void readAgain();

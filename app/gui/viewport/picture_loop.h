@@ -30,7 +30,7 @@ public:
 
     /// True while what is on screen is what was last asked for, or, with data streaming, next to it.
     [[nodiscard]] bool isSettled() const;
-    /// True if a picture is on its way: presented() follows.
+    /// True while a picture is being drawn; presented() is emitted once it is done.
     [[nodiscard]] bool isDrawing() const { return m_drawing != nullptr; }
     [[nodiscard]] const SceneFrame* shown() const { return m_shown.get(); }
     /// Empty before start(), as are the following.

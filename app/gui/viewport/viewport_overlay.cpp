@@ -300,7 +300,7 @@ void ViewportOverlay::setCard(const EmptyState& card) {
 }
 
 const LabelText& ViewportOverlay::textOf(const ViewportLabel& label, const QFontMetricsF& metrics) {
-    constexpr qsizetype kMost = 2048; // ages in them change
+    constexpr qsizetype kMost = 2048; // entries pile up because ages change
     const QString key = healthSymbol(label.state.health) + label.state.text + QChar() + label.name;
     auto known = m_labelTexts.find(key);
     if (known == m_labelTexts.end()) {

@@ -24,13 +24,13 @@ void paintPlate(QPainter& painter, const QRectF& plate, const QPen& border, doub
 /// Lays the few choices over the picture: axes, framing, projection.
 void addViewportButtons(ViewportWidget& viewport);
 
-/// What a label says, as far as there is room for it, and how wide its plate is.
+/// The text of a label in each length, and the width of its plate.
 struct LabelText {
     QString name;
     QString status;
     QString shortName;
     qreal whole = 0; ///< widths of a plate
-    qreal named = 0; ///< 0 where initials are no shorter
+    qreal named = 0; ///< 0 if the initials are no shorter
     qreal brief = 0;
 };
 
@@ -65,7 +65,7 @@ private:
     std::vector<ViewportLabel> m_labels;
     std::vector<PlacedLabel> m_placed; ///< by label
     std::map<model::CharacterKey, PlacedLabel> m_before;
-    QHash<QString, LabelText> m_labelTexts; ///< by what is said, in this font and width
+    QHash<QString, LabelText> m_labelTexts; ///< by health and name; cleared when the font or width changes
     std::vector<ViewportText> m_texts;
     EmptyState m_card;
     MessageCard* m_message = nullptr; ///< made with the first card

@@ -138,7 +138,7 @@ void ViewportWidget::setReceiving(const ReceivingState& receiving) {
 }
 
 void ViewportWidget::updateOverlay() {
-    if (!m_pictures->isDrawing()) { // else labels change with the next picture
+    if (!m_pictures->isDrawing()) { // else the next picture updates the labels
         updatePanes();
     }
     updateWords();

@@ -22,7 +22,7 @@ namespace posewire::gui {
 namespace {
 
 constexpr int kMessageMs = 12'000;
-/// No window has room for more.
+/// More do not fit into any window.
 constexpr std::size_t kMostEntries = 24;
 
 /// From the first packet that can still be looked at to the newest.

@@ -45,7 +45,7 @@ namespace posewire::gui {
 
 namespace {
 
-/// Milliseconds: half of what passes between two ticks.
+/// Milliseconds: half the interval between two ticks.
 constexpr int kAfterTick = 8;
 
 bool isPressing(const QKeyEvent& event, bool isSpaceOnly) {
@@ -246,7 +246,7 @@ void MainWindow::connectDriver() {
     connect(m_verdict, &VerdictBar::evidenceRequested, m_docks, &Docks::showEvidence);
     connect(&m_driver, &SessionDriver::moved, m_viewport, &ViewportWidget::refresh);
     connect(&m_driver, &SessionDriver::moved, m_transport, &TransportBar::refresh);
-    // After what the tick has changed is painted: the two together would hold up what the mouse does.
+    // Once the changes of the tick are painted: both in a row would delay mouse and keyboard.
     connect(&m_driver, &SessionDriver::tableTick, m_docks,
             [this] { QTimer::singleShot(kAfterTick, m_docks, &Docks::refresh); });
     connect(&m_driver, &SessionDriver::tableTick, this, [this, showTake] {

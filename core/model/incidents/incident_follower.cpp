@@ -12,7 +12,7 @@ constexpr log::Duration kWatch = std::chrono::milliseconds(500);
 constexpr log::Duration kLong = std::chrono::seconds(1);
 /// Of a stream while others of its character go on: before it is too old.
 constexpr log::Duration kEnded = std::chrono::milliseconds(500);
-/// So many in a row are not lost by chance while other streams of the character come.
+/// Chance does not drop this many samples of one stream in a row while other streams of its character arrive.
 constexpr double kSamplesOfEnd = 10;
 constexpr log::Duration kNone = log::Duration::zero();
 /// What happened is not seen in any window of a limit any more.

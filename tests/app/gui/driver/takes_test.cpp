@@ -21,12 +21,12 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// A folder that is also the user's home, in which a take goes on if it can be nowhere else.
+/// A folder that is also the home of the user: a take whose own folder is gone continues there.
 struct Place {
     Place() { qputenv("HOME", QFile::encodeName(folder.path())); }
     ~Place() { qputenv("HOME", before); }
 
-    /// Whatever is made there, until the take has ended by itself.
+    /// Removes each file of the take until the take ends by itself.
     void removeWhatIsRecorded(Takes& takes) const {
         for (int i = 0; i < 20'000 && takes.isRecording(); ++i) {
             QDir(folder.filePath("takes")).removeRecursively();
