@@ -178,7 +178,7 @@ class InputWatch {
 public:
     InputWatch(const net::Receiver& receiver, Console& console) : m_receiver(receiver), m_console(console) {}
 
-    void look(const model::SessionView& session, const model::KernelCounters& kernel, log::Stamp now) {
+    void look(const model::SessionView& session, const log::KernelCounters& kernel, log::Stamp now) {
         tellHelp(session, kernel, now);
         for (const net::InputStatus& input : m_receiver.inputs()) {
             Told& told = m_told[input.id];
@@ -216,7 +216,7 @@ private:
     };
 
     /// Suggests reasons if no MXTP has come for some seconds.
-    void tellHelp(const model::SessionView& session, const model::KernelCounters& kernel, log::Stamp now) {
+    void tellHelp(const model::SessionView& session, const log::KernelCounters& kernel, log::Stamp now) {
         constexpr log::Duration kPatience = std::chrono::seconds(3);
         constexpr log::Duration kStep = std::chrono::milliseconds(500);
         if (now < m_nextHelp || !session.roster().streams().empty()) {
@@ -268,7 +268,7 @@ double watch(const MonitorOptions& options, const net::Receiver& receiver, Monit
         const duration<double> left{options.durationSeconds - elapsed.count()};
         const bool hasEnd = options.durationSeconds > 0;
         const log::Stamp now = run.log().timeline().now(clock);
-        const model::KernelCounters kernel = receiver.totals().kernel;
+        const log::KernelCounters kernel = receiver.totals().kernel;
         run.session().setKernel(kernel);
         run.follow(now, receiver.isHeldUp());
         run.show(factsOf(receiver, elapsed.count()), now);

@@ -11,9 +11,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <map>
 #include <memory>
-#include <sstream>
 #include <system_error>
 #include <utility>
 
@@ -264,37 +262,6 @@ std::optional<Firewall> findFirewall(const std::string& root) {
     return std::nullopt;
 }
 
-std::optional<model::KernelCounters> readKernelCounters(const std::string& root) {
-    const fs::path folder = fs::path(root) / "proc/net";
-    std::map<std::string, std::int64_t> counters;
-    std::ifstream pairs(folder / "snmp"); // "Udp: InDatagrams NoPorts", then "Udp: 17 4"
-    std::string names;
-    std::string values;
-    while (std::getline(pairs, names) && std::getline(pairs, values)) {
-        std::istringstream name(names);
-        std::istringstream value(values);
-        std::string group;
-        value >> group;
-        name >> group;
-        for (std::string counter; name >> counter;) {
-            value >> counters[group + counter];
-        }
-    }
-    if (counters.empty()) {
-        return std::nullopt;
-    }
-    std::ifstream lines(folder / "snmp6"); // "Udp6NoPorts 4"
-    while (lines >> names) {
-        lines >> counters[names];
-    }
-    const auto sum = [&](const char* ofIpv4, const char* ofIpv6) {
-        return static_cast<std::uint64_t>(counters[ofIpv4] + counters[ofIpv6]);
-    };
-    return model::KernelCounters{sum("Ip:ReasmReqds", "Ip6ReasmReqds"), sum("Ip:ReasmOKs", "Ip6ReasmOKs"),
-                                 sum("Ip:ReasmFails", "Ip6ReasmFails"), sum("Udp:NoPorts", "Udp6NoPorts"),
-                                 sum("Tcp:OutRsts", "")};
-}
-
 std::vector<Fact> connectionHelp(const ConnectionFacts& facts) {
     Findings findings;
     for (const auto find :
@@ -305,7 +272,7 @@ std::vector<Fact> connectionHelp(const ConnectionFacts& facts) {
 }
 
 std::vector<Fact> ConnectionWatch::look(const model::SessionView& session, std::vector<InputStatus> inputs,
-                                        std::vector<FailedInput> failed, const model::KernelCounters& kernel,
+                                        std::vector<FailedInput> failed, const log::KernelCounters& kernel,
                                         log::Stamp now) {
     constexpr log::Duration kAsk = std::chrono::seconds(3);
     if (m_asked == log::Stamp() || std::chrono::abs(now - m_asked) >= kAsk) {

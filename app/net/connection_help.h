@@ -3,8 +3,8 @@
 
 #include "app/net/endpoint.h"
 #include "app/net/input.h"
+#include "core/log/kernel_counters.h"
 #include "core/log/time.h"
-#include "core/model/accounting/kernel_counters.h"
 #include "core/model/session/session_view.h"
 #include "core/words/fact.h"
 
@@ -27,9 +27,6 @@ struct Firewall {
 /// if none was found, which is no proof that there is none.
 [[nodiscard]] std::optional<Firewall> findFirewall(const std::string& root = "/");
 
-/// Since the computer was started; nothing if the system does not show them in files, as only Linux does.
-[[nodiscard]] std::optional<model::KernelCounters> readKernelCounters(const std::string& root = "/");
-
 struct FailedInput {
     InputKind kind = InputKind::Udp;
     Endpoint endpoint;
@@ -45,8 +42,8 @@ struct ConnectionFacts {
     std::vector<words::Fact> foreign;    ///< see model::Sender::foreignFact()
     std::vector<LocalAddress> addresses; ///< see reachable()
     std::optional<Firewall> firewall;
-    model::KernelCounters kernel; ///< since data last came, or the inputs were opened
-    std::string knocker;          ///< who connected to the port by TCP, where it is listened on for UDP alone
+    log::KernelCounters kernel; ///< since data last came, or the inputs were opened
+    std::string knocker;        ///< who connected to the port by TCP, where it is listened on for UDP alone
     log::Stamp now{};
 };
 
@@ -61,7 +58,7 @@ public:
     [[nodiscard]] std::vector<words::Fact> look(const model::SessionView& session,
                                                 std::vector<InputStatus> inputs,
                                                 std::vector<FailedInput> failed,
-                                                const model::KernelCounters& kernel, log::Stamp now);
+                                                const log::KernelCounters& kernel, log::Stamp now);
     /// See reachable().
     [[nodiscard]] const std::vector<LocalAddress>& addresses() const { return m_addresses; }
     /// Before an input takes the port: see answerKnocks().
@@ -75,7 +72,7 @@ private:
     log::Stamp m_asked{};
     std::vector<LocalAddress> m_addresses;
     std::optional<Firewall> m_firewall;
-    model::KernelCounters m_kernel; ///< when data last came
+    log::KernelCounters m_kernel; ///< when data last came
     QTcpServer m_door;
     std::string m_knocker;
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/net/receiver.h"
 
-#include "app/net/connection_help.h"
+#include "app/net/kernel_counters.h"
 #include "app/net/listening.h"
 #include "app/net/receive_loop.h"
 #include "app/net/tcp_thread.h"

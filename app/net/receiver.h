@@ -7,9 +7,9 @@
 #include "app/net/input.h"
 #include "app/net/packet_queue.h"
 #include "core/log/clock.h"
+#include "core/log/kernel_counters.h"
 #include "core/log/packet_log.h"
 #include "core/log/time.h"
-#include "core/model/accounting/kernel_counters.h"
 
 #include <atomic>
 #include <chrono>
@@ -62,7 +62,7 @@ struct ReceiveTotals {
     std::uint64_t refusedDatagrams = 0; ///< see InputCounters, as the next two
     std::uint64_t refusedPeers = 0;
     std::uint64_t closedPeers = 0;
-    model::KernelCounters kernel{}; ///< looked at a few times a second; zeros if the system does not say
+    log::KernelCounters kernel{}; ///< looked at a few times a second; zeros if the system does not say
 };
 
 /// The one thread that writes a PacketLog for as long as the program runs. It receives UDP datagrams straight
@@ -145,8 +145,8 @@ private:
     mutable std::mutex m_mutex; ///< guards the members below
     std::vector<std::shared_ptr<Input>> m_inputs;
     ReceiveTotals m_past; ///< of removed inputs
-    const std::optional<model::KernelCounters> m_kernelBefore;
-    mutable model::KernelCounters m_kernel; ///< since then
+    const std::optional<log::KernelCounters> m_kernelBefore;
+    mutable log::KernelCounters m_kernel; ///< since then
     mutable log::Moment m_kernelRead{};
     AllowList m_allowed;
     std::uint32_t m_nextId = 0;

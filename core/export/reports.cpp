@@ -269,7 +269,7 @@ VerdictLines::Changes VerdictLines::changesOf(const model::SessionView& session)
 std::string monitorReport(const model::SessionView& session, const MonitorFacts& facts) {
     const model::SenderTotals all = session.accounts().allSenders();
     const model::RetiredTotals& retired = session.accounts().retired();
-    const model::KernelCounters& kernel = session.accounts().kernel();
+    const log::KernelCounters& kernel = session.accounts().kernel();
     std::vector<const model::Character*> everyone;
     for (const model::Character& character : session.roster().characters()) {
         everyone.push_back(&character);

@@ -38,7 +38,7 @@ struct RelayState {
 struct ReceivingState {
     std::vector<PortState> ports;
     std::uint64_t kernelDropped = 0;     ///< in this computer, by the kernel or by the queue of the receiver
-    model::KernelCounters kernel{};      ///< since this program was started
+    log::KernelCounters kernel{};        ///< since this program was started
     std::uint64_t refusedDatagrams = 0;  ///< from those who are not listened to
     QString allowedProblem{};            ///< a host to listen to whose name is not known; empty for none
     std::int64_t receiveBufferBytes = 0; ///< the smallest that a UDP port was granted; 0 without one

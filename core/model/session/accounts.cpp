@@ -32,7 +32,7 @@ std::uint64_t Accounts::dropsUnseen() const {
     return m_moment.ingest().dropsUnseen();
 }
 
-const KernelCounters& Accounts::kernel() const {
+const log::KernelCounters& Accounts::kernel() const {
     return m_moment.ingest().content().kernel();
 }
 

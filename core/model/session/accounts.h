@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/log/kernel_counters.h"
 #include "core/log/stream_index.h"
 #include "core/model/accounting/attribution.h"
-#include "core/model/accounting/kernel_counters.h"
 #include "core/model/accounting/packet_digest.h"
 #include "core/model/accounting/stream_counts.h"
 #include "core/model/session/roster.h"
@@ -33,7 +33,7 @@ public:
     [[nodiscard]] std::uint64_t unfollowed() const;
     [[nodiscard]] std::uint64_t overtaken() const;
     [[nodiscard]] std::uint64_t dropsUnseen() const;
-    [[nodiscard]] const KernelCounters& kernel() const;
+    [[nodiscard]] const log::KernelCounters& kernel() const;
     /// Of all characters that may be the invention of corrupt headers.
     [[nodiscard]] Unproven unproven() const;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/model/accounting/kernel_counters.h"
+#include "core/log/kernel_counters.h"
 #include "core/model/keeping.h"
 #include "core/model/session/roll.h"
 
@@ -26,8 +26,8 @@ public:
     /// Looks whether senders contradict themselves, and what is not sent any more, if it is time again.
     void lookForContradictions(log::Stamp stamp);
     /// What the kernel counted since this computer began to listen.
-    void setKernel(const KernelCounters& counters) { m_kernel = counters; }
-    [[nodiscard]] const KernelCounters& kernel() const { return m_kernel; }
+    void setKernel(const log::KernelCounters& counters) { m_kernel = counters; }
+    [[nodiscard]] const log::KernelCounters& kernel() const { return m_kernel; }
     /// Makes it time.
     void lookAgain() { m_nextContradictions = {}; }
 
@@ -46,7 +46,7 @@ private:
     IncidentFollower& m_incidents;
     Keeping m_metadataKeeping{kMetadataBudget};
     Keeping m_nullPoseKeeping{kNullPoseBudget};
-    KernelCounters m_kernel;
+    log::KernelCounters m_kernel;
     log::Stamp m_nextContradictions{};
 };
 

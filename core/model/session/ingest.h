@@ -44,7 +44,7 @@ public:
     /// went by after its last packet while it was recorded.
     void endFile(log::Duration afterLast);
 
-    void setKernel(const KernelCounters& counters) { m_content.setKernel(counters); }
+    void setKernel(const log::KernelCounters& counters) { m_content.setKernel(counters); }
     void setUsual(const SenderOverride& usual) { m_roll.setUsual(usual); }
     void setOverride(log::SenderId sender, const SenderOverride& overrides);
     /// See Roll.

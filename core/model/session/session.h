@@ -36,7 +36,7 @@ public:
     void endFile(log::Duration afterLast = {}) { m_ingest.endFile(afterLast); }
 
     /// What the kernel counted since this computer began to listen.
-    void setKernel(const KernelCounters& counters) { m_ingest.setKernel(counters); }
+    void setKernel(const log::KernelCounters& counters) { m_ingest.setKernel(counters); }
 
     /// What verdicts() says is judged now and stays until this is called again, so that all that show it say
     /// the same. Without this it is judged whenever something has changed.

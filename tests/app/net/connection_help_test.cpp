@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/net/connection_help.h"
+#include "app/net/kernel_counters.h"
 #include "tests/support/facts.h"
 #include "tests/support/temporary_folder.h"
 
@@ -302,9 +303,9 @@ TEST_F(FirewallTest, CountersOfTheKernelAreReadBesideIt) {
     EXPECT_FALSE(readKernelCounters(root.string()));
     write("proc/net/snmp", "Ip: Forwarding ReasmReqds ReasmOKs ReasmFails\nIp: 1 40 5 30\n"
                            "Tcp: MaxConn OutRsts\nTcp: -1 7\nUdp: InDatagrams NoPorts\nUdp: 9 11\n");
-    EXPECT_EQ(*readKernelCounters(root.string()), (model::KernelCounters{40, 5, 30, 11, 7}));
+    EXPECT_EQ(*readKernelCounters(root.string()), (log::KernelCounters{40, 5, 30, 11, 7}));
     write("proc/net/snmp6", "Ip6ReasmReqds   \t2\nIp6ReasmOKs 1\nUdp6NoPorts  100\n");
-    EXPECT_EQ(*readKernelCounters(root.string()), (model::KernelCounters{42, 6, 30, 111, 7}));
+    EXPECT_EQ(*readKernelCounters(root.string()), (log::KernelCounters{42, 6, 30, 111, 7}));
 }
 
 } // namespace

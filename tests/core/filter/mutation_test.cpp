@@ -13,7 +13,7 @@
 namespace posewire::filter {
 namespace {
 
-constexpr std::size_t kMutations = 200'000;
+constexpr std::size_t kMutations = 50'000;
 
 /// Copies of the goldens, damaged in ways that networks and faulty senders have.
 class Mutator {

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace posewire::model {
+namespace posewire::log {
 
 /// The kernel's counters of all network traffic of this computer.
 struct KernelCounters {
@@ -28,4 +28,4 @@ struct KernelCounters {
     friend bool operator==(const KernelCounters&, const KernelCounters&) = default;
 };
 
-} // namespace posewire::model
+} // namespace posewire::log
