@@ -79,7 +79,6 @@ public:
     /// off, what is before that was read.
     tl::expected<void, log::FileError> read(log::ByteSource& source,
                                             const std::function<void(double share)>& progress) {
-        std::optional<log::Reception> reception;
         auto result = log::readFile(
             source,
             [&](const log::FileRecord& record) {
@@ -89,13 +88,12 @@ public:
                     progress(m_size > 0 ? std::min(1.0, static_cast<double>(record.offset) / m_size) : 0);
                 }
             },
-            [&](std::span<const std::string_view> notes) { reception = log::receptionIn(notes); },
-            &m_contents);
+            {}, &m_contents);
         follow();
         if (m_past) {
             m_past->finish();
         }
-        m_session.endFile(reception ? reception->afterLast : log::Duration());
+        m_session.endFile();
         return result;
     }
 

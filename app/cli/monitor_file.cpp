@@ -40,7 +40,6 @@ public:
         }
         tellSilenceUntil(stamp);
         m_last = std::max(m_last.value_or(stamp), stamp);
-        m_newest = stamp;
         auto& log = m_run.log();
         const log::SenderId sender =
             log.senders().intern(record.sender.value_or(log::SenderInfo{m_name, log::Transport::File, 0}));
@@ -68,15 +67,6 @@ public:
         if (const auto reception = log::receptionIn(notes); reception && !m_isDone) {
             m_reception = reception;
         }
-    }
-    /// All of it is there.
-    void end() {
-        if (m_last && m_reception) {
-            const log::Stamp end = std::max(*m_last, m_newest + m_reception->afterLast);
-            tellSilenceUntil(end);
-            m_last = end;
-        }
-        flush();
     }
 
     /// The latest stamp, in the end when nothing more was received.
@@ -130,7 +120,6 @@ private:
     const log::Duration m_longest;
     DatagramPacer m_pacer{1.0 / 240, 1.0};
     std::size_t m_waiting = 0;
-    log::Stamp m_newest{}; ///< of the packet that came last
     log::Stamp m_flushed{};
     std::optional<log::Stamp> m_first;
     std::optional<log::Stamp> m_last;
@@ -174,7 +163,7 @@ ExitStatus monitorFile(const MonitorOptions& options, Console& console) {
     const auto takeNotes = [&replay](std::span<const std::string_view> notes) { replay.takeNotes(notes); };
     WatchedInput input(**file, contents, console.complain);
     const auto read = log::readFile(input, std::ref(replay), takeNotes, &contents);
-    replay.end();
+    replay.flush();
     log::Recorder::Result recorded = replay.recorded();
     if (recorder && recorded) {
         recorded = recorder->finish();

@@ -162,6 +162,12 @@ log::Stamp MonitorRun::followToEnd(log::Stamp end) {
 }
 
 void MonitorRun::takeIn(log::Stamp now) {
+    if (m_session.end() == 0) {
+        const auto first = log::LogReader(m_origin.log()).packetFrom(0);
+        if (const auto range = first ? rangeOf(m_options, first->stamp) : std::nullopt) {
+            m_session.setEdges(*range);
+        }
+    }
     while (m_session.follow(now)) {
     }
     if (m_options.isVerbose) {
@@ -268,7 +274,7 @@ ExitStatus MonitorRun::conclude(exporting::MonitorFacts facts, ExitStatus status
     if (m_options.file.empty()) {
         m_session.settle();
     } else {
-        m_session.endFile(receptionOf(facts).afterLast);
+        m_session.endFile();
     }
     std::ranges::copy(exceeded(m_session, m_options.limits, end), std::back_inserter(facts.exceeded));
     // Nobody may read standard output: all else comes before.

@@ -398,7 +398,8 @@ std::string eventSection(const model::SessionView& session, const ReportSteps& s
                                      ? ""
                                      : "<span class=\"" + name + "\" aria-label=\"" + name + "\">" +
                                            std::string(severityMark(event->severity())) + "</span> ";
-        table.add({secondsAfter(event->firstStamp, steps), secondsAfter(event->lastStamp, steps),
+        table.add({secondsAfter(std::max(event->firstStamp, steps.from), steps),
+                   secondsAfter(std::min(event->lastStamp, steps.to), steps),
                    mark + escaped(model::nameOf(event->kind)), escaped(whose(session, *event)),
                    grouped(event->count), escaped(say(event->fact(), words::Form::Sentence))});
     });

@@ -91,7 +91,9 @@ std::string percent(double ratio) {
 /// The verdict of the window and of the JSON, on the range that the report is about.
 Finding verdictFinding(const model::SessionView& session, const std::optional<model::TimeRange>& range) {
     using State = model::TakeVerdict::State;
-    const model::VerdictSpan span = range ? model::VerdictSpan{range->from, range->to} : model::VerdictSpan{};
+    const log::Stamp end = session.knownUntil() + log::Duration(1);
+    const model::VerdictSpan span =
+        range ? model::VerdictSpan{range->from, std::min(range->to, end)} : model::VerdictSpan{};
     const model::TakeVerdict verdict = verdictOf(session, span);
     const auto severity = verdict.state == State::Good      ? IncidentSeverity::Info
                           : verdict.state == State::Warning ? IncidentSeverity::Warning
@@ -166,6 +168,7 @@ void addRestarts(std::vector<Finding>& findings, const std::vector<model::Stream
                "times the sample counter of a character restarted.");
 }
 
+/// What is known of the session as a whole alone.
 void addSession(std::vector<Finding>& findings, const model::SessionView& session) {
     if (session.accounts().overtaken() != 0) {
         findings.push_back(
@@ -193,19 +196,22 @@ void addSession(std::vector<Finding>& findings, const model::SessionView& sessio
     }
 }
 
-void addSenders(std::vector<Finding>& findings, const model::SessionView& session) {
+using SenderTotals = std::map<log::SenderId, model::SenderTotals>;
+
+void addSenders(std::vector<Finding>& findings, const model::SessionView& session,
+                const SenderTotals& totals) {
     for (const model::Sender& sender : session.roster().senders()) {
-        if (sender.kernelDrops != 0) {
+        const model::SenderTotals& own = totals.at(sender.id);
+        if (own.kernelDrops != 0) {
             findings.push_back({IncidentSeverity::Error,
-                                "This computer dropped " +
-                                    counted(sender.kernelDrops, "datagram", "datagrams") +
+                                "This computer dropped " + counted(own.kernelDrops, "datagram", "datagrams") +
                                     " at the socket that receives from " + sender.address().shown() +
                                     ": it was too busy, or its receive buffer is too small."});
         }
         const std::string from = " from " + sender.address().shown();
-        addCounted(findings, sender.malformed, "datagram", "datagrams", from + " could not be decoded.");
-        addCounted(findings, sender.skippedBytes, "byte", "bytes", from + " belonged to no datagram.");
-        if (sender.foreign != 0) {
+        addCounted(findings, own.malformed, "datagram", "datagrams", from + " could not be decoded.");
+        addCounted(findings, own.skippedBytes, "byte", "bytes", from + " belonged to no datagram.");
+        if (own.foreign != 0) {
             findings.push_back(
                 {IncidentSeverity::Warning, say(sender.foreignFact(), words::Form::Sentence) + ' ' +
                                                 say(sender.foreignFact(), words::Form::Advice)});
@@ -215,7 +221,7 @@ void addSenders(std::vector<Finding>& findings, const model::SessionView& sessio
 
 /// The first is the verdict, the others give reasons.
 std::vector<Finding> findingsOn(const model::SessionView& session,
-                                const std::vector<model::StreamFigures>& streams,
+                                const std::vector<model::StreamFigures>& streams, const SenderTotals& senders,
                                 const StreamReportOptions& options) {
     std::vector<Finding> findings;
     model::StreamFigures sum;
@@ -236,8 +242,10 @@ std::vector<Finding> findingsOn(const model::SessionView& session,
         addOrder(findings, sum);
         addRestarts(findings, streams);
     }
-    addSession(findings, session);
-    addSenders(findings, session);
+    if (!options.range) {
+        addSession(findings, session);
+    }
+    addSenders(findings, session, senders);
     for (const std::string& line : options.exceeded) {
         findings.push_back({IncidentSeverity::Error, line.ends_with('.') ? line : line + '.'});
     }
@@ -309,19 +317,20 @@ std::string verdictList(const std::vector<Finding>& findings) {
 }
 
 std::string senderSection(const model::SessionView& session, const std::vector<model::StreamFigures>& figures,
-                          const ReportSteps& steps) {
+                          const SenderTotals& totals, const ReportSteps& steps) {
     std::string html;
     for (const model::Sender& sender : session.roster().senders()) {
+        const model::SenderTotals& own = totals.at(sender.id);
         const auto unconfirmed = static_cast<std::uint64_t>(
             std::ranges::count(sender.characters, false, &model::Character::isConfirmed));
         html += "<h2>" + sender.address().html() + " <span class=\"dim\">" +
                 escaped(log::nameOf(sender.info.transport)) +
                 (sender.info.localPort != 0 ? " to port " + std::to_string(sender.info.localPort) : "") +
                 "</span></h2>\n<dl class=\"facts\">\n" +
-                fact("Datagrams", grouped(sender.datagrams) + ", " + grouped(sender.bytes) + " bytes") +
-                fact("Malformed", grouped(sender.malformed)) + fact("Not MXTP", grouped(sender.foreign)) +
-                (sender.skippedBytes != 0 ? fact("Bytes of no datagram", grouped(sender.skippedBytes)) : "") +
-                fact("Dropped by this computer", grouped(sender.kernelDrops)) +
+                fact("Datagrams", grouped(own.datagrams) + ", " + grouped(own.bytes) + " bytes") +
+                fact("Malformed", grouped(own.malformed)) + fact("Not MXTP", grouped(own.foreign)) +
+                (own.skippedBytes != 0 ? fact("Bytes of no datagram", grouped(own.skippedBytes)) : "") +
+                fact("Dropped by this computer", grouped(own.kernelDrops)) +
                 (unconfirmed != 0 ? fact("Unconfirmed characters", grouped(unconfirmed)) : "") + "</dl>\n";
         for (const model::Character* character : sender.characters) {
             if (!character->isConfirmed) {
@@ -348,15 +357,16 @@ std::string settingsSection(const StreamReportOptions& options) {
 
 std::string streamReport(const model::SessionView& session, const StreamReportOptions& options) {
     const std::vector<model::StreamFigures> figures = allFigures(session, options.range);
+    const SenderTotals senders = session.accounts().eachSender(options.range);
     const ReportSteps steps = stepsOf(session, options.range);
     return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
            "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
            "<title>Stream report</title>\n<style>" +
            std::string(kStyle) + "</style>\n</head>\n<body>\n<h1>Stream report</h1>\n" +
-           verdictList(findingsOn(session, figures, options)) +
+           verdictList(findingsOn(session, figures, senders, options)) +
            "<h2>What this is about</h2>\n<dl class=\"facts\">\n" + timeFacts(session, steps) +
            fact("Written by", escaped(options.application)) + "</dl>\n" + plotSection(session, steps) +
-           senderSection(session, figures, steps) + gapSection(session, steps) +
+           senderSection(session, figures, senders, steps) + gapSection(session, steps) +
            eventSection(session, steps) + settingsSection(options) + "</body>\n</html>\n";
 }
 

@@ -188,20 +188,13 @@ void FileImport::keepNotes(std::span<const std::string_view> notes) {
             marks.push_back(std::move(*mark));
         }
     }
-    const auto reception = log::receptionIn(notes);
     const std::lock_guard lock(m_mutex);
     m_marks = std::move(marks);
-    m_afterLast = reception ? reception->afterLast : log::Duration();
 }
 
 std::vector<log::RecordedMark> FileImport::marks() const {
     const std::lock_guard lock(m_mutex);
     return m_marks;
-}
-
-log::Duration FileImport::afterLast() const {
-    const std::lock_guard lock(m_mutex);
-    return m_result && m_result->has_value() ? m_afterLast : log::Duration();
 }
 
 std::vector<FileImport::Comment> FileImport::takeComments() {
@@ -307,12 +300,11 @@ void OpenedFile::takeMarks() {
 void OpenedFile::readRest() {
     takeComments();
     takeMarks();
-    const log::Duration afterLast = m_import->afterLast();
     m_import.reset();
     const bool isAtEnd = isShownAtEnd();
     while (m_session.followFile(m_origin.log().timeline().now(m_clock))) {
     }
-    m_session.endFile(afterLast);
+    m_session.endFile();
     m_verdictEnd = 0; // its end settles what was open
     if (isAtEnd) {
         showEnd();

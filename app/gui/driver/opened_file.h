@@ -71,8 +71,6 @@ public:
     [[nodiscard]] std::vector<Comment> takeComments();
     /// Packets that were marked while the file was recorded, as far as it was read.
     [[nodiscard]] std::vector<log::RecordedMark> marks() const;
-    /// Time of recording after its last packet, if the file has it and was read to its end.
-    [[nodiscard]] log::Duration afterLast() const;
     /// Once all of it is in the log, or no more comes.
     [[nodiscard]] std::optional<ImportResult> result() const;
 
@@ -96,7 +94,6 @@ private:
     std::uint64_t m_followed = 0;
     std::vector<Comment> m_comments; ///< not taken yet
     std::vector<log::RecordedMark> m_marks;
-    log::Duration m_afterLast{};
     std::optional<ImportResult> m_result;
     std::jthread m_thread; ///< last: it uses all of the above
 };

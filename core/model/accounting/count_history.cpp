@@ -47,17 +47,31 @@ log::Stamp CountHistory::roundedUp(log::Stamp stamp) const {
                               : model::roundedUp(stamp, kFirstWidth);
 }
 
+log::Stamp CountHistory::beginOf(log::Stamp stamp, log::Duration width) const {
+    const log::Stamp begin = roundedDown(stamp, width);
+    return stamp >= m_edges.to     ? std::max(begin, m_edges.to)
+           : stamp >= m_edges.from ? std::max(begin, m_edges.from)
+                                   : begin;
+}
+
 /// The newest bucket, made where the stamp is beyond it; an earlier stamp makes none.
 CountHistory::Bucket& CountHistory::bucketAt(log::Stamp stamp) {
+    if (!m_buckets.empty() && stamp < m_newestEnd) {
+        return m_buckets.back();
+    }
+    const log::Stamp begin = beginOf(stamp, kFirstWidth);
+    m_newestEnd = roundedDown(stamp, kFirstWidth) + kFirstWidth;
+    for (const log::Stamp edge : {m_edges.to, m_edges.from}) {
+        m_newestEnd = edge > begin ? std::min(m_newestEnd, edge) : m_newestEnd;
+    }
     if (m_buckets.empty()) {
-        Bucket& first = m_buckets.emplace_back();
-        first.start = roundedDown(stamp, kFirstWidth);
-    } else if (stamp >= m_buckets.back().start + kFirstWidth) {
+        m_buckets.emplace_back().start = begin;
+    } else {
         if (m_buckets.size() >= m_most) {
             coarsen();
         }
         Bucket next = m_buckets.back();
-        next.start = roundedDown(stamp, kFirstWidth);
+        next.start = begin;
         next.longestGap = 0;
         next.leastMs = Bucket().leastMs;
         next.mostMs = 0;
@@ -95,7 +109,7 @@ void CountHistory::coarsen() {
         std::size_t kept = 0;
         for (std::size_t i = 0; i < old; ++i) {
             Bucket bucket = m_buckets[i];
-            bucket.start = roundedDown(bucket.start, m_width);
+            bucket.start = beginOf(bucket.start, m_width);
             if (kept != 0 && m_buckets[kept - 1].start == bucket.start) {
                 merge(bucket, m_buckets[kept - 1]);
                 --kept;

@@ -68,6 +68,8 @@ public:
     /// Where a range that begins or ends at a stamp does so in fact: where the next bucket begins.
     [[nodiscard]] log::Stamp roundedUp(log::Stamp stamp) const;
 
+    /// Buckets of what comes from now on begin at both ends of a range too, so that its counts are exact.
+    void setEdges(const TimeRange& range) { m_edges = range; }
     /// How many buckets there may be; three if fewer.
     void setMost(std::size_t buckets);
     [[nodiscard]] std::size_t memoryBytes() const { return m_buckets.capacity() * sizeof(Bucket); }
@@ -97,6 +99,8 @@ private:
     [[nodiscard]] Counters between(log::Stamp from, log::Stamp to) const;
     static void merge(Bucket& bucket, const Bucket& before);
     Bucket& bucketAt(log::Stamp stamp);
+    /// Where the bucket of a width begins that a stamp is in.
+    [[nodiscard]] log::Stamp beginOf(log::Stamp stamp, log::Duration width) const;
     void coarsen();
     [[nodiscard]] log::Duration widthOf(std::size_t index) const { return width(m_buckets[index].start); }
     /// Index of the first bucket that begins at or after a stamp.
@@ -104,6 +108,8 @@ private:
 
     std::vector<Bucket> m_buckets;
     std::size_t m_most = AccountingDepth().buckets;
+    TimeRange m_edges{log::Stamp::min(), log::Stamp::max()};
+    log::Stamp m_newestEnd{};            ///< of the newest bucket
     log::Duration m_width = kFirstWidth; ///< of the buckets that begin before m_fineFrom
     log::Stamp m_fineFrom = log::Stamp::min();
 };

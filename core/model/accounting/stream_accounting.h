@@ -108,6 +108,8 @@ public:
     /// How much is remembered. What has been counted stays counted.
     void setDepth(const AccountingDepth& depth);
     [[nodiscard]] const AccountingDepth& depth() const { return m_depth; }
+    /// See CountHistory.
+    void setEdges(const TimeRange& range) { m_history.setEdges(range); }
     /// Beside itself.
     [[nodiscard]] std::size_t memoryBytes() const;
     /// What memoryBytes() can become: two windows of samples, a history, and what waits or was decided in

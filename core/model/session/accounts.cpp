@@ -20,6 +20,24 @@ SenderTotals Accounts::allSenders() const {
     return sums;
 }
 
+std::map<log::SenderId, SenderTotals> Accounts::eachSender(const std::optional<TimeRange>& range) const {
+    std::map<log::SenderId, SenderTotals> each;
+    for (const Sender& sender : m_roster.senders()) {
+        SenderTotals& own = each[sender.id];
+        if (!range) {
+            own.add(sender);
+        }
+    }
+    for (std::uint64_t number = digests().begin(); range && number < digests().end(); ++number) {
+        const auto packet = m_moment.packet(number);
+        const auto own = packet ? each.find(packet->sender) : each.end();
+        if (own != each.end() && packet->stamp >= range->from && packet->stamp < range->to) {
+            own->second.add(*packet, digests().at(number).kind);
+        }
+    }
+    return each;
+}
+
 std::uint64_t Accounts::unfollowed() const {
     return m_moment.ingest().unfollowed();
 }

@@ -10,6 +10,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
+#include <optional>
 #include <vector>
 
 namespace posewire::model {
@@ -29,6 +31,10 @@ public:
     [[nodiscard]] const RetiredTotals& retired() const;
     /// Sums over all senders, the retired ones included.
     [[nodiscard]] SenderTotals allSenders() const;
+    /// Of each sender that is listed; of a range those of the packets in it that are kept, which are all
+    /// read.
+    [[nodiscard]] std::map<log::SenderId, SenderTotals>
+    eachSender(const std::optional<TimeRange>& range) const;
     /// See Ingest.
     [[nodiscard]] std::uint64_t unfollowed() const;
     [[nodiscard]] std::uint64_t overtaken() const;

@@ -57,14 +57,9 @@ log::Duration Ingest::behind() const {
                                              : log::Duration();
 }
 
-void Ingest::endFile(log::Duration afterLast) {
+void Ingest::endFile() {
     m_isFile = true;
     m_isLive = false;
-    m_fileEnd = m_observed + afterLast;
-    if (afterLast > log::Duration::zero()) {
-        passTime(m_fileEnd);
-        m_counting.advance(m_fileEnd);
-    }
     settle();
     m_incidents.endFile();
 }

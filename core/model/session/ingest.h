@@ -40,9 +40,10 @@ public:
     bool followFile(log::Stamp now, std::size_t most);
     /// Nothing more is read: what is not there by now is lost.
     void settle() { m_counting.settle(); }
+    void setEdges(const TimeRange& range) { m_counting.setEdges(range); }
     /// All that was read is a file that has ended: no sender in it is expected to send on after the time that
     /// went by after its last packet while it was recorded.
-    void endFile(log::Duration afterLast);
+    void endFile();
 
     void setKernel(const log::KernelCounters& counters) { m_content.setKernel(counters); }
     void setUsual(const SenderOverride& usual) { m_roll.setUsual(usual); }
@@ -63,7 +64,7 @@ public:
     [[nodiscard]] bool isFile() const { return m_isFile; }
     [[nodiscard]] log::Stamp now() const { return m_now; }
     /// Of a file its end, however long ago that was.
-    [[nodiscard]] log::Stamp knownUntil() const { return m_isFile ? std::max(m_observed, m_fileEnd) : m_now; }
+    [[nodiscard]] log::Stamp knownUntil() const { return m_isFile ? m_observed : m_now; }
     /// See SessionView.
     [[nodiscard]] log::Duration behind() const;
     [[nodiscard]] std::uint64_t begin() const { return m_begin; }
@@ -95,8 +96,7 @@ private:
     log::Stamp m_now{};
     log::Stamp m_firstStamp{};
     log::Stamp m_observed{}; ///< of the newest packet
-    log::Stamp m_fileEnd{};
-    log::Stamp m_moment{}; ///< at which silence after it is looked at next
+    log::Stamp m_moment{};   ///< at which silence after it is looked at next
     bool m_isFile = false;
     bool m_isHeldUp = false; ///< only packets tell what time it is
     bool m_isLive = false;   ///< packets have come as they were stamped

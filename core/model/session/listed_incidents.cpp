@@ -184,14 +184,21 @@ words::Value otherSender(const std::string& own, const words::Value& others) {
                       : others;
 }
 
+/// It lasts until a recording or a range ends.
+bool isAtEnd(const SessionView& session, const ListedIncident& listed) {
+    return listed.state != State::Over && (session.isRecording() || listed.rangeEnd);
+}
+
+/// When it was over; if it goes on, until when it is known to.
+log::Stamp endOf(const SessionView& session, const ListedIncident& listed) {
+    const log::Stamp last = listed.incident.lastStamp;
+    return listed.state == State::Over || listed.rangeEnd ? last : std::max(session.knownUntil(), last);
+}
+
 /// How long an outage has lasted: until the end of a recording, wherever the cursor is, or until now.
 void addSilence(const SessionView& session, const ListedIncident& listed, words::Fact& fact) {
-    const log::Stamp end = listed.state == State::Over
-                               ? listed.incident.lastStamp
-                               : std::max(session.knownUntil(), listed.incident.lastStamp);
-    const double seconds = log::secondsOf(end - listed.incident.firstStamp);
-    const bool isAtEnd = session.isRecording() && listed.state != State::Over;
-    set(fact, isAtEnd ? "left" : "silence", words::Number{seconds, seconds < 10 ? 1 : 0});
+    const double seconds = log::secondsOf(endOf(session, listed) - listed.incident.firstStamp);
+    set(fact, isAtEnd(session, listed) ? "left" : "silence", words::Number{seconds, seconds < 10 ? 1 : 0});
 }
 
 words::Fact provisionalFact(const SessionView& session, const Incident& incident) {
@@ -285,6 +292,35 @@ std::vector<ListedIncident> listedIncidents(const SessionView& session, log::Sta
     return all;
 }
 
+std::optional<ListedIncident> withinRange(const SessionView& session, ListedIncident one,
+                                          const TimeRange& range) {
+    constexpr log::Duration kPause = std::chrono::seconds(1); // between two losses of one that goes on
+    Incident& incident = one.incident;
+    const bool isOngoing = one.state == State::Ongoing;
+    const log::Stamp end = incident.lasts() ? endOf(session, one) : incident.lastStamp;
+    std::erase_if(incident.parts, [&](const Incident::Part& part) {
+        return part.from >= range.to || (part.to < range.from && !(isOngoing && incident.lasts()));
+    });
+    for (Incident::Part& part : incident.parts) {
+        part.from = std::max(part.from, range.from);
+        part.to = std::min(part.to, range.to);
+    }
+    const bool isSilence = incident.kind == IncidentKind::Outage;
+    const log::Duration least = isSilence ? IncidentFollower::kSilent : log::Duration::zero();
+    if (incident.firstStamp + least >= range.to || end < range.from + least) {
+        return std::nullopt;
+    }
+    const bool goesOn = end >= range.to || (isOngoing && end + kPause >= range.to);
+    one.state = one.state == State::Provisional ? one.state : goesOn ? State::Ongoing : State::Over;
+    one.rangeEnd = range.to;
+    incident.firstStamp = std::max(incident.firstStamp, range.from);
+    incident.lastStamp = std::min(end, range.to);
+    if (isSilence) {
+        incident.value = std::min(incident.value, log::secondsOf(incident.lastStamp - incident.firstStamp));
+    }
+    return one;
+}
+
 std::vector<ForeignText> addressesOf(const SessionView& session, const Incident& incident) {
     std::vector<ForeignText> addresses;
     for (const CharacterKey& character : incident.characters()) {
@@ -358,7 +394,7 @@ words::Fact whenOf(const SessionView& session, const ListedIncident& listed) {
     using K = words::Kind;
     const std::string from = clockText(session.wallOf(listed.incident.firstStamp));
     if (listed.state != State::Over) {
-        return {session.isRecording() ? K::ToTheEnd : K::Since, {{"from", from}}};
+        return {isAtEnd(session, listed) ? K::ToTheEnd : K::Since, {{"from", from}}};
     }
     const std::string to = clockText(session.wallOf(listed.incident.lastStamp));
     return from == to ? words::Fact{K::At, {{"from", from}}}

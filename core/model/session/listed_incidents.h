@@ -5,6 +5,7 @@
 #include "core/model/incidents/incident.h"
 #include "core/model/session/session_view.h"
 
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -22,6 +23,7 @@ struct ListedIncident {
     enum class State : std::uint8_t { Provisional, Ongoing, Over };
     Incident incident;
     State state = State::Ongoing;
+    std::optional<log::Stamp> rangeEnd{}; ///< of what was in a range: what came after it does not count
 };
 /// "provisional", "ongoing", "over".
 [[nodiscard]] std::string_view nameOf(ListedIncident::State state);
@@ -32,6 +34,10 @@ struct ListedIncident {
 [[nodiscard]] std::vector<ListedIncident> listedIncidents(const SessionView& session,
                                                           log::Stamp from = log::Stamp::min(),
                                                           log::Stamp to = log::Stamp::max());
+
+/// What of one was in a range: the rest of it does not count. Nothing if none of it was.
+[[nodiscard]] std::optional<ListedIncident> withinRange(const SessionView& session, ListedIncident one,
+                                                        const TimeRange& range);
 
 /// Those of them that the session's own list does not have, oldest first: what is not settled yet, without
 /// what is only just coming, and sums of what is not listed any more, which have no number.

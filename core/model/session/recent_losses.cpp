@@ -19,7 +19,8 @@ std::optional<words::Fact> RecentLosses::amountOf(const ListedIncident& one) {
     const bool isOngoing = one.state == ListedIncident::State::Ongoing;
     const bool isLoss = incident.kind == IncidentKind::Loss || incident.kind == IncidentKind::Local;
     const bool isOlder =
-        m_range && incident.firstStamp < (isOngoing ? m_range->from : m_session.choices().reset);
+        one.rangeEnd ||
+        (m_range && incident.firstStamp < (isOngoing ? m_range->from : m_session.choices().reset));
     if (!isLoss || !isOlder || one.state == ListedIncident::State::Provisional || !incident.cause) {
         return {};
     }
@@ -30,7 +31,8 @@ std::optional<words::Fact> RecentLosses::amountOf(const ListedIncident& one) {
 
 bool RecentLosses::isAboveLimit(const Incident& incident) {
     const double window = m_session.verdicts().thresholds().windowS;
-    if (m_range && log::secondsOf(m_session.now() - m_range->from) >= window) {
+    const bool isUntilNow = m_range && m_range->to > m_session.now();
+    if (isUntilNow && log::secondsOf(m_session.now() - m_range->from) >= window) {
         return std::ranges::any_of(incident.parts, &Incident::Part::isAbove);
     }
     const std::vector<double> shares = judgedShares(incident, [&](const Incident::Part& part) {

@@ -24,7 +24,17 @@ void SenderTotals::add(const Sender& sender) {
     bytes += sender.bytes;
     malformed += sender.malformed;
     foreign += sender.foreign;
+    skippedBytes += sender.skippedBytes;
     kernelDrops += sender.kernelDrops;
+}
+
+void SenderTotals::add(const log::Packet& packet, PacketKind kind) {
+    datagrams += kind == PacketKind::Skipped ? 0 : 1;
+    bytes += packet.bytes.size();
+    malformed += kind == PacketKind::Malformed ? 1 : 0;
+    foreign += kind == PacketKind::Foreign ? 1 : 0;
+    skippedBytes += kind == PacketKind::Skipped ? packet.bytes.size() : 0;
+    kernelDrops += packet.kernelDropsBefore;
 }
 
 void RetiredTotals::retire(const Sender& sender) {

@@ -46,9 +46,11 @@ struct SenderTotals {
     std::uint64_t bytes = 0;
     std::uint64_t malformed = 0;
     std::uint64_t foreign = 0;
+    std::uint64_t skippedBytes = 0;
     std::uint64_t kernelDrops = 0;
 
     void add(const Sender& sender);
+    void add(const log::Packet& packet, PacketKind kind);
     /// Datagrams that could be decoded.
     [[nodiscard]] std::uint64_t wellFormed() const { return datagrams - malformed - foreign; }
 };

@@ -29,11 +29,13 @@ public:
     void setHeldUp(bool isHeldUp) { m_ingest.setHeldUp(isHeldUp); }
     /// The same while a file is read: however new its packets are, silence after them is no silence.
     bool followFile(log::Stamp now, std::size_t most = 200'000) { return m_ingest.followFile(now, most); }
+    /// See Counting.
+    void setEdges(const TimeRange& range) { m_ingest.setEdges(range); }
     /// Nothing more is read: what is not there by now is lost.
     void settle() { m_ingest.settle(); }
-    /// All that was read is a file that has ended: nobody in it is expected to send on after the time that
-    /// went by after its last packet while it was recorded.
-    void endFile(log::Duration afterLast = {}) { m_ingest.endFile(afterLast); }
+    /// All that was read is a file that has ended: its end is no outage, however long it was recorded after
+    /// its last packet.
+    void endFile() { m_ingest.endFile(); }
 
     /// What the kernel counted since this computer began to listen.
     void setKernel(const log::KernelCounters& counters) { m_ingest.setKernel(counters); }

@@ -73,7 +73,7 @@ TakeVerdict fromIncidents(const SessionView& session, const std::vector<ListedIn
     verdict.isOver = worst.state == State::Over;
     verdict.said = {isBad ? K::NotGood : K::NotQuiteGood,
                     {{"reason", std::move(reason)}, {"when", whenOf(session, worst)}}};
-    if (verdict.isOver || !session.isRecording()) {
+    if (verdict.isOver || !(session.isRecording() || worst.rangeEnd)) {
         set(verdict.said, "lasts", words::Fact{verdict.isOver ? K::Over : K::GoingOn});
     }
     verdict.since = worst.incident.firstStamp;
@@ -155,13 +155,18 @@ std::optional<TakeVerdict> ifBehind(const SessionView& session) {
     return notQuiteGood({words::Kind::Behind, {{"seconds", seconds}}}, session.now() - behind);
 }
 
-TakeVerdict withoutIncident(const SessionView& session, const std::optional<CharacterKey>& only,
-                            log::Stamp since) {
+TakeVerdict withoutIncident(const SessionView& session, const VerdictSpan& span,
+                            const std::optional<CharacterKey>& only, log::Stamp since) {
     std::vector<const Character*> characters;
     if (!only) {
         characters = session.roster().listed();
     } else if (const Character* one = session.roster().findListed(*only)) {
         characters.push_back(one);
+    }
+    if (span.isClosed()) {
+        std::erase_if(characters, [&](const Character* one) {
+            return session.accounts().countsOf(one->key, {span.from, span.to}).datagrams == 0;
+        });
     }
     if (characters.empty()) {
         return {};
@@ -183,7 +188,7 @@ TakeVerdict withoutIncident(const SessionView& session, const std::optional<Char
     if (!first.isNothing()) {
         return onPoses(session, std::move(first), doubtful, since);
     }
-    if (auto late = ifBehind(session)) {
+    if (auto late = ifBehind(session); late && !span.isClosed()) {
         return *std::move(late);
     }
     if (starting == characters.size()) {
@@ -205,7 +210,8 @@ void easeTo(const VerdictSpan& span, RecentLosses& losses, Incident& incident) {
     }
     incident.value = incident.limit > 0 && !losses.isAboveLimit(incident) ? 0 : incident.value;
     for (Incident::Part& part : incident.parts) {
-        part.lastMany = part.lastMany && *part.lastMany < span.from ? std::nullopt : part.lastMany;
+        const bool isMeant = part.lastMany && *part.lastMany >= span.from && *part.lastMany <= span.to;
+        part.lastMany = isMeant ? part.lastMany : std::nullopt;
     }
 }
 
@@ -213,10 +219,10 @@ void easeTo(const VerdictSpan& span, RecentLosses& losses, Incident& incident) {
 /// does so for as long as anybody.
 ListedIncident ofOne(const SessionView& session, const ListedIncident& one,
                      std::span<const CharacterKey> which) {
-    ListedIncident own{one.incident.of(which), one.state};
+    ListedIncident own{one.incident.of(which), one.state, one.rangeEnd};
     const bool isOfTheLast =
         one.incident.kind == IncidentKind::Loss && own.incident.lastStamp == one.incident.lastStamp;
-    if (one.state == State::Ongoing && !isOfTheLast) {
+    if (one.state == State::Ongoing && !isOfTheLast && !one.rangeEnd) {
         own.state = stateOf(session, own.incident);
     }
     return own;
@@ -231,14 +237,14 @@ ListedIncident ofLasting(const SessionView& session, const ListedIncident& one) 
     std::erase_if(lasting, [&](const CharacterKey& character) {
         return ofOne(session, one, std::span(&character, 1)).state != State::Ongoing;
     });
-    return lasting.empty() ? one : ListedIncident{one.incident.of(lasting), one.state};
+    return lasting.empty() ? one : ListedIncident{one.incident.of(lasting), one.state, one.rangeEnd};
 }
 
 /// With what comes right now; nothing if it is of all there is.
 std::optional<TimeRange> rangeOf(const SessionView& session, const VerdictSpan& span) {
-    return span.from == log::Stamp::min()
-               ? std::nullopt
-               : std::optional(TimeRange{span.from, session.now() + log::Duration(1)});
+    const bool isAll = span.from == log::Stamp::min() && !span.isClosed();
+    return isAll ? std::nullopt
+                 : std::optional(TimeRange{span.from, std::min(span.to, session.now() + log::Duration(1))});
 }
 
 /// Lists once what several verdicts are about.
@@ -249,6 +255,9 @@ public:
           m_span(span),
           m_losses(session, rangeOf(session, span)),
           m_listed(listedIncidents(session, span.from, span.to)) {
+        if (span.isClosed()) {
+            keepWithin({span.from, span.to});
+        }
         std::erase_if(m_listed, [&](const ListedIncident& one) { return isPast(one, span); });
         for (const Incident& incident : session.verdicts().incidents().all()) {
             if (incident.firstStamp <= span.to && !isNote(incident)) {
@@ -283,10 +292,24 @@ public:
             worst->incident = graveOf(*worst);
         }
         return worst ? fromIncidents(m_session, besides(*worst, character.has_value()), m_losses)
-                     : withoutIncident(m_session, character, endOfTheLast(line));
+                     : withoutIncident(m_session, m_span, character, endOfTheLast(line));
     }
 
 private:
+    void keepWithin(const TimeRange& range) {
+        std::vector<ListedIncident> all;
+        for (ListedIncident& listed : m_listed) {
+            auto one = withinRange(m_session, std::move(listed), range);
+            const bool isElsewhere = one && one->incident.kind == IncidentKind::Loss &&
+                                     one->state != State::Provisional &&
+                                     m_losses.shareOf(one->incident).lost == 0;
+            if (one && !isElsewhere) {
+                all.push_back(*std::move(one));
+            }
+        }
+        m_listed = std::move(all);
+    }
+
     /// What of a loss makes it grave: who loses little beside those, less than half as much as the worst or
     /// as the limit, is not named with them, nor does what they lose seem less.
     [[nodiscard]] Incident graveOf(const ListedIncident& listed) const {
@@ -343,8 +366,9 @@ private:
     [[nodiscard]] log::Stamp endOfTheLast(const Line& line) const {
         const auto last =
             std::ranges::find_if(m_past, [&](const Incident* incident) { return concerns(*incident, line); });
-        return last == m_past.end() ? m_session.firstStamp()
-                                    : std::max(m_session.firstStamp(), (*last)->lastStamp);
+        const log::Stamp first =
+            std::max(m_session.firstStamp(), m_span.isClosed() ? m_span.from : log::Stamp());
+        return last == m_past.end() ? first : std::max(first, (*last)->lastStamp);
     }
 
     const SessionView& m_session;

@@ -32,11 +32,14 @@ struct TakeVerdict {
 [[nodiscard]] std::string_view nameOf(TakeVerdict::State state);
 
 /// What counts: incidents that have ended before it are forgotten, those that began after it are not known.
+/// Of one that is closed only what was in it counts, as if it were a recording of its own.
 struct VerdictSpan {
     /// Live, an incident that is over is mentioned for as long.
     static constexpr log::Duration kRecent = kRecentTime;
     log::Stamp from = log::Stamp::min();
     log::Stamp to = log::Stamp::max();
+
+    [[nodiscard]] bool isClosed() const { return to != log::Stamp::max(); }
 };
 /// The last moments of what is on the wire, but nothing before the reset.
 [[nodiscard]] VerdictSpan recentSpan(const SessionView& session);

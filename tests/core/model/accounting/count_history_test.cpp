@@ -157,6 +157,21 @@ TEST_P(Hours, SayWhereARangeBegins) {
 
 INSTANTIATE_TEST_SUITE_P(SecondsApart, Hours, testing::Values(1, 4, 12));
 
+TEST(CountHistory, IsExactBetweenEdgesHoweverWideItsBucketsAre) {
+    const TimeRange range{log::Stamp(123'456ms), log::Stamp(234'567ms)};
+    CountHistory history;
+    history.setEdges(range);
+    history.setMost(64);
+    std::vector<Added> all;
+    for (log::Stamp stamp(100s); stamp < log::Stamp(600s); stamp += 7ms) {
+        all.push_back({stamp, {.bytes = 3, .datagrams = 1, .samples = 1}});
+        history.add(stamp, all.back().change);
+    }
+    EXPECT_GT(history.width(range.from), 1s);
+    EXPECT_EQ(history.countsBetween(range.from, range.to), sumOf(all, range.from, range.to));
+    EXPECT_EQ(history.countsBetween(log::Stamp(), range.from), sumOf(all, log::Stamp(), range.from));
+}
+
 TEST(CountHistory, IsEmptyBeforeAnythingIsAdded) {
     const CountHistory history;
     EXPECT_EQ(history.countsBetween(log::Stamp::min(), log::Stamp::max()), StreamCounts{});

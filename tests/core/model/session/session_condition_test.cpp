@@ -140,23 +140,41 @@ TEST_F(ConditionTest, OfARecordingLooksNotBeyondItsEnd) {
     EXPECT_NEAR(silence(m_session.verdicts().of(key()), "left"), 1.9, 0.05);
 }
 
-TEST_F(ConditionTest, OfARecordingHasTheSilenceAtItsEnd) {
-    poses(1, 100);
-    while (m_session.followFile(m_at + 100h)) {
-    }
-    m_session.endFile(3s);
-    EXPECT_NEAR(silence(m_session.verdicts().of(key()), "left"), 3, 0.05);
-    EXPECT_EQ(m_session.verdicts().of(key()).state, State::Bad);
-    EXPECT_EQ(partOf(m_session.verdicts().of(key()).said, "when").kind, words::Kind::ToTheEnd);
-    EXPECT_TRUE(partOf(m_session.verdicts().of(key()).said, "lasts").isNothing());
-}
-
-TEST_F(ConditionTest, OfARecordingKnowsOfNoSilenceThatNobodyWaitedFor) {
+TEST_F(ConditionTest, OfARecordingKnowsOfNoSilenceAfterIt) {
     poses(1, 100);
     while (m_session.followFile(m_at + 100h)) {
     }
     m_session.endFile();
     EXPECT_EQ(m_session.verdicts().of(key()).state, State::Good);
+}
+
+TEST_F(ConditionTest, OfARangeIsThatOfTheRangeAlone) {
+    poses(1, 300);   // 100 s to 103 s
+    m_at += 2s;      // to 105 s
+    poses(501, 300); // to 108 s
+    poses(831, 300); // to 111 s, after 30 samples were lost at 108 s
+    while (m_session.followFile(m_at)) {
+    }
+    m_session.endFile();
+    const auto of = [&](log::Duration from, log::Duration to) {
+        return verdictOf(m_session, {at(from), at(to)});
+    };
+    EXPECT_EQ(of(100s, 103s).state, State::Good);
+    EXPECT_EQ(of(105500ms, 107s).state, State::Good);
+    EXPECT_EQ(of(105500ms, 107s).since, at(105500ms));
+    EXPECT_EQ(of(90s, 99s).state, State::None);
+    const TakeVerdict begun = of(101s, 104s);
+    EXPECT_EQ(begun.state, State::Bad);
+    EXPECT_NEAR(silence(begun, "left"), 1, 0.05);
+    EXPECT_EQ(partOf(begun.said, "when").kind, words::Kind::ToTheEnd);
+    const TakeVerdict over = of(104s, 106s);
+    EXPECT_EQ(over.since, at(104s));
+    EXPECT_NEAR(silence(over, "silence"), 1, 0.05);
+    EXPECT_EQ(partOf(over.said, "lasts").kind, words::Kind::Over);
+    const TakeVerdict lost = of(107s, 110s);
+    EXPECT_EQ(partOf(lost.said, "reason").kind, words::Kind::Loss);
+    EXPECT_EQ(partOf(lost.said, "lasts").kind, words::Kind::Over);
+    EXPECT_GE(lost.since, at(107s));
 }
 
 TEST_F(ConditionTest, FindsAContradictionAtTheSamePacketHoweverMuchIsFollowedAtOnce) {
