@@ -100,7 +100,8 @@ PropertyValue picture(const Source& from) {
     if (health.picture.state.isEmpty()) {
         return {dash()};
     }
-    return {health.picture.state, health.picture.isPoor ? Health::Warning : Health::Good, health.picture.why};
+    // How we draw is no fault of a stream.
+    return {health.picture.state, health.picture.isPoor ? Health::Unknown : Health::Good, health.picture.why};
 }
 
 PropertyValue processor(const Source& from) {

@@ -8,6 +8,7 @@
 #include "core/model/body/null_pose.h"
 #include "core/model/session/messages.h"
 #include "core/model/session/roster.h"
+#include "core/wire/messages.h"
 
 #include <algorithm>
 #include <utility>
@@ -82,12 +83,23 @@ PropertyValue shownValue(const model::SessionView& view, const MetadataRow& row)
             row.isEarlier ? QString() : tr("First sent at %1").arg(timeOfDay(view.wallOf(row.value->stamp)))};
 }
 
+/// When a tag was last sent before the moment that is shown, changed or not.
+log::Stamp lastSent(model::SessionView& view, const MetadataRow& row) {
+    const auto key = shownCharacter(view);
+    if (row.tag->lastSeen <= view.cursorStamp() || !key) {
+        return row.tag->lastSeen;
+    }
+    const log::Stamp newest =
+        view.messages().newestStamp({key->sender, key->character, wire::MetaData::kType});
+    return row.value != nullptr ? std::max(newest, row.value->stamp) : newest;
+}
+
 MetadataColumn sentColumn(model::SessionView& view) {
     const auto text = [&view](const MetadataRow& row) {
-        if (row.fact != nullptr) {
+        if (row.fact != nullptr || (row.place == nullptr && row.value == nullptr)) {
             return QString();
         }
-        const log::Stamp sent = row.place != nullptr ? row.place->stamp : row.tag->lastSeen;
+        const log::Stamp sent = row.place != nullptr ? row.place->stamp : lastSent(view, row);
         const double age = log::secondsOf(view.cursorStamp() - sent);
         return row.isEarlier ? timeOfDay(view.wallOf(row.value->stamp)) : duration(std::max(0.0, age));
     };
@@ -95,7 +107,7 @@ MetadataColumn sentColumn(model::SessionView& view) {
         return row.tag == nullptr || row.isEarlier
                    ? QString()
                    : tr("Last sent at %1, changed or not. Earlier values are below the tag.")
-                         .arg(timeOfDay(view.wallOf(row.tag->lastSeen)));
+                         .arg(timeOfDay(view.wallOf(lastSent(view, row))));
     };
     const auto span = [](const MetadataRow& row, int role) {
         return role == kSpanRole && row.fact != nullptr ? QVariant(true) : QVariant();

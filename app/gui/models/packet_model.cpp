@@ -127,18 +127,19 @@ std::vector<PacketColumn> PacketModel::columns(const PacketModel& model) {
             .withToolTip(note),
     };
     const auto give = [&columns](Column column, ColumnRoom room) { columns[column].room = std::move(room); };
-    give(kNumber, {.usual = grouped(9'999'999)});
-    give(kTime, {.usual = QStringLiteral("9999.9999"), .order = 4});
-    give(kDelta, {.usual = QStringLiteral("9999.99"), .order = 3});
+    give(kNumber, {.usual = grouped(9'999'999), .order = 3});
+    give(kTime, {.usual = QStringLiteral("9999.9999")});
+    give(kDelta, {.usual = QStringLiteral("9999.99")});
     give(kSender, {.usual = QStringLiteral("192.168.10.21:52011")});
-    give(kType, {.usual = typeTitle(22), .least = QStringLiteral("22 Angula")});
-    give(kCharacter, {.usual = QStringLiteral("● 0 Mira Lin"),
+    give(kType,
+         {.usual = QStringLiteral("22 Angu"), .wish = typeTitle(22), .least = QStringLiteral("22 An")});
+    give(kCharacter, {.usual = QStringLiteral("● 0 Mira"),
                       .wish = QStringLiteral("● 10 Mira Lindqvist"),
-                      .least = QStringLiteral("● 10 Mi")});
-    give(kSample, {.usual = grouped(99'999), .order = 5});
+                      .least = QStringLiteral("● 10")});
+    give(kSample, {.usual = grouped(99'999)});
     give(kPart, {.usual = QStringLiteral("1/1"), .order = 1});
     give(kSize, {.usual = QStringLiteral("9 999"), .order = 2});
-    give(kNote, {.usual = tr("▲ network: 1 lost"), .isOpen = true});
+    give(kNote, {.usual = tr("▲ network: 1 lost"), .order = 4, .isOpen = true});
     columns[kCharacter].more = [&model](const PacketFacts& facts, int role) {
         return model.characterMark(facts, role);
     };

@@ -151,6 +151,7 @@ QComboBox { padding-right: 22px; }
 QComboBox::drop-down { border: none; width: 0; }
 QDialogButtonBox { dialogbuttonbox-buttons-have-icons: 0; }
 QToolButton[framed="true"]:checked { background: @selection; border-color: @accent; }
+QToolButton#recordButton:checked { background: @errorfill; border-color: @error; }
 QToolButton[alarm="true"]:checked { color: @error; border-color: @error; font-weight: 600; }
 QToolButton[framed="true"]::menu-indicator { image: none; width: 0; }
 QToolButton[live="true"] { background: @goodfill; color: @good; border: 1px solid @good; border-radius: 5px;
@@ -205,7 +206,7 @@ QColor mixed(const QColor& a, const QColor& b, double share) {
 QString styleSheet(const Theme& theme, const QFontMetrics& metrics) {
     const auto pixels = [](int value) { return QString::number(value) + QStringLiteral("px"); };
     // Longer names first, so that no name is taken for the beginning of another.
-    const std::array<std::pair<QString, QString>, 17> values{{
+    const std::array<std::pair<QString, QString>, 18> values{{
         {"@window", theme.window.name()},
         {"@panel", theme.panel.name()},
         {"@raised", theme.raised.name()},
@@ -218,6 +219,7 @@ QString styleSheet(const Theme& theme, const QFontMetrics& metrics) {
         {"@selection", theme.selection.name()},
         {"@stripe", mixed(theme.panel, theme.window, 0.35).name()},
         {"@goodfill", mixed(theme.panel, theme.good, 0.16).name()},
+        {"@errorfill", mixed(theme.panel, theme.error, 0.16).name()},
         {"@good", theme.good.name()},
         {"@error", theme.error.name()},
         {"@row", pixels(metrics.height() + 8)},
