@@ -28,6 +28,7 @@ constexpr std::string_view kStampedOnReading = "; stamped on reading";
 constexpr std::string_view kClockSet = "; clock set by ";
 constexpr std::string_view kFrom = "; from ";
 constexpr std::string_view kMarkNote = "Mark on packet ";
+constexpr std::string_view kPacketMark = "Mark";
 constexpr std::string_view kMarkedAt = " at ";
 constexpr std::string_view kMarkComment = ": ";
 constexpr std::string_view kReceivedFor = "received for ";
@@ -223,6 +224,17 @@ std::optional<RecordedOrigin> parseOrigin(std::string_view comment) {
         comment = {};
     }
     return comment.empty() ? std::optional(origin) : std::nullopt;
+}
+
+std::string packetMarkText(const std::string& comment) {
+    return std::string(kPacketMark).append(comment.empty() ? std::string() : kMarkComment.data() + comment);
+}
+
+std::optional<std::string> parsePacketMark(std::string_view comment) {
+    if (!takes(comment, kPacketMark) || !(comment.empty() || takes(comment, kMarkComment))) {
+        return std::nullopt;
+    }
+    return std::string(comment);
 }
 
 std::string receptionText(const Reception& reception) {

@@ -94,6 +94,11 @@ struct RecordedMark {
 /// The inverse; empty if the note says something else.
 [[nodiscard]] std::optional<RecordedMark> parseMark(std::string_view note);
 
+/// The comment of a packet that was marked, which may have a comment of its own: "Mark: left hand jumps".
+[[nodiscard]] std::string packetMarkText(const std::string& comment);
+/// The inverse; nothing if the packet was not marked.
+[[nodiscard]] std::optional<std::string> parsePacketMark(std::string_view comment);
+
 /// Empty fields are left out.
 struct RecordingInfo {
     std::string hardware;

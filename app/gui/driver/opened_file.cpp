@@ -168,14 +168,16 @@ void FileImport::keepComments(const log::FileRecord& record) {
     if (record.comments.empty() || m_commentCount == kMostComments) {
         return;
     }
-    std::string text;
+    Comment added{m_packetsRead};
     for (const std::string& comment : record.comments) {
-        text += (text.empty() ? "" : "\n") + comment;
+        const auto ofMark = log::parsePacketMark(comment);
+        added.isMarked = added.isMarked || ofMark;
+        added.text += (added.text.empty() ? "" : "\n") + ofMark.value_or(comment);
     }
-    text.resize(std::min(text.size(), kLongestComment));
+    added.text.resize(std::min(added.text.size(), kLongestComment));
     ++m_commentCount;
     const std::lock_guard lock(m_mutex);
-    m_comments.emplace_back(m_packetsRead, std::move(text));
+    m_comments.push_back(std::move(added));
 }
 
 /// A note says whatever its writer wanted: only of packets that are there.
@@ -278,8 +280,11 @@ void OpenedFile::stop() {
 
 void OpenedFile::takeComments() {
     if (m_import != nullptr) {
-        for (auto& [packet, text] : m_import->takeComments()) {
-            m_session.setComment(packet, std::move(text));
+        for (FileImport::Comment& one : m_import->takeComments()) {
+            m_session.setComment(one.packet, std::move(one.text));
+            if (one.isMarked) {
+                m_session.setMarked(one.packet, true);
+            }
         }
     }
 }

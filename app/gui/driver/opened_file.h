@@ -66,7 +66,11 @@ public:
     /// From 0 to 1.
     [[nodiscard]] double share() const;
     /// Of a packet of the file, by its number; its bytes as they are there, clipped.
-    using Comment = std::pair<std::uint64_t, std::string>;
+    struct Comment {
+        std::uint64_t packet = 0;
+        bool isMarked = false;
+        std::string text{};
+    };
     /// Those that were read since this was asked last; of a file that has too many the first ones.
     [[nodiscard]] std::vector<Comment> takeComments();
     /// Packets that were marked while the file was recorded, as far as it was read.
