@@ -46,6 +46,8 @@ bool isHeardBy(const InputStatus& input, const QHostAddress& address, std::uint1
     return address.isBroadcast() || isOfThisComputer(address);
 }
 
+} // namespace
+
 std::optional<NetError> loopProblem(const Endpoint& target, const QHostAddress& address,
                                     const std::vector<InputStatus>& inputs) {
     const bool isLoop = std::ranges::any_of(
@@ -57,8 +59,6 @@ std::optional<NetError> loopProblem(const Endpoint& target, const QHostAddress& 
                     textOf(target) + " is where this monitor itself listens: every datagram would come back "
                                      "and circulate forever; choose another host or port"};
 }
-
-} // namespace
 
 struct Relay::Target {
     RelayId id;

@@ -110,4 +110,8 @@ private:
     std::thread m_thread;
 };
 
+/// Why data sent to an address would come back through an input; nothing if it would not.
+[[nodiscard]] std::optional<NetError> loopProblem(const Endpoint& target, const QHostAddress& address,
+                                                  const std::vector<InputStatus>& inputs);
+
 } // namespace posewire::net

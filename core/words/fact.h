@@ -111,6 +111,7 @@ enum class Kind : std::uint16_t {
     // Verdicts.
     NoDataYet,
     NoPoseYet,
+    NoFaultSoFar, ///< of a file while it is read
     Good,
     NotGood,
     NotQuiteGood,

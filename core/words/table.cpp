@@ -403,6 +403,9 @@ constexpr std::array kTable{
     // Verdicts.
     Wording{.kind = K::NoDataYet, .headline = {"No data yet"}, .brief = {"no data yet"}},
     Wording{.kind = K::NoPoseYet, .headline = {"No pose yet"}, .brief = {"no pose yet"}},
+    Wording{.kind = K::NoFaultSoFar,
+            .headline = {"Being read: no fault so far"},
+            .brief = {"no fault so far"}},
     Wording{.kind = K::Good, .headline = {"Good for the take: {who}"}, .brief = {"good"}},
     Wording{.kind = K::NotGood,
             .headline = {"Not good: {reason}[, {when}][, {lasts}]"},

@@ -111,6 +111,13 @@
             <numerusform>%n more characters are not whole either</numerusform>
         </translation>
     </message>
+    <message numerus="yes">
+        <source>%1 to %2, %n sample(s)</source>
+        <translation>
+            <numerusform>%1 to %2, %n sample</numerusform>
+            <numerusform>%1 to %2, %n samples</numerusform>
+        </translation>
+    </message>
 </context>
 <context>
     <name>posewire::gui::EndedSenders</name>

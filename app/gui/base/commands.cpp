@@ -65,10 +65,14 @@ void Commands::jump(std::uint64_t packet, const QString& filter) {
            filter.toStdString());
 }
 
-void Commands::goBack() {
+bool Commands::travel(bool (model::Session::*step)()) {
     stopPlaying(*m_shown);
-    change(&model::Session::goBack);
-    emit wentBack();
+    const bool isThere = (m_shown->*step)();
+    if (isThere) {
+        emit changed();
+        emit wentBack();
+    }
+    return isThere;
 }
 
 void Commands::showIncident(std::optional<std::uint64_t> number, std::optional<model::CharacterKey> of) {

@@ -53,7 +53,11 @@ public:
     /// Stops at a packet with another filter, or the same, so that goBack() brings all back as it was.
     /// Selects nothing else if there is no such packet.
     void jump(std::uint64_t packet, const QString& filter);
-    void goBack();
+    /// Before another moment is shown: goBack() leads here again.
+    void leave() { change(&model::Session::leave); }
+    /// False if there is nothing to go to.
+    bool goBack() { return travel(&model::Session::goBack); }
+    bool goForward() { return travel(&model::Session::goForward); }
     void setCharacterVisible(const model::CharacterKey& key, bool isVisible) {
         change(&model::Session::setHidden, key, !isVisible);
     }
@@ -85,7 +89,7 @@ signals:
     void changed();
     /// Another session is shown.
     void switched();
-    /// The view before the newest jump is shown again.
+    /// The view before the newest jump is shown again, or the one after it.
     void wentBack();
 
     // Requests that the window carries out.
@@ -94,6 +98,7 @@ signals:
     void showDock(const QString& dock);
 
 private:
+    bool travel(bool (model::Session::*step)());
     template <class Setter, class... Arguments>
     void change(Setter setter, const Arguments&... arguments) {
         (m_shown->*setter)(arguments...);

@@ -26,6 +26,36 @@ log::Stamp newestMoment(const model::SessionView& session) {
     return newest ? newest->stamp : session.now();
 }
 
+/// Streams that send at all have sent by then.
+constexpr log::Duration kBeginning = std::chrono::milliseconds(200);
+
+/// Of all streams that send at the beginning of what is kept, a sample has come by then.
+std::uint64_t firstWholePacket(const model::SessionView& session) {
+    const log::Stamp until = session.keptSince() + kBeginning;
+    std::uint64_t packet = session.begin();
+    for (const model::Stream& stream : session.roster().streams()) {
+        const auto number = session.messages().firstSample(stream.key);
+        const auto first = number ? session.packet(*number) : std::nullopt;
+        if (first && wire::isSampled(stream.key.type) && first->stamp <= until) {
+            packet = std::max(packet, *number);
+        }
+    }
+    return packet;
+}
+
+/// Of the oldest pose of the sample that is shown.
+log::Stamp shownSampleStamp(const model::SessionView& session) {
+    constexpr log::Duration kSample = std::chrono::milliseconds(50);
+    log::Stamp stamp = session.cursorStamp();
+    for (const model::Character* character : session.roster().listed()) {
+        const model::CharacterPose* pose = session.messages().pose(character->key);
+        if (pose != nullptr && session.cursorStamp() - pose->stamp < kSample) {
+            stamp = std::min(stamp, pose->stamp);
+        }
+    }
+    return stamp;
+}
+
 std::uint64_t shownPacket(const model::SessionView& session) {
     return session.choices().cursor.mode == model::Cursor::Mode::Paused ? session.choices().cursor.packet
                                                                         : newestOf(session);
@@ -57,21 +87,25 @@ void Playback::stopAt(std::uint64_t packet) {
 
 void Playback::goLive() {
     m_commands.showLive();
+    if (isPaused()) {
+        m_commands.leave();
+    }
     m_commands.unselectPacket();
     m_commands.setCursor({});
+    if (m_commands.session().choices().range.fixed) {
+        m_commands.selectRange({});
+    }
 }
 
 bool Playback::isPaused() const {
     return m_commands.session().choices().cursor.mode == model::Cursor::Mode::Paused;
 }
 
-void Playback::setPaused(bool isPaused) {
-    if (m_commands.isFileShown()) {
-        play(isPlaying(Direction::Backwards) ? Direction::Backwards : Direction::Forwards);
-    } else if (!isPaused) {
-        m_commands.setCursor({});
-    } else if (!this->isPaused()) {
+void Playback::playOrStop() {
+    if (!isPaused()) {
         m_commands.setCursor(stoppedAt(newestOf(m_commands.session())));
+    } else {
+        play(isPlaying(Direction::Backwards) ? Direction::Backwards : Direction::Forwards);
     }
 }
 
@@ -79,8 +113,44 @@ void Playback::seek(double seconds) {
     showMoment(m_commands.session().firstStamp() + log::durationOf(seconds));
 }
 
-void Playback::showMoment(log::Stamp moment) {
-    stopAt(m_commands.session().packetAt(moment));
+void Playback::showMoment(log::Stamp moment, bool isDrag) {
+    if (!isDrag) {
+        m_commands.leave();
+    }
+    const model::SessionView& session = m_commands.session();
+    const bool isKept = moment > session.keptSince() + kBeginning;
+    stopAt(isKept ? session.packetAt(moment) : std::max(session.packetAt(moment), firstWholePacket(session)));
+}
+
+void Playback::goToFirst() {
+    m_commands.leave();
+    stopAt(firstWholePacket(m_commands.session()));
+}
+
+void Playback::goToLast() {
+    if (!m_commands.isFileShown()) {
+        goLive();
+    } else if (m_commands.session().end() != 0) {
+        m_commands.leave();
+        stopAt(newestOf(m_commands.session()));
+    }
+}
+
+void Playback::setRangeEdge(bool isEnd) {
+    const model::SessionView& session = m_commands.session();
+    if (session.end() == 0) {
+        return;
+    }
+    model::TimeRange range =
+        session.choices().range.fixed.value_or(model::TimeRange{session.keptSince(), session.now()});
+    const log::Stamp after = session.cursorStamp() + log::Duration(1);
+    if (isEnd) {
+        range = {range.from < after ? range.from : session.keptSince(), after};
+    } else {
+        const log::Stamp from = shownSampleStamp(session);
+        range = {from, range.to > from ? range.to : newestMoment(session) + log::Duration(1)};
+    }
+    m_commands.selectRange({.fixed = range});
 }
 
 void Playback::stepSamples(const model::CharacterKey& of, int steps) {
@@ -102,7 +172,7 @@ void Playback::stepPackets(int steps) {
 }
 
 void Playback::stepTime(log::Duration by) {
-    showMoment(m_commands.session().cursorStamp() + by);
+    showMoment(m_commands.session().cursorStamp() + by, true);
 }
 
 bool Playback::isPlaying(Direction direction) const {

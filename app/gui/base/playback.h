@@ -15,14 +15,21 @@ public:
     /// Both must outlive it.
     Playback(Commands& commands, const log::Clock& clock) : m_commands(commands), m_clock(clock) {}
 
-    /// Follows the stream again; lets go of a packet that is selected.
+    /// Follows the stream again; lets go of a packet that is selected, and of a range.
     void goLive();
-    /// Stops the display where it is, or follows the stream again. A file is played instead.
-    void setPaused(bool isPaused);
+    /// Stops the display where it is; if it is stopped, plays from there.
+    void playOrStop();
     [[nodiscard]] bool isPaused() const;
     /// Stops the display this many seconds after the first packet there was.
     void seek(double seconds);
-    void showMoment(log::Stamp moment);
+    /// Stops the display there. Commands::goBack() leads back, but not into the middle of a drag.
+    void showMoment(log::Stamp moment, bool isDrag = false);
+    /// The first sample that is kept, of all streams that are there by then.
+    void goToFirst();
+    /// The last sample of a recording; the newest of what is received, which it follows.
+    void goToLast();
+    /// The range of figures, exports and replays begins or ends with the sample that is shown.
+    void setRangeEdge(bool isEnd);
     /// Stops the display, and moves it by samples of a character, by packets or by time.
     void stepSamples(const model::CharacterKey& of, int steps);
     void stepPackets(int steps);

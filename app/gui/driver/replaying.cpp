@@ -15,9 +15,9 @@ QString Replaying::start(const ReplayRequest& request, const model::SessionView&
     choice.isLooping = request.isLooping;
     choice.begin = view.begin();
     choice.end = view.end();
-    if (const auto range = request.isRangeOnly ? view.range() : std::nullopt) {
-        choice.begin = view.packetFrom(range->from);
-        choice.end = view.packetFrom(range->to);
+    if (request.range) {
+        choice.begin = view.packetFrom(request.range->from);
+        choice.end = view.packetFrom(request.range->to);
     }
     if (choice.begin >= choice.end) {
         return tr("There is no packet to send.");

@@ -18,7 +18,7 @@ struct ReplayRequest {
     net::SendTarget target;
     double speed = 1;
     bool isLooping = false;
-    bool isRangeOnly = false; ///< what figures are of; else all there is
+    std::optional<model::TimeRange> range{}; ///< nothing for all there is
 };
 
 /// Sends what a session shows to the network again, one replay at a time. The window waits for none that

@@ -161,7 +161,10 @@ QString boardSpanText(const model::SessionView& view) {
     }
     const log::Duration recent = model::VerdictSpan::kRecent;
     const bool isAll = view.choices().reset != log::Stamp() && view.now() - view.choices().reset < recent;
-    return isAll ? tr("since the reset") : tr("last %1 s").arg(recent / std::chrono::seconds(1));
+    const bool isPast = view.choices().cursor.mode == model::Cursor::Mode::Paused;
+    return isAll    ? tr("since the reset")
+           : isPast ? tr("now, last %1 s").arg(recent / std::chrono::seconds(1))
+                    : tr("last %1 s").arg(recent / std::chrono::seconds(1));
 }
 
 std::vector<model::CharacterKey> boardOf(const model::SessionView& view, BoardOrder order) {

@@ -180,11 +180,16 @@ std::optional<std::uint64_t> newestBehind(model::SessionView& view, const Packet
 } // namespace
 
 QString rangeFilter(model::SessionView& view, const model::TimeRange& range) {
-    // To whole milliseconds around it, so that nothing of it is left out.
-    const auto seconds = [](log::Duration time) { return QString::number(log::secondsOf(time), 'f', 3); };
-    const auto from = std::chrono::floor<std::chrono::milliseconds>(range.from - view.firstStamp());
-    const auto to = std::chrono::ceil<std::chrono::milliseconds>(range.to - view.firstStamp());
-    return QStringLiteral("time >= %1 && time < %2").arg(seconds(from), seconds(to));
+    // Exact, so that what is listed is what is counted.
+    const auto seconds = [&](log::Stamp stamp) {
+        constexpr qsizetype kLeast = 3; // decimals
+        QString text = QString::number(log::secondsOf(stamp - view.firstStamp()), 'f', 9);
+        while (text.endsWith(QLatin1Char('0')) && text.size() - text.indexOf(QLatin1Char('.')) > kLeast + 1) {
+            text.chop(1);
+        }
+        return text;
+    };
+    return QStringLiteral("time >= %1 && time < %2").arg(seconds(range.from), seconds(range.to));
 }
 
 QString statisticsFilter(model::SessionView& view, const StatisticsModel& model, const QModelIndex& index) {

@@ -126,6 +126,20 @@ QString spanText(const model::SessionView& view) {
     return tr("selection %1 + %2").arg(timeOfDay(view.wallOf(range->from)).chopped(2), length);
 }
 
+QString rangeText(model::SessionView& view, const model::TimeRange& range) {
+    std::uint64_t samples = 0;
+    const model::Character* character = nullptr;
+    if (const auto key = shownCharacter(view)) {
+        character = view.roster().find(*key);
+    }
+    for (const model::Stream* stream :
+         character != nullptr ? character->streams : decltype(character->streams)()) {
+        samples = std::max(samples, view.messages().samplesIn(stream->key, range));
+    }
+    return tr("%1 to %2, %n sample(s)", nullptr, static_cast<int>(samples))
+        .arg(timeOfDay(view.wallOf(range.from)), timeOfDay(view.wallOf(range.to - log::Duration(1))));
+}
+
 QString staleText(double ageSeconds, double rateHz) {
     const bool isStale = ageSeconds >= std::max(kStaleAge, patienceAt(rateHz));
     return isStale ? tr("stale %1").arg(duration(ageSeconds)) : QString();

@@ -110,8 +110,6 @@ struct PacketsPanel::Actions {
 
         {"goToPacket", kGo, QT_TRANSLATE_NOOP("Action", "&Go to packet…"), "G",
          Do::call<&PacketsPanel::askForPacket>},
-        {"back", kGo, QT_TRANSLATE_NOOP("Action", "&Back to before the jump"), "Alt+Left",
-         Do::call<&PacketsPanel::goBack>},
         lineIn(kGo),
         {"nextProblem", kGo, QT_TRANSLATE_NOOP("Action", "&Next problem of the selected character"), "N",
          Do::call<&PacketsPanel::go, Landmark::ProblemOfSelected, kForward>},

@@ -38,7 +38,14 @@ PacketsPanel::PacketsPanel(model::SessionView& view, Commands& commands, QWidget
         say(tr("Filtering was cancelled: the list holds what was found until then."));
         refresh();
     });
-    connect(m_filterBar, &FilterBar::backRequested, this, &PacketsPanel::goBack);
+    connect(m_filterBar, &FilterBar::backRequested, this, [this] {
+        focusList();
+        m_commands.goBack();
+    });
+    connect(&m_commands, &Commands::wentBack, this, [this] {
+        refresh();
+        m_list->setFollowing(!m_view.choices().selection.packet);
+    });
     connect(&m_filterBar->line(), &FilterLine::left, this, &PacketsPanel::focusList);
     connect(m_clear, &QPushButton::clicked, this, [this] {
         m_commands.setDisplayFilter({});
@@ -103,17 +110,6 @@ void PacketsPanel::followCursor() {
 void PacketsPanel::focusList() {
     const QScopedValueRollback guard(m_isFollowing, true);
     m_list->setFocus();
-}
-
-void PacketsPanel::goBack() {
-    if (!m_view.choices().canGoBack()) {
-        say(tr("There is nothing to go back to: no jump led here."));
-        return;
-    }
-    focusList();
-    m_commands.goBack();
-    refresh();
-    m_list->setFollowing(!m_view.choices().selection.packet);
 }
 
 void PacketsPanel::followSelection() {

@@ -41,8 +41,6 @@ private:
     void followSelection();
     void showEmptyState();
     void focusList();
-    /// To the filter and the selection before the newest jump.
-    void goBack();
     void selectRow(const QModelIndex& index);
     /// In the line below the list: what was done, why not, or what cannot be reached.
     void say(const QString& text);

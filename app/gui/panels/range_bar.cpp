@@ -105,6 +105,7 @@ void RangeStrip::paintEvent(QPaintEvent*) {
         painter.drawText(rect(), Qt::AlignCenter, tr("no history yet"));
     } else {
         paintOverview(painter, m_overview, rect());
+        paintForgotten(painter, QRectF(0, 0, placeOf(m_view.keptSince()), height()));
         paintRange(painter);
         paintCursor(painter);
     }

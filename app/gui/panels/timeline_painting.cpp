@@ -102,6 +102,8 @@ public:
             }
         }
         m_painter.setClipRect(m_strips);
+        paintForgotten(m_painter, QRectF(QPointF(m_timeline.placeOf(m_window.from), m_ruler),
+                                         QPointF(m_timeline.placeOf(m_view.keptSince()), m_room.height())));
         paintRange();
         m_painter.setClipping(false);
         paintRuler();

@@ -28,7 +28,7 @@ TimelinePanel::TimelinePanel(model::SessionView& view, Commands& commands, Playb
     column->addWidget(m_timeline, 1);
     column->addWidget(m_thumbnail);
     m_live = m_commandBar->addCommand(QStringLiteral("timelineLive"), tr("Live"),
-                                      tr("Follow the stream again (End)"));
+                                      tr("Follow the stream again (L)"));
     QAction* all =
         m_commandBar->addCommand(QStringLiteral("timelineAll"), tr("All"), tr("Show all there is (0)"));
     QAction* out =

@@ -162,7 +162,7 @@ void TimelineView::drag(const QPoint& place) {
     const auto span = m_model.span();
     const log::Stamp moment = std::clamp(stampAt(place.x()), span->from, span->to);
     if (m_drag == Drag::Cursor) {
-        m_playback.showMoment(moment);
+        m_playback.showMoment(moment, m_isMoved);
     } else {
         const auto [from, to] = std::minmax(m_anchor, moment);
         m_commands.selectRange({log::Duration::zero(), model::TimeRange{from, to + log::Duration(1)}});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/theme/widgets.h"
 
+#include <QCoreApplication>
 #include <QDialog>
 #include <QDialogButtonBox>
 #include <QLineEdit>
@@ -309,6 +310,23 @@ void ColourText::paintEvent(QPaintEvent* /*event*/) {
     const QRect room = rect().adjusted(margin, 0, -margin, 0);
     painter.drawText(room, Qt::AlignLeft | Qt::AlignVCenter,
                      fontMetrics().elidedText(text(), Qt::ElideRight, room.width() + 1));
+}
+
+void paintForgotten(QPainter& painter, const QRectF& rect) {
+    if (rect.width() < 1) {
+        return;
+    }
+    painter.fillRect(rect, withAlpha(theme().panel, 0.75));
+    painter.fillRect(rect, QBrush(withAlpha(theme().dim, 0.5), Qt::FDiagPattern));
+    const QString text = QCoreApplication::translate("Strip", "no longer kept");
+    const double width = painter.fontMetrics().horizontalAdvance(text) + painter.fontMetrics().height();
+    if (width < rect.width()) {
+        const QRectF plate(rect.center() - QPointF(width / 2, painter.fontMetrics().height() / 2.0),
+                           QSizeF(width, painter.fontMetrics().height()));
+        painter.fillRect(plate, theme().panel);
+        painter.setPen(theme().dim);
+        painter.drawText(plate, Qt::AlignCenter, text);
+    }
 }
 
 } // namespace posewire::gui

@@ -66,16 +66,8 @@ protected:
     void paintEvent(QPaintEvent* event) override;
 };
 
-class RangeBox final : public ComboBox {
-    Q_OBJECT
-
-public:
-    explicit RangeBox(QWidget* parent) : ComboBox(parent) {
-        addItems({tr("All there is"), tr("The range of the figures")});
-    }
-
-    [[nodiscard]] bool isRangeOnly() const { return currentIndex() == 1; }
-};
+/// Covers the part of a strip of time that cannot be looked at any more.
+void paintForgotten(QPainter& painter, const QRectF& rect);
 
 /// One line of text and, dimmed, what is added to it. It never asks for room: where there is too little it
 /// ends in an ellipsis.

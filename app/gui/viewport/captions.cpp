@@ -174,7 +174,11 @@ double shownAgeSeconds(model::SessionView& session, const model::CharacterKey& k
 
 PropertyValue characterHealth(model::SessionView& session, const model::CharacterKey& key) {
     const model::Character* character = session.roster().find(key);
-    const PropertyValue state = character == nullptr ? PropertyValue{} : characterState(session, *character);
+    const bool isPast = session.choices().cursor.mode == model::Cursor::Mode::Paused;
+    if (character == nullptr || isPast) { // how it does now is no state of a figure of the past
+        return {};
+    }
+    const PropertyValue state = characterState(session, *character);
     if (state.health != Health::Good) {
         return state;
     }

@@ -57,12 +57,12 @@ PictureSeries::~PictureSeries() {
     if (m_wasLive) {
         m_playback.goLive();
     } else {
-        m_playback.showMoment(m_shownBefore);
+        m_playback.showMoment(m_shownBefore, true);
     }
 }
 
 void PictureSeries::showNext() {
-    m_playback.showMoment(m_request.first + m_shown * m_request.every);
+    m_playback.showMoment(m_request.first + m_shown * m_request.every, true);
     draw(m_shown == 0 ? 0 : log::secondsOf(m_request.every));
 }
 

@@ -4,6 +4,7 @@
 #include "app/gui/theme/theme.h"
 
 #include <QAction>
+#include <QCoreApplication>
 #include <QHeaderView>
 #include <QKeyEvent>
 #include <QMenu>
@@ -12,6 +13,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 namespace posewire::gui {
 
@@ -30,6 +32,31 @@ QString withoutMnemonic(const QString& text) {
     return plain;
 }
 
+/// What people call what has another name here, by the action or the dock.
+constexpr std::pair<const char*, const char*> kSynonyms[] = {
+    {"pause", QT_TRANSLATE_NOOP("Action", "freeze stop hold")},
+    {"live", QT_TRANSLATE_NOOP("Action", "now follow end")},
+    {"loop", QT_TRANSLATE_NOOP("Action", "repeat cycle")},
+    {"rangeIn", QT_TRANSLATE_NOOP("Action", "in mark trim select")},
+    {"rangeOut", QT_TRANSLATE_NOOP("Action", "out mark trim select")},
+    {"record", QT_TRANSLATE_NOOP("Action", "take capture")},
+    {"inputs", QT_TRANSLATE_NOOP("Action", "port network udp tcp address cable connect")},
+    {"relay", QT_TRANSLATE_NOOP("Action", "forward send on")},
+    {"thresholds", QT_TRANSLATE_NOOP("Action", "limits alarm sound mute beep notification")},
+    {"connectionHelp", QT_TRANSLATE_NOOP("Action", "cable firewall nothing arrives")},
+    {"statistics", QT_TRANSLATE_NOOP("Action", "fps rate jitter loss bandwidth cpu")},
+    {"metadata", QT_TRANSLATE_NOOP("Action", "units revision up axis tags name colour")},
+};
+
+QString synonymsOf(const QAction& action) {
+    const QString id = action.objectName().isEmpty() && action.parent() != nullptr
+                           ? action.parent()->objectName()
+                           : action.objectName();
+    const auto found =
+        std::ranges::find_if(kSynonyms, [&](const auto& one) { return id == QLatin1String(one.first); });
+    return found == std::end(kSynonyms) ? QString() : QCoreApplication::translate("Action", found->second);
+}
+
 void collect(const QList<QAction*>& actions, const QString& menu, std::vector<Command>& into) {
     for (QAction* action : actions) {
         const QString name = withoutMnemonic(action->text());
@@ -38,7 +65,7 @@ void collect(const QList<QAction*>& actions, const QString& menu, std::vector<Co
             collect(action->menu()->actions(), menu.isEmpty() ? name : menu + QStringLiteral(" › ") + name,
                     into);
         } else if (!action->isSeparator() && action->isVisible() && !name.isEmpty()) {
-            into.push_back({action, name, menu});
+            into.push_back({action, name, menu, synonymsOf(*action)});
         }
     }
 }
@@ -65,7 +92,7 @@ std::vector<Command> commandsOf(const QMenuBar& bar) {
 }
 
 bool isMeant(const Command& command, const QString& typed) {
-    const QStringList words = wordsOf(command.name) + wordsOf(command.menu);
+    const QStringList words = wordsOf(command.name) + wordsOf(command.menu) + wordsOf(command.synonyms);
     return std::ranges::all_of(wordsOf(typed), [&](const QString& wanted) {
         return std::ranges::any_of(
             words, [&](const QString& word) { return word.startsWith(wanted, Qt::CaseInsensitive); });

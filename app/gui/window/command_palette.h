@@ -15,8 +15,9 @@ namespace posewire::gui {
 
 struct Command {
     QAction* action;
-    QString name; ///< as people read it, without the letter to press
-    QString menu; ///< "View › Camera"
+    QString name;       ///< as people read it, without the letter to press
+    QString menu;       ///< "View › Camera"
+    QString synonyms{}; ///< words for it that people type
 };
 
 /// All entries of the menus as they are now, in their order.

@@ -32,7 +32,7 @@ namespace {
 constexpr std::chrono::milliseconds kProgressLook{100};
 constexpr int kMostRows = 8; // of characters, before the list scrolls
 
-enum What : std::uint8_t { ThisMoment, TimeOfFigures, AllThereIs };
+enum What : std::uint8_t { TimeOfFigures, ThisMoment, AllThereIs };
 
 constexpr int kMostPictures = 100'000;
 constexpr std::array kSizes{QSize(1280, 720), QSize(1920, 1080), QSize(2560, 1440), QSize(3840, 2160)};
@@ -71,7 +71,7 @@ MotionExportDialog::MotionExportDialog(model::SessionView& view, QWidget* parent
     auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, this);
     buttons->addButton(m_button, QDialogButtonBox::ActionRole);
     m_button->setDefault(true);
-    layOut(*this, {form, m_state}, *buttons, placeOf(HelpTopic::MotionExport), 66);
+    layOut(*this, {form, m_state}, *buttons, placeOf(HelpTopic::MotionExport), 74);
     connect(m_format, &QComboBox::currentIndexChanged, this, &MotionExportDialog::describe);
     connect(m_characters, &QListWidget::itemChanged, this, &MotionExportDialog::describe);
     connect(m_button, &QPushButton::clicked, this, &MotionExportDialog::toggle);
@@ -156,7 +156,7 @@ void MotionExportDialog::askWhereToSave() {
 }
 
 std::shared_ptr<MotionExportDialog::Job> MotionExportDialog::jobFor(const QString& path) const {
-    const auto range = m_range->isRangeOnly() ? m_view.range() : std::nullopt;
+    const auto range = m_range->range();
     auto job = std::make_shared<Job>(feed::poseSourceOf(m_view, range.value_or(model::kAllTime), chosen()),
                                      format(), QFile::encodeName(path).toStdString());
     job->request.rules = replacing();
@@ -218,7 +218,11 @@ public:
         constexpr int kUsualRate = 30;
         constexpr int kMostRate = 240;
         setWindowTitle(tr("Export pictures"));
-        m_what->addItems({tr("This moment"), tr("The range of the figures"), tr("All there is")});
+        if (const auto range = commands.session().range()) {
+            m_what->addItem(tr("Selected: %1").arg(rangeText(commands.session(), *range)), TimeOfFigures);
+        }
+        m_what->addItem(tr("This moment"), ThisMoment);
+        m_what->addItem(tr("All there is"), AllThereIs);
         m_rate->setButtonSymbols(QAbstractSpinBox::NoButtons);
         m_rate->setRange(1, kMostRate);
         m_rate->setValue(kUsualRate);
@@ -242,7 +246,7 @@ public:
                            "well as it can be. The display moves to each moment while they are drawn."),
                         this),
                 form, m_state},
-               *buttons, placeOf(HelpTopic::PicturesExport), 66);
+               *buttons, placeOf(HelpTopic::PicturesExport), 74);
         connect(m_what, &QComboBox::currentIndexChanged, this, &PicturesDialog::describe);
         connect(m_rate, &QSpinBox::valueChanged, this, &PicturesDialog::describe);
         connect(m_button, &QPushButton::clicked, this, &PicturesDialog::toggle);
@@ -287,11 +291,11 @@ private:
         const auto oldest = view.packet(view.begin());
         const auto newest = view.end() > 0 ? view.packet(view.end() - 1) : std::nullopt;
         model::TimeRange time{view.cursorStamp(), view.cursorStamp()};
-        if (m_what->currentIndex() == ThisMoment || !oldest || !newest) {
+        if (m_what->currentData() == ThisMoment || !oldest || !newest) {
             return time;
         }
         time = {oldest->stamp, newest->stamp};
-        if (const auto range = m_what->currentIndex() == TimeOfFigures ? view.range() : std::nullopt) {
+        if (const auto range = m_what->currentData() == TimeOfFigures ? view.range() : std::nullopt) {
             time = {std::max(time.from, range->from), std::min(time.to, range->to)};
         }
         return time;
@@ -311,7 +315,7 @@ private:
         return request;
     }
     void describe() {
-        m_rate->setEnabled(m_what->currentIndex() != ThisMoment);
+        m_rate->setEnabled(m_what->currentData() != ThisMoment);
         const model::TimeRange span = time();
         const int count = request({}).count;
         const bool isTooMany = count > kMostPictures;

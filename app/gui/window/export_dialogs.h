@@ -5,6 +5,7 @@
 #include "app/gui/base/playback.h"
 #include "app/gui/theme/widgets.h"
 #include "app/gui/viewport/viewport_widget.h"
+#include "app/gui/window/range_box.h"
 #include "core/export/motion/motion_export.h"
 #include "core/model/session/session_view.h"
 
@@ -48,7 +49,7 @@ private:
     model::SessionView& m_view;
     QComboBox* m_format = new ComboBox(this);
     QLabel* m_about = dimText({}, this);
-    RangeBox* m_range = new RangeBox(this);
+    RangeBox* m_range = new RangeBox(m_view, this);
     QListWidget* m_characters = new QListWidget(this);
     QLabel* m_state = dimText({}, this);
     QPushButton* m_button = new QPushButton(this);

@@ -12,6 +12,7 @@
 #include "app/gui/window/main_window.h"
 #include "app/gui/window/opening.h"
 #include "app/gui/window/recording_dialogs.h"
+#include "app/gui/window/save_packets.h"
 #include "core/model/session/roster.h"
 #include "core/model/session/verdict.h"
 #include "core/words/say.h"
@@ -192,6 +193,15 @@ void exportMotion(Window& window) {
     }
 }
 
+void savePackets(Window& window) {
+    if (shownSession(window).end() == 0) {
+        window.say(tr("There are no packets to save: nothing has arrived yet."));
+        return;
+    }
+    OpenedFile* const file = filesOf(window).file();
+    SavePacketsDialog(shownSession(window), file != nullptr ? file->path() : QString(), &window).exec();
+}
+
 void exportPictures(Window& window) {
     if (hasCharacters(window, tr("There is nothing to draw: no character has arrived yet."))) {
         SessionDriver& driver = window.driver();
@@ -222,7 +232,8 @@ void editRecording(Window& window) {
 void showReplay(Window& window) {
     auto* dialog = window.findChild<ReplayDialog*>();
     if (dialog == nullptr) {
-        dialog = new ReplayDialog(window.driver().replaying(), window.driver().commands(), &window);
+        dialog = new ReplayDialog(window.driver().replaying(), window.driver().receiving(),
+                                  window.driver().commands(), window.kept().replayTarget, &window);
         dialog->setAttribute(Qt::WA_DeleteOnClose);
     }
     dialog->show();
@@ -319,6 +330,8 @@ const ActionInfo kFileEntries[] = {
      FileDo::call<saveScreenshot>},
     {"saveReport", "&File", QT_TRANSLATE_NOOP("Action", "Save stream re&port…"), "",
      FileDo::call<saveReport>},
+    {"savePackets", "&File", QT_TRANSLATE_NOOP("Action", "Save pac&kets…"), "Ctrl+S",
+     FileDo::call<savePackets>},
     {"exportMotion", "&File", QT_TRANSLATE_NOOP("Action", "Export &motion…"), "", FileDo::call<exportMotion>},
     {"exportPictures", "&File", QT_TRANSLATE_NOOP("Action", "Export pict&ures…"), "",
      FileDo::call<exportPictures>},

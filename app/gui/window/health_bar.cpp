@@ -85,6 +85,8 @@ HealthBar::HealthBar(model::SessionView& session, Commands& commands, QWidget* p
     m_more->setToolTip(
         toolTipText(tr("More characters than fit here. Click for a list of all, the worst first.")));
     connect(m_more, &ColourText::clicked, this, &HealthBar::showList);
+    m_when->setContentsMargins(6, 0, 0, 0);
+    row->addWidget(m_when);
     row->addWidget(m_entriesArea, 1);
     row->addWidget(m_about);
     row->addWidget(m_message, 1);
@@ -144,6 +146,7 @@ void HealthBar::refresh(const ReceivingState& receiving) {
 
 void HealthBar::refreshCharacters() {
     m_shown = boardOf(*m_session, BoardOrder::TroubleFirst);
+    m_when->setText(m_session->isRecording() ? tr("Recording") : tr("Now"));
     const bool isForMessage = m_shown.empty() && m_message->isVisible();
     qobject_cast<QHBoxLayout*>(layout())->setStretchFactor(m_entriesArea, isForMessage ? 0 : 1);
     while (m_entries.size() < std::min(m_shown.size(), kMostEntries)) {

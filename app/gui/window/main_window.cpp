@@ -210,7 +210,7 @@ void MainWindow::makeBars() {
         new TransportBar(m_driver.commands().session(),
                          {action("record"), action("pause"), action("live"), action("inputs"),
                           action("relay"), action("sampleBack"), action("sampleOn"), action("playBack"),
-                          action("play"), action("loop"), menuAt(*menuBar(), QStringLiteral("&Time/Sp&eed"))},
+                          action("loop"), menuAt(*menuBar(), QStringLiteral("&Time/Sp&eed"))},
                          this);
     connect(m_transport, &TransportBar::inputRequested, this, [this](const InputAddress& input) {
         openInputs(InputsDialog::Page::Inputs);
@@ -354,6 +354,9 @@ void MainWindow::showSession() {
     m_menus.showStates();
     showReceiving();
     m_docks->refresh();
+    if (isFile || focusWidget() == nullptr || !focusWidget()->isVisible()) {
+        m_transport->setFocus();
+    }
 }
 
 void MainWindow::showReceiving() {
@@ -381,6 +384,7 @@ void MainWindow::showVerdict() {
     if (OpenedFile* opened = m_driver.files().file(); opened != nullptr && opened->session().end() != 0) {
         file = {opened->name(), m_driver.commands().isFileShown(),
                 said(opened->verdict().said, words::Form::Headline), opened->notes()};
+        file.notes.prepend(m_driver.files().openingText());
     }
     file.comparison = comparisonText(comparison);
     const std::vector<PortState>& ports = m_driver.receiving().state().ports;
@@ -388,7 +392,6 @@ void MainWindow::showVerdict() {
     const bool isBlocked = !ports.empty() && std::ranges::none_of(ports, [](const PortState& port) {
         return port.problem.isEmpty();
     });
-    m_menus.action("pause")->setEnabled(!file.isShown);
     m_menus.action("live")->setEnabled(hasInputs || !file.isShown);
     m_menus.action("showFile")->setEnabled(!file.name.isEmpty() && !file.isShown);
     m_menus.action("closeFile")->setEnabled(!file.name.isEmpty());

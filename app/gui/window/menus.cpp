@@ -3,7 +3,7 @@
 
 #include "app/gui/base/dock_layout.h"
 #include "app/gui/base/saving.h"
-#include "app/gui/models/receiving_models.h"
+#include "app/gui/models/packet_choice.h"
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
 #include "app/gui/theme/help_link.h"
@@ -11,6 +11,7 @@
 #include "app/gui/theme/widgets.h"
 #include "app/gui/theme/words.h"
 #include "app/gui/window/command_palette.h"
+#include "app/gui/window/diagnostics.h"
 #include "app/gui/window/docks.h"
 #include "app/gui/window/guide.h"
 #include "app/gui/window/main_window.h"
@@ -19,11 +20,12 @@
 
 #include <QAction>
 #include <QApplication>
+#include <QDockWidget>
 #include <QMenu>
 #include <QMenuBar>
-#include <QSysInfo>
-#include <QTextStream>
+#include <QRegularExpression>
 
+#include <array>
 #include <set>
 #include <string_view>
 
@@ -52,57 +54,6 @@ Demo& demo(const Window& window) {
 
 void toggleDemo(Window& window) {
     demo(window).setCharacters(demo(window).isRunning() ? 0 : kDemoCharacters);
-}
-
-void writeReceiving(QTextStream& out, const ReceivingState& receiving) {
-    for (const PortState& port : receiving.ports) {
-        out << displayText(port.port) << ": " << inputState(port).text << ", " << port.status.datagrams
-            << " datagrams, " << port.status.kernelDropped << " dropped here, "
-            << port.status.refusedDatagrams << " refused\n";
-    }
-    for (const RelayState& relay : receiving.relays) {
-        out << "relay to " << displayText(relay.target) << ": " << relayStage(relay).text << ", "
-            << relay.sent << " sent, " << relay.refused << " refused, " << relay.skipped << " skipped, "
-            << relay.behind << " behind\n";
-    }
-    for (const words::Fact& finding : receiving.findings) {
-        out << "found: " << QString::fromStdString(words::say(finding, words::Form::Sentence)) << '\n';
-    }
-    out << "receive buffer " << receiving.receiveBufferBytes << " bytes, dropped here "
-        << receiving.kernelDropped << ", " << receiving.datagramsPerSecond << " datagrams/s, "
-        << receiving.bytesPerSecond << " bytes/s\n";
-}
-
-void writeSenders(QTextStream& out, model::SessionView& session) {
-    for (const model::Sender& sender : session.roster().senders()) {
-        out << "sender " << shown(sender.address()) << ": " << sender.datagrams << " datagrams, "
-            << sender.malformed << " malformed, " << sender.foreign << " foreign, " << sender.skippedBytes
-            << " bytes skipped\n";
-    }
-    for (const model::Stream& stream : session.roster().streams()) {
-        const model::CharacterKey key{stream.key.sender, stream.key.character};
-        out << "stream " << shown(session.roster().displayName(key)) << " type " << stream.key.type << ": "
-            << stream.accounting.datagrams() << " datagrams, " << stream.statistics.rateHz() << " Hz, "
-            << stream.accounting.counts().lost << " lost, " << stream.accounting.malformed()
-            << " malformed\n";
-    }
-}
-
-/// What someone who helps from afar wants to know, as plain text: program, system, ports, senders, streams.
-QString diagnosticsText(model::SessionView& session, const ReceivingState& receiving,
-                        const QString& rendererName) {
-    QString text;
-    QTextStream out(&text);
-    out << "Posewire " << QCoreApplication::applicationVersion() << ", Qt " << qVersion() << ", "
-        << QSysInfo::prettyProductName() << ", " << QSysInfo::currentCpuArchitecture() << ", platform "
-        << QGuiApplication::platformName() << '\n';
-    out << "OpenGL: " << (rendererName.isEmpty() ? QStringLiteral("none") : rendererName) << '\n';
-    writeReceiving(out, receiving);
-    const log::LogFigures figures = session.log().figures();
-    out << "history: packets " << figures.begin << " to " << figures.end << ", " << figures.memoryInUse
-        << " of " << figures.memoryCap << " bytes\n";
-    writeSenders(out, session);
-    return text;
 }
 
 void copyDiagnostics(Window& window) {
@@ -149,7 +100,10 @@ void editThresholds(Window& window) {
 void findCommand(Window& window) {
     CommandPalette palette(*window.menuBar(), &window);
     palette.exec();
-    if (QAction* chosen = palette.chosen()) {
+    QAction* chosen = palette.chosen();
+    if (const auto* dock = chosen != nullptr ? qobject_cast<QDockWidget*>(chosen->parent()) : nullptr) {
+        window.docks().show(dock->objectName()); // one that is open is wanted too
+    } else if (chosen != nullptr) {
         chosen->trigger();
     }
 }
@@ -195,6 +149,49 @@ bool hasSpeed(const Window& window) {
     return playback(window).speed() == percent / 100.0;
 }
 
+void goBack(Window& window) {
+    if (!commands(window).goBack()) {
+        window.say(tr("There is nothing to go back to: no jump led here."));
+    }
+}
+
+void goForward(Window& window) {
+    if (!commands(window).goForward()) {
+        window.say(tr("There is nothing to go forward to: no way back led here."));
+    }
+}
+
+/// "12.5 s to 20 s"; returns what is wrong with it, empty for nothing.
+QString setRange(Window& window, const QString& text) {
+    static const QRegularExpression between(QStringLiteral("\\.\\.|…|–|\\s-\\s|\\sto\\s"));
+    model::SessionView& session = commands(window).session();
+    const QStringList ends = text.split(between, Qt::SkipEmptyParts);
+    if (ends.size() != 2) {
+        return tr("Write two times with \"to\" between them.");
+    }
+    std::array<log::Stamp, 2> stamps{};
+    for (std::size_t i = 0; i < stamps.size(); ++i) {
+        const auto number = packetTarget(session, ends[static_cast<qsizetype>(i)]);
+        if (!number) {
+            return number.error();
+        }
+        const auto packet = session.packet(*number);
+        stamps[i] = packet ? packet->stamp : stamps[i];
+    }
+    if (stamps[1] < stamps[0]) {
+        return tr("The second time is before the first one.");
+    }
+    commands(window).selectRange({.fixed = model::TimeRange{stamps[0], stamps[1] + log::Duration(1)}});
+    return {};
+}
+
+void editRange(Window& window) {
+    static_cast<void>(askForText(
+        {tr("Range"), tr("&From and to: times, or numbers of packets"),
+         tr("12.5 s to 20 s, 10:42:17.508 to 10:42:20"), tr("Set")},
+        [&window](const QString& text) { return setRange(window, text); }, &window));
+}
+
 /// The evidence of the live verdict, as a click on it gives it.
 void showEvidence(Window& window) {
     window.docks().showEvidence(commands(window).live().verdicts().all().all.incident);
@@ -233,6 +230,7 @@ constexpr ActionInfo step(const char* id, const char* text, const char* shortcut
     return {id, kStep, text, shortcut, Do::call<stepSamples<steps>>};
 }
 
+constexpr const char* kRange = QT_TRANSLATE_NOOP("Action", "&Time/Ran&ge");
 constexpr const char* kFigures = QT_TRANSLATE_NOOP("Action", "&Time/Show &figures for");
 
 const ActionInfo kActions[] = {
@@ -271,16 +269,21 @@ const ActionInfo kActions[] = {
     {"fullScreen", "&View", QT_TRANSLATE_NOOP("Action", "F&ull screen"), "F11", Do::call<toggleFullScreen>,
      Do::is<&Window::isFullScreen>},
 
-    panelsIn(QT_TRANSLATE_NOOP("Action", "&Go")),
+    {"back", QT_TRANSLATE_NOOP("Action", "&Go"), QT_TRANSLATE_NOOP("Action", "&Back to before the jump"),
+     "Alt+Left", Do::call<goBack>},
+    {"forward", "&Go", QT_TRANSLATE_NOOP("Action", "Fo&rward again"), "Alt+Right", Do::call<goForward>},
+    lineIn("&Go"),
+    panelsIn("&Go"),
 
-    {"pause", QT_TRANSLATE_NOOP("Action", "&Time"), QT_TRANSLATE_NOOP("Action", "&Pause"), "Space",
-     Do::toggleIn<playback, &Playback::isPaused, &Playback::setPaused>,
-     Do::isIn<playback, &Playback::isPaused>},
-    {"live", "&Time", QT_TRANSLATE_NOOP("Action", "Back to &live"), "End",
+    {"pause", QT_TRANSLATE_NOOP("Action", "&Time"), QT_TRANSLATE_NOOP("Action", "&Play or pause"), "Space",
+     Do::callIn<playback, &Playback::playOrStop>},
+    {"live", "&Time", QT_TRANSLATE_NOOP("Action", "Back to &live"), "L",
      Do::callIn<playback, &Playback::goLive>},
-    {"play", "&Time", QT_TRANSLATE_NOOP("Action", "Pl&ay from here"), "Shift+Space",
-     Do::callIn<playback, &Playback::play, Direction::Forwards>,
-     Do::isFor<playback, &Playback::isPlaying, Direction::Forwards>},
+    {"first", "&Time", QT_TRANSLATE_NOOP("Action", "F&irst sample"), "Home",
+     Do::callIn<playback, &Playback::goToFirst>},
+    {"last", "&Time", QT_TRANSLATE_NOOP("Action", "L&ast sample"), "End",
+     Do::callIn<playback, &Playback::goToLast>},
+    lineIn("&Time"),
     {"playBack", "&Time", QT_TRANSLATE_NOOP("Action", "Play bac&kwards"), "Ctrl+Shift+Space",
      Do::callIn<playback, &Playback::play, Direction::Backwards>,
      Do::isFor<playback, &Playback::isPlaying, Direction::Backwards>},
@@ -308,6 +311,13 @@ const ActionInfo kActions[] = {
      Do::callIn<playback, &Playback::stepPackets, -1>},
     {"packetOn", kStep, QT_TRANSLATE_NOOP("Action", "Next &packet"), ".",
      Do::callIn<playback, &Playback::stepPackets, 1>},
+    lineIn("&Time"),
+    {"rangeIn", kRange, QT_TRANSLATE_NOOP("Action", "&Begin here"), "I",
+     Do::callIn<playback, &Playback::setRangeEdge, false>},
+    {"rangeOut", kRange, QT_TRANSLATE_NOOP("Action", "&End here"), "O",
+     Do::callIn<playback, &Playback::setRangeEdge, true>},
+    {"rangeTimes", kRange, QT_TRANSLATE_NOOP("Action", "&Times…"), "Ctrl+I", Do::call<editRange>},
+    {"rangeClear", kRange, QT_TRANSLATE_NOOP("Action", "&Clear"), "Ctrl+Shift+I", Do::call<useNewest<0>>},
     {"showFile", "&Time", QT_TRANSLATE_NOOP("Action", "Show the &recording"), "Shift+End",
      Do::callIn<files, &Files::show>},
     {"resetForTake", "&Time", QT_TRANSLATE_NOOP("Action", "Reset &before take"), "Ctrl+Shift+R",

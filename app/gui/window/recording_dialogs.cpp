@@ -7,6 +7,7 @@
 #include "app/gui/inputs/relay_page.h"
 #include "app/gui/models/text.h"
 #include "app/gui/theme/help_link.h"
+#include "app/net/relay.h"
 
 #include <QDateTime>
 #include <QDialogButtonBox>
@@ -15,6 +16,7 @@
 #include <QFileInfo>
 #include <QFormLayout>
 #include <QHeaderView>
+#include <QHostAddress>
 #include <QLocale>
 #include <QSpinBox>
 
@@ -254,9 +256,11 @@ QString replayText(const net::Replay& replay) {
     return parts.join(QStringLiteral(" · "));
 }
 
-ReplayDialog::ReplayDialog(Replaying& replaying, const Commands& commands, QWidget* parent)
-    : QDialog(parent), m_replaying(replaying), m_commands(commands) {
+ReplayDialog::ReplayDialog(Replaying& replaying, const Receiving& receiving, const Commands& commands,
+                           QString& target, QWidget* parent)
+    : QDialog(parent), m_replaying(replaying), m_receiving(receiving), m_commands(commands), m_kept(target) {
     setWindowTitle(tr("Replay to the network"));
+    m_target->setPlaceholderText(QStringLiteral("192.168.1.20:9763"));
     m_transport->addItems({tr("UDP, a datagram each"), tr("TCP, connecting as MVN does")});
     m_speed->setButtonSymbols(QAbstractSpinBox::NoButtons);
     m_speed->setRange(net::ReplayChoice::kSlowest, net::ReplayChoice::kFastest);
@@ -268,7 +272,7 @@ ReplayDialog::ReplayDialog(Replaying& replaying, const Commands& commands, QWidg
     form->addRow(tr("&To"), m_target);
     form->addRow(tr("&By"), m_transport);
     form->addRow(tr("&What"), m_range);
-    form->addRow(tr("&Speed"), m_speed);
+    form->addRow(tr("S&peed"), m_speed);
     form->addRow({}, m_loop);
     auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, this);
     buttons->addButton(m_button, QDialogButtonBox::ActionRole);
@@ -278,7 +282,7 @@ ReplayDialog::ReplayDialog(Replaying& replaying, const Commands& commands, QWidg
                        "as far apart as they came. It goes on when this window is closed."),
                     this),
             form, m_state},
-           *buttons, placeOf(HelpTopic::Replay), 62);
+           *buttons, placeOf(HelpTopic::Replay), 74);
     connect(m_button, &QPushButton::clicked, this, &ReplayDialog::toggle);
     auto* look = new QTimer(this);
     connect(look, &QTimer::timeout, this, &ReplayDialog::refresh);
@@ -303,12 +307,37 @@ void ReplayDialog::begin() {
     }
     ReplayRequest request;
     request.target.endpoint = {place->host.toStdString(), place->port};
+    if (!isMeant(request.target.endpoint)) {
+        return;
+    }
+    m_kept = m_target->text();
     request.target.transport = m_transport->currentIndex() == kOverTcp ? net::SendTarget::Transport::Tcp
                                                                        : net::SendTarget::Transport::Udp;
     request.speed = m_speed->value();
     request.isLooping = m_loop->isChecked();
-    request.isRangeOnly = m_range->isRangeOnly();
+    request.range = m_range->range();
     m_problem = m_replaying.start(request, m_commands.session());
+}
+
+bool ReplayDialog::isMeant(const net::Endpoint& target) {
+    std::vector<net::InputStatus> inputs;
+    for (const PortState& port : m_receiving.state().ports) {
+        inputs.push_back(port.status);
+    }
+    const QHostAddress address(target.host == "localhost" ? QStringLiteral("127.0.0.1")
+                                                          : QString::fromStdString(target.host));
+    if (!net::loopProblem(target, address, inputs)) {
+        return true;
+    }
+    MessageBox question(
+        windowTitle(),
+        tr("%1 is an input of this monitor: it would receive what it sends as if a sender had "
+           "sent it again.")
+            .arg(QString::fromStdString(net::textOf(target))),
+        QMessageBox::Cancel, this);
+    const auto* send = question.addButton(tr("&Send to this monitor"), QMessageBox::AcceptRole);
+    question.exec();
+    return question.clickedButton() == send;
 }
 
 void ReplayDialog::refresh() {

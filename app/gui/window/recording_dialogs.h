@@ -3,8 +3,10 @@
 
 #include "app/gui/base/commands.h"
 #include "app/gui/base/settings.h"
+#include "app/gui/driver/receiving.h"
 #include "app/gui/driver/replaying.h"
 #include "app/gui/theme/widgets.h"
+#include "app/gui/window/range_box.h"
 
 #include <QCheckBox>
 #include <QDialog>
@@ -91,7 +93,9 @@ class ReplayDialog final : public QDialog {
     Q_OBJECT
 
 public:
-    ReplayDialog(Replaying& replaying, const Commands& commands, QWidget* parent);
+    /// `target` is what was sent to last, and is kept from now on. All must outlive it.
+    ReplayDialog(Replaying& replaying, const Receiving& receiving, const Commands& commands, QString& target,
+                 QWidget* parent);
 
     void toggle();
 
@@ -99,11 +103,16 @@ private:
     void begin();
     void refresh();
 
+    /// Sends to an input of this monitor itself only if that is meant.
+    [[nodiscard]] bool isMeant(const net::Endpoint& target);
+
     Replaying& m_replaying;
+    const Receiving& m_receiving;
     const Commands& m_commands; ///< what is shown
-    QLineEdit* m_target = new QLineEdit(QStringLiteral("127.0.0.1:9763"), this);
+    QString& m_kept;
+    QLineEdit* m_target = new QLineEdit(m_kept, this);
     QComboBox* m_transport = new ComboBox(this);
-    RangeBox* m_range = new RangeBox(this);
+    RangeBox* m_range = new RangeBox(m_commands.session(), this);
     QDoubleSpinBox* m_speed = new QDoubleSpinBox(this);
     QCheckBox* m_loop = new QCheckBox(tr("&Again and again"), this);
     QLabel* m_state = dimText({}, this);

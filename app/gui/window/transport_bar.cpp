@@ -48,7 +48,6 @@ public:
         setObjectName(QStringLiteral("timeControls"));
         add(actions.back, "step_back");
         m_playBack = add(actions.playBack, "play_back");
-        m_play = add(actions.play, "play");
         add(actions.on, "step_on");
         add(actions.loop, "loop");
         m_speed = framedButton({}, tr("How fast it is played"), this);
@@ -63,7 +62,6 @@ public:
     void refresh(const model::Cursor& cursor) {
         if (cursor.speed != m_shownSpeed) {
             m_shownSpeed = cursor.speed;
-            m_play->setChecked(cursor.speed > 0);
             m_playBack->setChecked(cursor.speed < 0);
             restyle();
         }
@@ -89,8 +87,7 @@ private:
     }
     void restyle() {
         for (QToolButton* button : findChildren<QToolButton*>()) {
-            const bool isStopping =
-                (button == m_play && m_shownSpeed > 0) || (button == m_playBack && m_shownSpeed < 0);
+            const bool isStopping = button == m_playBack && m_shownSpeed < 0;
             if (const QString icon = button->property("iconName").toString(); !icon.isEmpty()) {
                 button->setIcon(themedIcon(isStopping ? QStringLiteral("pause") : icon));
             }
@@ -100,7 +97,6 @@ private:
     QMenu* m_speeds;
     QHBoxLayout* m_row = spacedRow({}, 2, this);
     QToolButton* m_playBack;
-    QToolButton* m_play;
     QToolButton* m_speed;
     double m_shownSpeed = 0;
 };
@@ -124,8 +120,8 @@ TransportBar::TransportBar(model::SessionView& session, const Actions& actions, 
     auto* row = spacedRow({12, 6, 12, 7}, 10, this);
     row->addWidget(m_record);
     row->addWidget(m_pause);
-    row->addWidget(m_live);
     row->addWidget(m_past);
+    row->addWidget(m_live);
     row->addSpacing(6);
     row->addWidget(m_time);
     row->addWidget(m_detail, 1);
@@ -135,11 +131,11 @@ TransportBar::TransportBar(model::SessionView& session, const Actions& actions, 
     row->addWidget(m_add);
     m_relay->setVisible(false);
     connect(m_relay, &QAbstractButton::clicked, actions.relay, &QAction::trigger);
-    m_detail->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
     new EventWatch(this, QEvent::PaletteChange, [this] { restyle(); });
     new EventWatch(this, QEvent::Resize,
                    [this] { m_detail->setVisible(width() > 100 * fontMetrics().averageCharWidth()); });
     m_record->setCheckable(true);
+    setFocusProxy(m_pause);
     m_record->setObjectName(QStringLiteral("recordButton"));
     m_live->setObjectName(QStringLiteral("modeButton"));
     restyle();
@@ -153,6 +149,11 @@ void TransportBar::restyle() {
     font.setPointSizeF(font.pointSizeF() * kTimeScale);
     m_time->setFont(font);
     m_detail->setFont(tabularFont());
+    int widest = 0;
+    for (const QString& text : {tr("● LIVE"), tr("○ WAITING"), tr("○ NO INPUT"), tr("Go live   L")}) {
+        widest = std::max(widest, m_live->fontMetrics().horizontalAdvance(text));
+    }
+    m_live->setMinimumWidth(widest + 2 * fontMetrics().height()); // what it says moves nothing
     m_time->setMinimumWidth(QFontMetrics(font).horizontalAdvance(QStringLiteral("00:00:00.000")));
     m_record->setIcon(themedIcon(QStringLiteral("record"), theme().error));
     showMode(modeNow());
@@ -188,7 +189,6 @@ void TransportBar::showTake(const std::optional<TakeState>& take) {
 
 void TransportBar::showSession(model::SessionView& session, bool isLive) {
     m_session = &session;
-    m_pause->setVisible(isLive);
     m_live->setVisible(isLive);
     refresh();
 }
@@ -206,17 +206,18 @@ TransportBar::Mode TransportBar::modeNow() const {
 
 void TransportBar::showMode(Mode mode) {
     m_mode = mode;
-    const bool isPaused = mode == Mode::Paused || mode == Mode::Playing;
-    m_pause->setIcon(themedIcon(isPaused ? QStringLiteral("play") : QStringLiteral("pause")));
-    m_pause->setText(isPaused ? tr("Go live   Space") : tr("Pause   Space"));
-    m_pause->setAccessibleName(isPaused ? tr("Go live") : tr("Pause"));
-    const std::array texts{tr("● LIVE"), tr("○ WAITING"), tr("○ NO INPUT"), tr("▮▮ PAUSED"), tr("▶ PLAYING")};
+    const bool isStopped = mode == Mode::Paused;
+    m_pause->setIcon(themedIcon(isStopped ? QStringLiteral("play") : QStringLiteral("pause")));
+    m_pause->setText(isStopped ? tr("Play   Space") : tr("Pause   Space"));
+    m_pause->setAccessibleName(isStopped ? tr("Play") : tr("Pause"));
+    const std::array texts{tr("● LIVE"), tr("○ WAITING"), tr("○ NO INPUT"), tr("Go live   L"),
+                           tr("Go live   L")};
     const std::array names{tr("Live"), tr("Waiting"), tr("No input"), tr("Paused"), tr("Playing")};
     const std::array helps{tr("The display follows the stream."),
                            tr("The display follows the stream, but nothing is arriving."),
                            tr("There is nothing to listen to. Add an input (Input > Inputs)."),
-                           tr("The display is paused; receiving continues. Click to follow again (End)."),
-                           tr("Playing the past; receiving continues. Click to follow again (End).")};
+                           tr("The display is paused; receiving continues. Click to follow again (L)."),
+                           tr("Playing the past; receiving continues. Click to follow again (L).")};
     m_live->setText(texts[static_cast<std::size_t>(mode)]);
     m_live->setAccessibleName(names[static_cast<std::size_t>(mode)]);
     m_live->setToolTip(toolTipText(helps[static_cast<std::size_t>(mode)]));
@@ -251,21 +252,24 @@ const model::CharacterPose* TransportBar::timedPose() {
 
 void TransportBar::refresh() {
     followMode();
-    m_past->setVisible(m_session->choices().cursor.mode == model::Cursor::Mode::Paused);
     m_past->refresh(m_session->choices().cursor);
     const model::CharacterPose* pose = timedPose();
     if (pose == nullptr) {
         m_time->setText(m_session->now() == log::Stamp()
                             ? QStringLiteral("--:--:--.---")
                             : timeOfDay(m_session->wallOf(m_session->cursorStamp())));
-        m_detail->setText(m_session->end() == 0 ? tr("nothing received yet") : tr("no pose"));
+        m_detail->setText({}, m_session->end() == 0 ? tr("nothing received yet") : tr("no pose"));
         return;
     }
     // In the past it is the moment that is shown, as everything else in the window says it.
     const bool isPast = m_session->choices().cursor.mode == model::Cursor::Mode::Paused;
     m_time->setText(timeOfDay(m_session->wallOf(isPast ? m_session->cursorStamp() : pose->stamp)));
-    m_detail->setText(
-        (isPast ? tr("shown · sample %1") : tr("received · sample %1")).arg(grouped(pose->sample)));
+    const bool isPlaying = m_session->choices().cursor.speed != 0;
+    const QString inTake = isPlaying ? tr("playing · sample %1") : tr("paused · sample %1");
+    const QString live = isPlaying ? tr("playing · sample %1 · receiving goes on")
+                                   : tr("paused · sample %1 · receiving goes on");
+    const QString past = m_session->isRecording() ? inTake : live;
+    m_detail->setText({}, (isPast ? past : tr("received · sample %1")).arg(grouped(pose->sample)));
 }
 
 void TransportBar::setReceiving(const ReceivingState& receiving) {

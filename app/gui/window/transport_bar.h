@@ -25,7 +25,7 @@ class TransportBar final : public QWidget {
     Q_OBJECT
 
 public:
-    /// `record` begins and ends a take, `pause` stops and continues, `live` goes to the end, `inputs` is for
+    /// `record` begins and ends a take, `pause` stops and plays, `live` goes to the end, `inputs` is for
     /// the list of inputs, `relay` is for forwarding; the others move through the past.
     struct Actions {
         QAction* record;
@@ -36,7 +36,6 @@ public:
         QAction* back;
         QAction* on;
         QAction* playBack;
-        QAction* play;
         QAction* loop;
         QMenu* speeds; ///< one of them is checked
     };
@@ -72,11 +71,11 @@ private:
     QToolButton* m_record;
     QToolButton* m_pause;
     QToolButton* m_live;
-    TimeControls* m_past; ///< only while it is what is shown
+    TimeControls* m_past;
     QToolButton* m_add;
     ColourText* m_relay; ///< only while something is forwarded, or should be
     QLabel* m_time = plainLabel(this);
-    QLabel* m_detail = dimLabel({}, this);
+    ElidedLabel* m_detail = new ElidedLabel(Qt::AlignLeft | Qt::AlignVCenter, this);
     QHBoxLayout* m_pillLayout = new QHBoxLayout;
     std::vector<ColourText*> m_pills; ///< of the inputs; a click tells more
     std::vector<InputAddress> m_inputs;

@@ -193,15 +193,15 @@ void VerdictBar::showVerdict(bool isBehindFile, const QString& blocked) {
         shown.said = {words::Kind::Text, {{"text", blocked.toStdString()}}};
     }
     m_headline->setLarge(m_isLarge && !isBehindFile);
-    m_headline->setVerdict(shown, isBehindFile ? tr("Live: ") : QString());
+    const bool isPast = m_live.choices().cursor.mode == model::Cursor::Mode::Paused;
+    m_headline->setVerdict(shown, isBehindFile ? tr("Live: ") : isPast ? tr("Now: ") : QString());
     m_span->setText(spanOf(m_live));
     m_reset->setEnabled(m_live.end() != 0);
 }
 
 void VerdictBar::showStrip(const ShownFile& file, bool hasInputs) {
-    const bool isPaused = !file.isShown && m_live.choices().cursor.mode == model::Cursor::Mode::Paused;
     const QString compared = file.comparison.isEmpty() ? QString() : QLatin1Char(' ') + file.comparison;
-    m_strip->setVisible(file.isShown || isPaused || !compared.isEmpty());
+    m_strip->setVisible(file.isShown || !compared.isEmpty());
     m_showFile->setVisible(!file.isShown && !file.name.isEmpty());
     m_showFile->setText(tr("Show %1").arg(
         fontMetrics().elidedText(file.name, Qt::ElideMiddle, fontMetrics().averageCharWidth() * 24)));
@@ -211,22 +211,14 @@ void VerdictBar::showStrip(const ShownFile& file, bool hasInputs) {
         lines.removeAll(QString());
         m_what->setText(tr("Recording %1").arg(file.name) + compared,
                         QStringLiteral(" · ") + lines.join(QStringLiteral(" · ")));
-    } else if (isPaused) {
-        const double speed = m_live.choices().cursor.speed;
-        m_what->setText((speed == 0 ? tr("▮▮ Display paused at %1") : tr("▶ Playing the past: %1"))
-                                .arg(timeOfDay(m_live.wallOf(m_live.cursorStamp()))) +
-                            compared,
-                        tr(" · receiving goes on, and so does the verdict above"));
-    }
-    if (!file.isShown && !isPaused) {
+    } else {
         m_what->setText(tr("What is received,") + compared);
     }
     m_endComparison->setVisible(!compared.isEmpty());
     m_what->setToolTip(toolTipText(m_what->text()));
     m_what->setAccessibleName(m_what->text());
-    m_goLive->setVisible(isPaused || (file.isShown && hasInputs));
-    m_goLive->setText(file.isShown ? tr("Back to live (%1)").arg(liveText(m_live, m_verdict))
-                                   : tr("Go live"));
+    m_goLive->setVisible(file.isShown && hasInputs);
+    m_goLive->setText(tr("Back to live (%1)").arg(liveText(m_live, m_verdict)));
     m_closeFile->setVisible(file.isShown);
 }
 

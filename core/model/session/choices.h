@@ -63,11 +63,12 @@ struct Annotations {
     friend bool operator==(const Annotations&, const Annotations&) = default;
 };
 
+/// From one view to another: to packets from elsewhere, or to another moment.
 struct Jump {
     std::string filterBefore;
     Selection selectionBefore;
     Cursor cursorBefore;
-    std::string filter; ///< that it put instead; the same where it kept the one before
+    std::string filter; ///< that it put instead; the same if it kept the one before
 };
 
 /// Part of the session, so that all panels agree without knowing each other.
@@ -77,6 +78,7 @@ struct Choices {
     RangeChoice range;         ///< what time statistics are of; stays while the selection changes
     std::string displayFilter; ///< which packets are listed, in the filter language; empty for all
     std::vector<Jump> jumps;   ///< that can be undone, the newest last
+    std::vector<Jump> undone;  ///< that can be made again, the newest last
     Annotations annotations;
     IncidentRequest incidentRequest; ///< the newest
     std::set<CharacterKey> hidden;   ///< characters that are not drawn
@@ -91,14 +93,20 @@ struct Choices {
     [[nodiscard]] const Jump* filterJump() const;
     /// What the operator filters by, also while a jump put another filter in its place.
     [[nodiscard]] const std::string& ownFilter() const;
-    [[nodiscard]] bool canGoBack() const { return !jumps.empty(); }
     /// Shows packets from elsewhere, and stops at the one that is selected. From a filter that a jump put
     /// there one goes back to the operator's own.
     void jump(const Selection& to, std::string filter);
-    /// To the filter, the selection and the moment before the newest jump. Nothing happens where there was
-    /// none.
-    void goBack();
+    /// Before another moment is shown: goBack() leads here again.
+    void leave();
+    /// To the filter, the selection and the moment before the newest jump. False, and nothing happens, if
+    /// there was none.
+    bool goBack() { return travel(jumps, undone); }
+    /// Undoes goBack().
+    bool goForward() { return travel(undone, jumps); }
     void askForIncident(std::optional<std::uint64_t> number, std::optional<CharacterKey> of);
+
+private:
+    bool travel(std::vector<Jump>& from, std::vector<Jump>& to);
 };
 
 } // namespace posewire::model

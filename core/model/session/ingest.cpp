@@ -59,6 +59,7 @@ log::Duration Ingest::behind() const {
 
 void Ingest::endFile() {
     m_isFile = true;
+    m_isRead = true;
     m_isLive = false;
     settle();
     m_incidents.endFile();

@@ -62,6 +62,7 @@ public:
     [[nodiscard]] log::LogReader& reader() { return m_follower.reader(); }
 
     [[nodiscard]] bool isFile() const { return m_isFile; }
+    [[nodiscard]] bool isBeingRead() const { return m_isFile && !m_isRead; }
     [[nodiscard]] log::Stamp now() const { return m_now; }
     /// Of a file its end, however long ago that was.
     [[nodiscard]] log::Stamp knownUntil() const { return m_isFile ? m_observed : m_now; }
@@ -98,6 +99,7 @@ private:
     log::Stamp m_observed{}; ///< of the newest packet
     log::Stamp m_moment{};   ///< at which silence after it is looked at next
     bool m_isFile = false;
+    bool m_isRead = false;   ///< to its end
     bool m_isHeldUp = false; ///< only packets tell what time it is
     bool m_isLive = false;   ///< packets have come as they were stamped
     Message m_unplaced;      ///< a datagram is decoded into it while its stream is not known

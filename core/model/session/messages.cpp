@@ -229,6 +229,32 @@ std::optional<std::uint64_t> Messages::packetOfSample(const log::StreamKey& key,
     return (*entries)[place].packet;
 }
 
+std::optional<std::uint64_t> Messages::firstSample(const log::StreamKey& key) const {
+    const log::StreamEntries* entries = m_moment.entriesOf(key);
+    if (entries == nullptr || entries->empty()) {
+        return std::nullopt;
+    }
+    std::size_t place = 0;
+    while (place + 1 < entries->size() && (*entries)[place + 1].sample == (*entries)[0].sample) {
+        ++place;
+    }
+    return (*entries)[place].packet;
+}
+
+std::uint64_t Messages::samplesIn(const log::StreamKey& key, const TimeRange& range) const {
+    const log::StreamEntries* entries = m_moment.entriesOf(key);
+    if (entries == nullptr || !countsSamples(key.type)) {
+        return 0;
+    }
+    const auto before = entries->atOrBeforeStamp(range.from - log::Duration(1));
+    std::uint64_t samples = 0;
+    for (std::size_t i = before ? *before + 1 : 0; i < entries->size() && (*entries)[i].stamp < range.to;
+         ++i) {
+        samples += i == 0 || (*entries)[i].sample != (*entries)[i - 1].sample ? 1 : 0;
+    }
+    return samples;
+}
+
 double Messages::ageSeconds(const CharacterKey& key) const {
     const Character* character = m_roster.find(key);
     if (character == nullptr) {

@@ -62,6 +62,10 @@ public:
     [[nodiscard]] std::optional<std::uint64_t> packetOfSample(const log::StreamKey& key, int steps) const;
     /// Seconds since the newest datagram of a character.
     [[nodiscard]] double ageSeconds(const CharacterKey& key) const;
+    /// The newest datagram of the oldest sample that is kept.
+    [[nodiscard]] std::optional<std::uint64_t> firstSample(const log::StreamKey& key) const;
+    /// Sample counters of which something came in a range, of those that are kept; 0 of types without any.
+    [[nodiscard]] std::uint64_t samplesIn(const log::StreamKey& key, const TimeRange& range) const;
     /// From the type 12 messages of a character, or of its predecessor if it has sent none itself. Empty if
     /// there is no such character.
     [[nodiscard]] const Metadata& metadata(const CharacterKey& key) const;

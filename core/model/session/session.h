@@ -66,7 +66,9 @@ public:
     void jump(const Selection& selection, std::string filter) {
         m_choices.jump(selection, std::move(filter));
     }
-    void goBack() { m_choices.goBack(); }
+    void leave() { m_choices.leave(); }
+    bool goBack() { return m_choices.goBack(); }
+    bool goForward() { return m_choices.goForward(); }
     void setMarked(std::uint64_t packet, bool isMarked) {
         setIn(m_choices.annotations.marks, packet, isMarked);
     }

@@ -69,6 +69,15 @@ log::Stamp SessionView::firstStamp() const {
     return m_moment.ingest().firstStamp();
 }
 
+log::Stamp SessionView::keptSince() const {
+    const auto oldest = begin() != 0 ? packet(begin()) : std::nullopt;
+    return oldest ? oldest->stamp : firstStamp();
+}
+
+bool SessionView::isBeingRead() const {
+    return m_moment.ingest().isBeingRead();
+}
+
 bool SessionView::isRecording() const {
     return m_moment.ingest().isFile();
 }

@@ -52,9 +52,13 @@ public:
     [[nodiscard]] log::Duration behind() const;
     /// Of the first packet that was followed, even if the log has dropped it; 0 before there is one.
     [[nodiscard]] log::Stamp firstStamp() const;
+    /// Of the oldest packet that can be looked at: firstStamp() as long as all are kept.
+    [[nodiscard]] log::Stamp keptSince() const;
     /// What the receiving computer's clock showed: for times of day. All else is by stamps.
     [[nodiscard]] log::WallTime wallOf(log::Stamp stamp) const { return log().timeline().wallOf(stamp); }
     [[nodiscard]] bool isRecording() const;
+    /// More of the recording is to come: that nothing is wrong yet says little.
+    [[nodiscard]] bool isBeingRead() const;
     /// For readers on other threads.
     [[nodiscard]] const log::PacketLog& log() const;
     /// Nothing if the log has dropped it. The bytes are valid until the session follows the log again.

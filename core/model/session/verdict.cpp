@@ -191,6 +191,9 @@ TakeVerdict withoutIncident(const SessionView& session, const VerdictSpan& span,
     if (auto late = ifBehind(session); late && !span.isClosed()) {
         return *std::move(late);
     }
+    if (session.isBeingRead()) {
+        return lasting(TakeVerdict::State::None, {words::Kind::NoFaultSoFar}, since);
+    }
     if (starting == characters.size()) {
         return lasting(TakeVerdict::State::None, {words::Kind::NoPoseYet}, since);
     }
@@ -420,6 +423,7 @@ struct Verdicts::Judged {
         log::Stamp reset{};
         std::uint64_t retired = 0;
         bool isRecording = false;
+        bool isBeingRead = false;
         friend bool operator==(const Basis&, const Basis&) = default;
     };
     std::optional<Basis> basis;
@@ -463,8 +467,8 @@ const TakeVerdicts& Verdicts::all() const {
     const Judged::Basis basis{
         m_session.end(),
         m_session.knownUntil(), // of a recording it is at rest
-        incidents().version(),  m_moment.choices().reset, m_session.accounts().retired().senders,
-        m_session.isRecording()};
+        incidents().version(),   m_moment.choices().reset, m_session.accounts().retired().senders,
+        m_session.isRecording(), m_session.isBeingRead()};
     if (!m_judged->isKept && m_judged->basis != basis) {
         m_judged->verdicts = verdictsOf(m_session, span(), m_session.atNow().roster().listed());
         m_judged->basis = basis;

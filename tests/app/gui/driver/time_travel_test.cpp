@@ -143,6 +143,53 @@ TEST_F(TimeTravelTest, AJumpStopsThereAndOneComesBackToTheMomentBefore) {
     EXPECT_EQ(packet(), 42U) << "what is looked at is what is shown";
 }
 
+TEST_F(TimeTravelTest, SpaceStopsAndPlaysWithoutLosingThePlace) {
+    m_driver.playback().showMoment(momentOf(300));
+    m_driver.playback().playOrStop();
+    pass(1s);
+    EXPECT_EQ(packet(), 360U);
+    m_driver.playback().playOrStop();
+    pass(1s);
+    EXPECT_EQ(packet(), 360U);
+    EXPECT_TRUE(m_driver.playback().isPaused());
+}
+
+TEST_F(TimeTravelTest, BackAndForwardKnowEveryJump) {
+    m_driver.playback().showMoment(momentOf(300));
+    m_driver.playback().goToFirst();
+    EXPECT_EQ(packet(), 0U);
+    m_driver.playback().goToLast();
+    EXPECT_EQ(packet(), kPackets - 1);
+    m_driver.commands().jump(100, "type == 02");
+    Commands& commands = m_driver.commands();
+    const auto filter = [&] { return commands.session().choices().displayFilter; };
+    EXPECT_TRUE(commands.goBack());
+    EXPECT_EQ(packet(), kPackets - 1);
+    EXPECT_EQ(filter(), "");
+    EXPECT_TRUE(commands.goBack());
+    EXPECT_EQ(packet(), 0U);
+    EXPECT_TRUE(commands.goForward());
+    EXPECT_TRUE(commands.goForward());
+    EXPECT_EQ(packet(), 100U);
+    EXPECT_EQ(filter(), "type == 02");
+    EXPECT_EQ(commands.session().choices().ownFilter(), "");
+    EXPECT_FALSE(commands.goForward());
+}
+
+TEST_F(TimeTravelTest, ARangeBeginsAndEndsWithTheSampleThatIsShown) {
+    m_driver.playback().showMoment(momentOf(60));
+    m_driver.playback().setRangeEdge(false);
+    m_driver.playback().showMoment(momentOf(120));
+    m_driver.playback().setRangeEdge(true);
+    const auto range = m_driver.commands().session().range();
+    ASSERT_TRUE(range);
+    EXPECT_EQ(m_driver.commands().session().packetFrom(range->from), 60U);
+    EXPECT_EQ(m_driver.commands().session().packetFrom(range->to), 121U);
+    m_driver.playback().showMoment(momentOf(30));
+    m_driver.playback().setRangeEdge(true); // before its beginning
+    EXPECT_EQ(m_driver.commands().session().packetFrom(m_driver.commands().session().range()->from), 0U);
+}
+
 TEST_F(TimeTravelTest, AStepLetsGoOfThePacketThatWasHeld) {
     m_driver.commands().selectPacket(42);
     m_driver.playback().stepSamples(key(), 1);

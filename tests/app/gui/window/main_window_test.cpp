@@ -258,8 +258,6 @@ TEST_F(MainWindowTest, EntriesOfTheWindowDoWhatTheySay) {
 
 TEST_F(MainWindowTest, EntriesShowWhatElsewhereSwitchedOn) {
     const auto window = makeWindow();
-    driver.playback().setPaused(true);
-    EXPECT_TRUE(action(*window, "pause")->isChecked());
     driver.commands().setGhostVisible(true);
     EXPECT_TRUE(action(*window, "ghost")->isChecked());
     window->viewport().choice().toggleProjection();

@@ -162,13 +162,13 @@ TEST_F(PagesTest, EndGoesBackToLiveFromEveryList) {
           {"faults", shownPart<TableView>("faults")}}) {
         m_window.docks().show(name);
         list->setFocus();
-        m_driver.playback().setPaused(true);
+        m_driver.playback().playOrStop();
         QTest::keyClick(list, Qt::Key_End);
         EXPECT_FALSE(m_driver.playback().isPaused()) << name;
     }
 }
 
-TEST_F(PagesTest, TheClockAndTheStripTellTheSameMomentOfThePast) {
+TEST_F(PagesTest, TheClockTellsTheMomentOfThePast) {
     receive(0, 4);
     QTest::qWait(20);
     auto sender = net::DatagramSender::connect(
@@ -179,13 +179,12 @@ TEST_F(PagesTest, TheClockAndTheStripTellTheSameMomentOfThePast) {
         m_driver.tick();
         return m_driver.commands().live().end() == before + 1;
     }));
-    m_driver.playback().setPaused(true);
+    m_driver.playback().playOrStop();
     m_driver.tick();
     emit m_driver.tableTick();
     const QString moment =
         timeOfDay(m_driver.commands().live().wallOf(m_driver.commands().live().cursorStamp()));
     EXPECT_EQ(m_window.findChild<QLabel*>("transportTime")->text(), moment);
-    EXPECT_TRUE(m_window.findChild<ElidedLabel*>("stripText")->text().contains(moment));
 }
 
 } // namespace

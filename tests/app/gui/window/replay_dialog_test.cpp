@@ -38,7 +38,8 @@ protected:
 
     log::SystemClock m_clock;
     SessionDriver m_driver{m_clock};
-    ReplayDialog m_dialog{m_driver.replaying(), m_driver.commands(), nullptr};
+    QString m_kept;
+    ReplayDialog m_dialog{m_driver.replaying(), m_driver.receiving(), m_driver.commands(), m_kept, nullptr};
     QLineEdit* m_target = m_dialog.findChild<QLineEdit*>();
 };
 
@@ -49,6 +50,7 @@ TEST_F(ReplayDialogTest, SendsWhatIsShownAndSaysHowMuch) {
     m_dialog.toggle();
     ASSERT_TRUE(net::eventually([&] { return consumer.packets() == 30; }));
     EXPECT_TRUE(QTest::qWaitFor([&] { return says("Sent to") && says("30 datagrams"); }, 5'000));
+    EXPECT_EQ(m_kept, m_target->text());
 }
 
 TEST_F(ReplayDialogTest, AReplayWithoutEndIsStoppedByTheSameButton) {

@@ -20,8 +20,7 @@ protected:
     QMenu m_speeds;
     TransportBar m_bar{m_stage.session,
                        {named("record"), named("pause"), named("live"), named("inputs"), named("relay"),
-                        named("back"), named("on"), named("playBack"), named("play"), named("loop"),
-                        &m_speeds}};
+                        named("back"), named("on"), named("playBack"), named("loop"), &m_speeds}};
 };
 
 TEST_F(TransportBarTest, TheClockGoesOnWhenTheFirstCharacterFallsSilent) {

@@ -72,11 +72,9 @@ TEST_F(VerdictBarTest, IsAboutTheWireAlsoWhileTheDisplayIsPaused) {
     m_stage.now += 1'025ms; // the sender dies
     m_stage.follow();
     refresh();
-    EXPECT_THAT(headline(), StartsWith("Not good: no data from"));
+    EXPECT_THAT(headline(), StartsWith("Now: Not good: no data from"));
     EXPECT_THAT(headline(), HasSubstr("going on"));
-    EXPECT_FALSE(strip()->isHidden());
-    EXPECT_THAT(stripText(), HasSubstr("Display paused at"));
-    EXPECT_FALSE(button("liveButton")->isHidden());
+    EXPECT_TRUE(strip()->isHidden()) << "pausing moves nothing";
 }
 
 TEST_F(VerdictBarTest, SaysWhichRecordingIsShownAndWhatIsLiveBehindIt) {

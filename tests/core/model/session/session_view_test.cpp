@@ -433,7 +433,7 @@ TEST_F(ViewTest, AJumpIsUndoneWithTheFilterAndTheSelectionThereWere) {
     own.packet = 7;
     m_session.setSelection(own);
     m_session.setDisplayFilter("type == 02");
-    EXPECT_FALSE(m_session.choices().canGoBack());
+    EXPECT_FALSE(m_session.goBack());
     Selection there;
     there.packet = 99;
     m_session.jump(there, "type == 02");
