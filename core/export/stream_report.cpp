@@ -168,7 +168,7 @@ void addRestarts(std::vector<Finding>& findings, const std::vector<model::Stream
                "times the sample counter of a character restarted.");
 }
 
-/// What is known of the session as a whole alone.
+/// Findings that are known of the whole session alone.
 void addSession(std::vector<Finding>& findings, const model::SessionView& session) {
     if (session.accounts().overtaken() != 0) {
         findings.push_back(

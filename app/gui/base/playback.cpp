@@ -29,7 +29,7 @@ log::Stamp newestMoment(const model::SessionView& session) {
 /// Streams that send at all have sent by then.
 constexpr log::Duration kBeginning = std::chrono::milliseconds(200);
 
-/// Of all streams that send at the beginning of what is kept, a sample has come by then.
+/// The packet by which all streams that send at the beginning of what is kept have sent a sample.
 std::uint64_t firstWholePacket(const model::SessionView& session) {
     const log::Stamp until = session.keptSince() + kBeginning;
     std::uint64_t packet = session.begin();

@@ -83,7 +83,7 @@ PropertyValue shownValue(const model::SessionView& view, const MetadataRow& row)
             row.isEarlier ? QString() : tr("First sent at %1").arg(timeOfDay(view.wallOf(row.value->stamp)))};
 }
 
-/// When a tag was last sent before the moment that is shown, changed or not.
+/// Stamp of the newest message with a tag before the moment that is shown.
 log::Stamp lastSent(model::SessionView& view, const MetadataRow& row) {
     const auto key = shownCharacter(view);
     if (row.tag->lastSeen <= view.cursorStamp() || !key) {

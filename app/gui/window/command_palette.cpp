@@ -32,7 +32,7 @@ QString withoutMnemonic(const QString& text) {
     return plain;
 }
 
-/// What people call what has another name here, by the action or the dock.
+/// Other words for commands, by the name of the action or the dock.
 constexpr std::pair<const char*, const char*> kSynonyms[] = {
     {"pause", QT_TRANSLATE_NOOP("Action", "freeze stop hold")},
     {"live", QT_TRANSLATE_NOOP("Action", "now follow end")},

@@ -68,7 +68,7 @@ private:
     PassingMessage* m_message;
     QToolButton* m_about; ///< opens m_helpPlace, while the message is there
     QString m_helpPlace;
-    QLabel* m_when = dimLabel(tr("Now"), this); ///< what characters are judged by
+    QLabel* m_when = dimLabel(tr("Now"), this); ///< the time that characters are judged by
     QLabel* m_rate = plainLabel(this);
     QLabel* m_history = plainLabel(this);
     QLabel* m_dropped = plainLabel(this);

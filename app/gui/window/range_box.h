@@ -8,7 +8,7 @@
 
 namespace posewire::gui {
 
-/// Which time is written or sent: the range that is selected, if there is one, or all there is.
+/// Choice between the range that is selected, if there is one, and all there is.
 class RangeBox final : public ComboBox {
     Q_OBJECT
 

@@ -40,7 +40,7 @@ struct Job {
     std::string path;
     log::OutputRules rules;
 
-    /// What Wireshark shows beside a packet.
+    /// The comments that Wireshark shows beside a packet.
     [[nodiscard]] std::vector<std::string> commentsOn(std::uint64_t packet) const {
         const auto comment = annotations.comments.find(packet);
         const bool isMarked = annotations.marks.contains(packet);

@@ -99,7 +99,7 @@ private:
     [[nodiscard]] Counters between(log::Stamp from, log::Stamp to) const;
     static void merge(Bucket& bucket, const Bucket& before);
     Bucket& bucketAt(log::Stamp stamp);
-    /// Where the bucket of a width begins that a stamp is in.
+    /// The beginning of the bucket that holds a stamp, if buckets are that wide.
     [[nodiscard]] log::Stamp beginOf(log::Stamp stamp, log::Duration width) const;
     void coarsen();
     [[nodiscard]] log::Duration widthOf(std::size_t index) const { return width(m_buckets[index].start); }

@@ -184,12 +184,12 @@ words::Value otherSender(const std::string& own, const words::Value& others) {
                       : others;
 }
 
-/// It lasts until a recording or a range ends.
+/// An incident may last until a recording or a range ends.
 bool isAtEnd(const SessionView& session, const ListedIncident& listed) {
     return listed.state != State::Over && (session.isRecording() || listed.rangeEnd);
 }
 
-/// When it was over; if it goes on, until when it is known to.
+/// The end of an incident; of one that goes on, the time until which that is known.
 log::Stamp endOf(const SessionView& session, const ListedIncident& listed) {
     const log::Stamp last = listed.incident.lastStamp;
     return listed.state == State::Over || listed.rangeEnd ? last : std::max(session.knownUntil(), last);

@@ -35,7 +35,7 @@ struct ListedIncident {
                                                           log::Stamp from = log::Stamp::min(),
                                                           log::Stamp to = log::Stamp::max());
 
-/// What of one was in a range: the rest of it does not count. Nothing if none of it was.
+/// The part of an incident that was in a range; nothing if none of it was.
 [[nodiscard]] std::optional<ListedIncident> withinRange(const SessionView& session, ListedIncident one,
                                                         const TimeRange& range);
 
