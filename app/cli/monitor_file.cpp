@@ -69,6 +69,14 @@ public:
         }
     }
 
+    /// All of it is there. Limits count until it was ended.
+    void end() {
+        flush();
+        if (m_last && m_reception) {
+            *m_last += m_reception->afterLast;
+        }
+    }
+
     /// The latest stamp, in the end when nothing more was received.
     [[nodiscard]] std::optional<log::Stamp> last() const { return m_last; }
     [[nodiscard]] double durationS() const {
@@ -163,7 +171,7 @@ ExitStatus monitorFile(const MonitorOptions& options, Console& console) {
     const auto takeNotes = [&replay](std::span<const std::string_view> notes) { replay.takeNotes(notes); };
     WatchedInput input(**file, contents, console.complain);
     const auto read = log::readFile(input, std::ref(replay), takeNotes, &contents);
-    replay.flush();
+    replay.end();
     log::Recorder::Result recorded = replay.recorded();
     if (recorder && recorded) {
         recorded = recorder->finish();
