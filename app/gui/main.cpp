@@ -191,9 +191,7 @@ void begin(MainWindow& window, const Options& options, const Settings& settings)
         auto* writing = new QTimer(&window);
         QObject::connect(writing, &QTimer::timeout, &window, &MainWindow::writeSettings);
         writing->start(std::chrono::seconds(1));
-        if (!window.driver().history().lost().empty()) {
-            window.menus().action("recovered")->trigger();
-        } else if (!options.skipsTour) {
+        if (!window.opening().tellRecovery(settings.take) && !options.skipsTour) {
             window.guide().offerFirstSteps();
         }
     } else {

@@ -116,6 +116,7 @@ Settings settingsOf(const QJsonObject& object) {
     settings.file = object["file"].toString();
     settings.fileFilter = object["fileFilter"].toString().left(Settings::kLongestFilter);
     settings.comparedFile = object["comparedFile"].toString();
+    settings.take = object["take"].toString();
     settings.replayTarget = object["replayTarget"].toString().left(Settings::kLongestFilter);
     settings.isGuideOffered = object["tour"].toInt() > 0;
     for (const auto& path : object["recentFiles"].toArray()) {
@@ -257,6 +258,7 @@ QJsonObject jsonOf(const Settings& settings) {
             {"file", settings.file},
             {"fileFilter", settings.fileFilter},
             {"comparedFile", settings.comparedFile},
+            {"take", settings.take},
             {"replayTarget", settings.replayTarget},
             {"tour", settings.isGuideOffered ? 1 : 0},
             {"recentFiles", QJsonArray::fromStringList(settings.recentFiles)}};

@@ -80,6 +80,7 @@ struct Settings {
     QString fileFilter;          ///< the display filter chosen for that
     QString comparedFile;        ///< what that, or what was received, was compared with; empty for none
     bool isGuideOffered = false; ///< at the first start
+    QString take;                ///< that is being recorded; empty once it has ended as it should
     QString replayTarget;        ///< that was sent to last; empty for none
     QStringList recentFiles;     ///< paths, the newest first, at most kMostRecentFiles
     static constexpr int kMostRecentFiles = 8;

@@ -222,7 +222,7 @@ void MainWindow::makeBars() {
 
     m_verdict = new VerdictBar(m_driver.commands().live(),
                                {action("resetForTake"), action("live"), action("showFile"),
-                                action("closeFile"), action("endComparison")},
+                                action("closeFile"), action("endComparison"), action("recovered")},
                                this);
     setHelpPlace(*m_verdict, placeOf(HelpTopic::VerdictBar));
     m_verdict->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
@@ -326,6 +326,7 @@ Settings MainWindow::settings() const {
     settings.file = pathOf(file);
     settings.fileFilter =
         file != nullptr ? QString::fromStdString(file->session().choices().ownFilter()) : QString();
+    settings.take = m_driver.takes().state().value_or(TakeState()).path;
     settings.comparedFile = pathOf(m_driver.files().comparing().file());
     return settings;
 }
@@ -338,6 +339,7 @@ void MainWindow::writeSettings() {
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
+    static_cast<void>(m_driver.takes().end()); // so that it does not count as cut off
     if (const QString problem = m_file.write(settings()); !problem.isEmpty()) {
         qWarning("Settings were not saved: %s", qUtf8Printable(problem));
     }
@@ -354,9 +356,7 @@ void MainWindow::showSession() {
     m_menus.showStates();
     showReceiving();
     m_docks->refresh();
-    if (isFile || focusWidget() == nullptr || !focusWidget()->isVisible()) {
-        m_transport->setFocus();
-    }
+    m_transport->setFocus(); // what had it may be gone
 }
 
 void MainWindow::showReceiving() {

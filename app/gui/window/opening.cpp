@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/window/opening.h"
 
+#include "app/gui/models/text.h"
 #include "app/gui/theme/widgets.h"
 #include "app/gui/window/docks.h"
 #include "app/gui/window/main_window.h"
+#include "app/gui/window/verdict_bar.h"
 
 #include <QDir>
 #include <QDropEvent>
@@ -106,6 +108,21 @@ bool Opening::eventFilter(QObject* /*window*/, QEvent* event) {
         open(path);
     }
     return true;
+}
+
+bool Opening::tellRecovery(const QString& take) {
+    const std::vector<log::LostHistory> lost = m_window.driver().history().lost();
+    QStringList lines;
+    if (!lost.empty()) {
+        lines += tr("Posewire did not end as it should: packets until %1 are recovered.")
+                     .arg(timeOfDay(lost.back().end).chopped(4));
+    }
+    if (const QFileInfo file(take); !take.isEmpty() && file.exists()) {
+        lines += tr("%1 was cut off, and is whole up to then.").arg(file.fileName());
+        noteRecent(take);
+    }
+    m_window.findChild<VerdictBar*>()->showRecovery(lines.join(QLatin1Char(' ')));
+    return !lines.isEmpty();
 }
 
 void Opening::sayAlsoAfterwards(const QString& text) {

@@ -25,6 +25,9 @@ public:
     void noteRecent(const QString& path);
     /// Beside the newest recording, else where takes go.
     [[nodiscard]] QString folder() const;
+    /// Has the window tell what the run before has left: packets, and a take that was cut off, empty for
+    /// none. False if it has left nothing.
+    bool tellRecovery(const QString& take);
 
     bool eventFilter(QObject* window, QEvent* event) override;
 

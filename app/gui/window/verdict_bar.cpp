@@ -142,7 +142,8 @@ VerdictBar::VerdictBar(model::SessionView& live, const Actions& actions, QWidget
       m_showFile(buttonFor(actions.showFile, {}, this)),
       m_goLive(buttonFor(actions.live, {}, m_strip)),
       m_closeFile(buttonFor(actions.closeFile, tr("Close recording"), m_strip)),
-      m_endComparison(buttonFor(actions.endComparison, tr("End comparison"), m_strip)) {
+      m_endComparison(buttonFor(actions.endComparison, tr("End comparison"), m_strip)),
+      m_recovered(buttonFor(actions.recovered, tr("Recovered packets…"), m_strip)) {
     setObjectName(QStringLiteral("verdictBar"));
     m_span->setObjectName(QStringLiteral("verdictSpan"));
     m_span->setFont(tabularFont());
@@ -156,6 +157,8 @@ VerdictBar::VerdictBar(model::SessionView& live, const Actions& actions, QWidget
     row->addWidget(m_showFile);
     auto* strip = spacedRow({12, 3, 12, 3}, 10, m_strip);
     strip->addWidget(m_what, 1);
+    strip->addWidget(m_recovered);
+    strip->addWidget(m_later);
     strip->addWidget(m_endComparison);
     strip->addWidget(m_goLive);
     strip->addWidget(m_closeFile);
@@ -168,6 +171,9 @@ VerdictBar::VerdictBar(model::SessionView& live, const Actions& actions, QWidget
         painter.fillRect(m_strip->rect(), tinted(theme().accent));
         painter.fillRect(QRect(0, 0, 4, m_strip->height()), theme().accent);
     });
+    for (const QToolButton* button : {m_recovered, m_later}) {
+        connect(button, &QToolButton::clicked, this, [this] { m_recovery.clear(); });
+    }
     connect(m_headline, &QAbstractButton::clicked, this,
             [this] { emit evidenceRequested(m_verdict.incident); });
 }
@@ -175,6 +181,10 @@ VerdictBar::VerdictBar(model::SessionView& live, const Actions& actions, QWidget
 void VerdictBar::setLarge(bool isLarge) {
     m_isLarge = isLarge;
     m_headline->setLarge(isLarge);
+}
+
+void VerdictBar::showRecovery(const QString& text) {
+    m_recovery = text;
 }
 
 void VerdictBar::refresh(const ShownFile& file, bool hasInputs, const QString& blocked) {
@@ -201,7 +211,10 @@ void VerdictBar::showVerdict(bool isBehindFile, const QString& blocked) {
 
 void VerdictBar::showStrip(const ShownFile& file, bool hasInputs) {
     const QString compared = file.comparison.isEmpty() ? QString() : QLatin1Char(' ') + file.comparison;
-    m_strip->setVisible(file.isShown || !compared.isEmpty());
+    const bool isRecovery = !file.isShown && compared.isEmpty() && !m_recovery.isEmpty();
+    m_strip->setVisible(file.isShown || isRecovery || !compared.isEmpty());
+    m_recovered->setVisible(isRecovery);
+    m_later->setVisible(isRecovery);
     m_showFile->setVisible(!file.isShown && !file.name.isEmpty());
     m_showFile->setText(tr("Show %1").arg(
         fontMetrics().elidedText(file.name, Qt::ElideMiddle, fontMetrics().averageCharWidth() * 24)));
@@ -212,7 +225,7 @@ void VerdictBar::showStrip(const ShownFile& file, bool hasInputs) {
         m_what->setText(tr("Recording %1").arg(file.name) + compared,
                         QStringLiteral(" · ") + lines.join(QStringLiteral(" · ")));
     } else {
-        m_what->setText(tr("What is received,") + compared);
+        m_what->setText(isRecovery ? m_recovery : tr("What is received,") + compared);
     }
     m_endComparison->setVisible(!compared.isEmpty());
     m_what->setToolTip(toolTipText(m_what->text()));

@@ -63,11 +63,14 @@ public:
         QAction* showFile;
         QAction* closeFile;
         QAction* endComparison;
+        QAction* recovered;
     };
     /// `live` is the session of what is received.
     VerdictBar(model::SessionView& live, const Actions& actions, QWidget* parent = nullptr);
 
     void setLarge(bool isLarge);
+    /// A line about what the last run has left, until it is looked at or put off.
+    void showRecovery(const QString& text);
     /// `hasInputs`: there is something to be live with. `blocked`: why nothing can come from any of them.
     void refresh(const ShownFile& file, bool hasInputs, const QString& blocked = {});
     /// As last refreshed.
@@ -94,6 +97,9 @@ private:
     QToolButton* m_goLive;
     QToolButton* m_closeFile;
     QToolButton* m_endComparison;
+    QToolButton* m_recovered;
+    QToolButton* m_later = framedButton(tr("Later"), tr("It stays in the menu File"), m_strip);
+    QString m_recovery;
     model::TakeVerdict m_verdict;
     bool m_isLarge = false;
 };

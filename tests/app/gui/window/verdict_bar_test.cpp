@@ -54,7 +54,7 @@ protected:
     }
     VerdictBar m_bar{m_stage.session,
                      {named("resetForTake"), named("live"), named("showFile"), named("closeFile"),
-                      named("endComparison")}};
+                      named("endComparison"), named("recovered")}};
 };
 
 TEST_F(VerdictBarTest, SaysNeitherGoodNorBadBeforeAnythingCame) {
@@ -87,6 +87,19 @@ TEST_F(VerdictBarTest, SaysWhichRecordingIsShownAndWhatIsLiveBehindIt) {
     refresh({"take.pcapng", false, {}, {}});
     EXPECT_TRUE(strip()->isHidden());
     EXPECT_EQ(button("showFileButton")->text(), "Show take.pcapng");
+}
+
+TEST_F(VerdictBarTest, TellsOfWhatTheLastRunHasLeftUntilItIsPutOff) {
+    m_bar.showRecovery("packets until 15:14:01");
+    refresh();
+    EXPECT_EQ(stripText(), "packets until 15:14:01");
+    EXPECT_FALSE(button("recoveredButton")->isHidden());
+    refresh({"take.pcapng", true, {}, {}});
+    EXPECT_TRUE(button("recoveredButton")->isHidden());
+    refresh();
+    button("recoveredButton")->click();
+    refresh();
+    EXPECT_TRUE(strip()->isHidden());
 }
 
 TEST_F(VerdictBarTest, SaysWhyNothingCanCome) {
