@@ -132,7 +132,7 @@ std::vector<PacketColumn> PacketModel::columns(const PacketModel& model) {
     give(kDelta, {.usual = QStringLiteral("9999.99")});
     give(kSender, {.usual = QStringLiteral("192.168.10.21:52011")});
     give(kType,
-         {.usual = QStringLiteral("22 Angu"), .wish = typeTitle(22), .least = QStringLiteral("22 An")});
+         {.usual = QStringLiteral("22 Angular k"), .wish = typeTitle(22), .least = QStringLiteral("22 An")});
     give(kCharacter, {.usual = QStringLiteral("● 0 Mira"),
                       .wish = QStringLiteral("● 10 Mira Lindqvist"),
                       .least = QStringLiteral("● 10")});
