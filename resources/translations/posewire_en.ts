@@ -112,10 +112,10 @@
         </translation>
     </message>
     <message numerus="yes">
-        <source>%1 to %2, %n sample(s)</source>
+        <source>Selected: %1 to %2, %n sample(s)</source>
         <translation>
-            <numerusform>%1 to %2, %n sample</numerusform>
-            <numerusform>%1 to %2, %n samples</numerusform>
+            <numerusform>Selected: %1 to %2, %n sample</numerusform>
+            <numerusform>Selected: %1 to %2, %n samples</numerusform>
         </translation>
     </message>
 </context>

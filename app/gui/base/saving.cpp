@@ -108,6 +108,11 @@ QString saveFile(const QString& path, QByteArrayView content) {
     return written ? QString() : tr("Not saved: %1").arg(QString::fromStdString(written.error().text));
 }
 
+QString whyNotWritten(const log::FileError& error) {
+    return error.kind == log::FileError::Kind::Cancelled ? tr("Cancelled: nothing was written.")
+                                                         : QString::fromStdString(error.text);
+}
+
 std::future<QString> saveCopy(const QString& from, const QString& to) {
     log::OutputRules rules = replacing();
     rules.inUse.push_back(QFile::encodeName(from).toStdString());

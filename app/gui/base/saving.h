@@ -38,6 +38,9 @@ namespace posewire::gui {
 /// operator, empty for nothing.
 [[nodiscard]] QString saveFile(const QString& path, QByteArrayView content);
 
+/// One sentence for the operator.
+[[nodiscard]] QString whyNotWritten(const log::FileError& error);
+
 /// Copies a file likewise, on a thread of its own.
 [[nodiscard]] std::future<QString> saveCopy(const QString& from, const QString& to);
 

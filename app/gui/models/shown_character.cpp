@@ -136,7 +136,7 @@ QString rangeText(model::SessionView& view, const model::TimeRange& range) {
          character != nullptr ? character->streams : decltype(character->streams)()) {
         samples = std::max(samples, view.messages().samplesIn(stream->key, range));
     }
-    return tr("%1 to %2, %n sample(s)", nullptr, static_cast<int>(samples))
+    return tr("Selected: %1 to %2, %n sample(s)", nullptr, static_cast<int>(samples))
         .arg(timeOfDay(view.wallOf(range.from)), timeOfDay(view.wallOf(range.to - log::Duration(1))));
 }
 

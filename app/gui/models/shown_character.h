@@ -39,7 +39,8 @@ namespace posewire::gui {
 /// "selection 10:42:17.5 + 2.1 s", "all, 12 min"; empty before anything came.
 [[nodiscard]] QString spanText(const model::SessionView& view);
 
-/// A range with its samples of the shown character: "10:42:17.508 to 10:42:19.608, 126 samples".
+/// The selected range as a choice, with its samples of the shown character: "Selected: 10:42:17.508 to
+/// 10:42:19.608, 126 samples".
 [[nodiscard]] QString rangeText(model::SessionView& view, const model::TimeRange& range);
 
 /// Without data for this long a stream is silent, and for the second it is stale (seconds).

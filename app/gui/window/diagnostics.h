@@ -8,7 +8,7 @@
 
 namespace posewire::gui {
 
-/// What someone who helps from afar wants to know, as plain text: program, system, ports, senders, streams.
+/// Plain text for support: program, system, ports, senders and streams.
 [[nodiscard]] QString diagnosticsText(model::SessionView& session, const ReceivingState& receiving,
                                       const QString& rendererName);
 

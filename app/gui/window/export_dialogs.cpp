@@ -181,9 +181,7 @@ void MotionExportDialog::watch() {
     m_watch->stop();
     const Result result = m_work->take();
     if (!result) {
-        showState(result.error().kind == log::FileError::Kind::Cancelled
-                      ? tr("Cancelled: nothing was written.")
-                      : QString::fromStdString(result.error().text));
+        showState(whyNotWritten(result.error()));
         return;
     }
     QStringList lines;
@@ -219,7 +217,7 @@ public:
         constexpr int kMostRate = 240;
         setWindowTitle(tr("Export pictures"));
         if (const auto range = commands.session().range()) {
-            m_what->addItem(tr("Selected: %1").arg(rangeText(commands.session(), *range)), TimeOfFigures);
+            m_what->addItem(rangeText(commands.session(), *range), TimeOfFigures);
         }
         m_what->addItem(tr("This moment"), ThisMoment);
         m_what->addItem(tr("All there is"), AllThereIs);

@@ -15,7 +15,7 @@ class RangeBox final : public ComboBox {
 public:
     RangeBox(model::SessionView& view, QWidget* parent) : ComboBox(parent), m_view(view) {
         if (const auto range = view.range()) {
-            addItem(tr("Selected: %1").arg(rangeText(view, *range)), true);
+            addItem(rangeText(view, *range), true);
         }
         addItem(tr("All there is"), false);
     }

@@ -91,7 +91,7 @@ SavePacketsDialog::SavePacketsDialog(model::SessionView& view, QString inUse, QW
     : QDialog(parent), m_view(view), m_inUse(std::move(inUse)) {
     setWindowTitle(tr("Save packets"));
     if (const auto range = view.range()) {
-        m_what->addItem(tr("Selected: %1").arg(rangeText(view, *range)), SavedRange);
+        m_what->addItem(rangeText(view, *range), SavedRange);
     }
     const QString filter = QString::fromStdString(view.choices().displayFilter);
     if (!filter.isEmpty()) {
@@ -167,9 +167,7 @@ void SavePacketsDialog::watch() {
     m_watch->stop();
     const Result result = m_work->take();
     showState(result ? tr("Saved %1 packets as %2").arg(grouped(*result), m_path)
-              : result.error().kind == log::FileError::Kind::Cancelled
-                  ? tr("Cancelled: nothing was written.")
-                  : QString::fromStdString(result.error().text));
+                     : whyNotWritten(result.error()));
 }
 
 void SavePacketsDialog::showState(const QString& text) {
