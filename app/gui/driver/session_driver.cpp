@@ -2,6 +2,7 @@
 #include "app/gui/driver/session_driver.h"
 
 #include "app/gui/base/logging.h"
+#include "app/gui/base/sight.h"
 #include "app/net/datagram_sender.h"
 #include "app/system/process_figures.h"
 #include "core/model/session/roster.h"
@@ -61,6 +62,11 @@ std::optional<double> shareOf(const std::optional<double>& before, const std::op
 constexpr std::chrono::milliseconds kTick(16);
 constexpr std::chrono::milliseconds kSlowestTick(200);
 constexpr log::Duration kTableTick = std::chrono::milliseconds(100);
+// While no window is in sight, or nothing has come for a while: ages are all that changes.
+constexpr std::chrono::milliseconds kUnseenTick(100);
+constexpr std::chrono::milliseconds kQuietTick(50);
+constexpr log::Duration kSlowTableTick = std::chrono::seconds(1);
+constexpr log::Duration kQuiet = std::chrono::seconds(2);
 constexpr log::Duration kRetry = std::chrono::seconds(2);
 /// A backlog (a file, or a window that was blocked) is followed in pieces, so that the window stays awake: as
 /// many as fit into this time of each tick.
@@ -190,7 +196,8 @@ SessionDriver::SessionDriver(const log::Clock& clock, const QString& cacheFolder
         // A tick that takes long is followed by a rest as long: the window never takes more than half a
         // processor.
         const auto took = sinceTick();
-        m_timer.start(std::clamp(std::max(kTick - took, took), std::chrono::milliseconds(1), kSlowestTick));
+        const auto tick = took > kTick ? kTick : !m_isInSight ? kUnseenTick : m_isQuiet ? kQuietTick : kTick;
+        m_timer.start(std::clamp(std::max(tick - took, took), std::chrono::milliseconds(1), kSlowestTick));
     });
 }
 
@@ -225,7 +232,10 @@ void SessionDriver::tick() {
     m_health.addFollow(m_clock.monotonic() - begin, live.end() - endBefore);
     m_isChanged = m_playback.follow() || m_isChanged;
     m_isChanged = m_files.follow(kFollowTime) || m_isChanged;
-    const bool isTableTick = now - m_tableTick >= kTableTick;
+    m_isInSight = isAnyWindowInSight();
+    m_changed = hasNew || m_isChanged || m_files.isOpening() ? now : m_changed;
+    m_isQuiet = now - m_changed > kQuiet;
+    const bool isTableTick = now - m_tableTick >= (m_isQuiet || !m_isInSight ? kSlowTableTick : kTableTick);
     if (isTableTick) { // tables and pictures say the same
         live.judge();
         if (OpenedFile* file = m_files.file()) {
@@ -238,8 +248,8 @@ void SessionDriver::tick() {
     }
     // Without new packets ages still grow: figures fade at the tables' pace.
     const bool isMoving = hasNew || (isTableTick && !live.roster().characters().empty());
-    if (m_isChanged || (isMoving && !m_playback.isPaused())) {
-        m_isChanged = false;
+    m_isChanged = m_isChanged || (isMoving && !m_playback.isPaused());
+    if (m_isInSight && std::exchange(m_isChanged, false)) {
         emit moved();
     }
     if (isTableTick) {

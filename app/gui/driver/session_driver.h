@@ -194,8 +194,11 @@ private:
     log::Moment m_tickBegin{}; ///< of the newest that the timer called
     model::HeldUp m_heldUp;
     log::Stamp m_tableTick{};
+    log::Stamp m_changed{}; ///< when a packet came last, or something else to show
     log::Stamp m_retry{};
     bool m_isChanged = true;
+    bool m_isInSight = true;
+    bool m_isQuiet = false;
 };
 
 } // namespace posewire::gui

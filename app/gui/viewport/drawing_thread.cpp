@@ -18,6 +18,8 @@ using render::Simplification;
 constexpr std::chrono::milliseconds kStillAfter(250);
 /// The longest that a step which leaves out every other picture waits.
 constexpr std::chrono::milliseconds kLongestPause(150);
+/// From one picture to the next, at least: more of them than 36 a second take more than a processor.
+constexpr std::chrono::milliseconds kLeastPeriod(26);
 
 double secondsOf(SteadyClock::duration duration) {
     return std::chrono::duration<double>(duration).count();
@@ -45,10 +47,10 @@ public:
                 m_ladder.add(secondsOf(end - begin), secondsOf(end.time_since_epoch()));
                 m_moved = end;
             }
-            if (m_ladder.step() == Simplification::HalfRate) {
-                const auto took = std::chrono::duration_cast<std::chrono::milliseconds>(end - begin);
-                result.pause = std::min(took, kLongestPause);
-            }
+            const auto took = std::chrono::duration_cast<std::chrono::milliseconds>(end - begin);
+            result.pause = m_ladder.step() == Simplification::HalfRate
+                               ? std::min(took, kLongestPause)
+                               : std::max(kLeastPeriod - took, std::chrono::milliseconds(0));
             result.image = m_renderer.takeImage();
             m_isStill = isBest;
             m_last = frame;
