@@ -66,9 +66,11 @@ NetResult<void> Replay::sendRound(DatagramSender& sender, const std::stop_token&
         if (!first && m_roundBegin == log::Duration::zero()) {
             m_start = m_clock.monotonic(); // looking for the first one is no part of it
         }
-        first = first.value_or(packet->stamp);
+        if (!packet->flags.isFromBefore) {
+            first = first.value_or(packet->stamp);
+            due = std::max(due, packet->stamp - *first);
+        }
         ++packets;
-        due = std::max(due, packet->stamp - *first);
         if (!waitFor(m_roundBegin + scaled(due, 1 / m_choice.speed), stop)) {
             return {};
         }

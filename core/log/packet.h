@@ -35,7 +35,7 @@ struct SenderInfo {
     friend bool operator==(const SenderInfo&, const SenderInfo&) = default;
 };
 
-/// In one byte: the log keeps them of every packet.
+/// In two bytes: the log keeps them of every packet.
 struct PacketFlags {
     bool truncated : 1 = false; ///< the datagram was longer than what could be received
     /// The stamp is the kernel's, else it was taken when the packet was read.
@@ -51,6 +51,10 @@ struct PacketFlags {
     /// How many datagrams came in one packet, this one of them, each of which the log keeps as a packet of
     /// its own; at most kMostShared are counted. 0 if it came alone.
     std::uint8_t shared : 3 = 0;
+
+    /// It came before its recording began, at whose front it is for what it says of a character: that it
+    /// came, and when, is no part of the recording.
+    bool isFromBefore : 1 = false;
 
     static constexpr std::uint8_t kMostShared = 7;
 

@@ -55,15 +55,31 @@ Recorder::Recorder(const PacketLog& log, ByteSink& sink, std::uint64_t from)
 
 Recorder::Recorder(const PacketLog& log, ByteSink& sink, LogFollower follower)
     : m_sink(sink),
-      m_timeline(log.timeline()),
+      m_log(log),
       m_follower(std::move(follower)),
       m_first(m_follower.position()),
       m_missedBefore(m_follower.overtaken()),
       m_senders(log.senders()),
       m_writer(sink) {}
 
-Recorder::Result Recorder::begin(const RecordingInfo& info) {
-    return m_writer.begin(info).and_then([this] { return m_sink.flush(); });
+Recorder::Result Recorder::begin(const RecordingInfo& info, std::span<const std::uint64_t> before) {
+    Result result = m_writer.begin(info);
+    LogReader reader(m_log);
+    for (const std::uint64_t number : before) {
+        if (auto packet = reader.packet(number); packet && result) {
+            packet->flags.isFromBefore = true;
+            packet->kernelDropsBefore = 0;
+            result = write(*packet);
+        }
+    }
+    m_before = m_writer.packets();
+    return result.and_then([this] { return m_sink.flush(); });
+}
+
+Recorder::Result Recorder::write(const Packet& packet) {
+    const SenderInfo* sender = m_senders.find(packet.sender);
+    return m_writer.add(packet, sender != nullptr ? *sender : SenderInfo{}, {},
+                        m_log.timeline().setByAt(packet.stamp));
 }
 
 Recorder::Result Recorder::follow() {
@@ -92,10 +108,7 @@ Recorder::Result Recorder::writeNew() {
             m_holes.push_back({std::max(packet->number - missed, m_first), packet->number});
         }
         packet->addDrops(m_follower.takeUnseen().missingWith(missed));
-        const SenderInfo* sender = m_senders.find(packet->sender);
-        const Duration setBy = m_timeline.setByAt(packet->stamp);
-        if (auto added = m_writer.add(*packet, sender != nullptr ? *sender : SenderInfo{}, {}, setBy);
-            !added) {
+        if (auto added = write(*packet); !added) {
             return added;
         }
     }
@@ -103,7 +116,7 @@ Recorder::Result Recorder::writeNew() {
 }
 
 std::uint64_t Recorder::placeOf(std::uint64_t packet) const {
-    std::uint64_t place = packet - m_first;
+    std::uint64_t place = m_before + packet - m_first;
     for (const Hole& hole : m_holes) {
         place -= std::clamp(packet, hole.begin, hole.end) - hole.begin;
     }
@@ -122,7 +135,8 @@ std::string partPath(const std::string& path, unsigned part) {
 
 tl::expected<std::unique_ptr<Recording>, FileError>
 Recording::start(const PacketLog& log, const std::string& path, const RecordingInfo& info,
-                 const OutputRules& rules, std::uint64_t from, const RecordingLimits& limits) {
+                 const OutputRules& rules, std::uint64_t from, const RecordingLimits& limits,
+                 std::vector<std::uint64_t> before) {
     std::error_code failed;
     const bool isNew = !std::filesystem::exists(pathOf(path), failed);
     auto sink = checkRoom(path, limits.leaveFree).and_then([&] { return createFile(path, rules); });
@@ -132,6 +146,7 @@ Recording::start(const PacketLog& log, const std::string& path, const RecordingI
     std::unique_ptr<Recording> recording(new Recording(log, std::move(*sink), from));
     recording->m_path = recording->m_file = path;
     recording->m_limits = limits;
+    recording->m_fromBefore = std::move(before);
     auto begun = begin(std::move(recording), info);
     if (!begun && isNew) {
         std::filesystem::remove(pathOf(path), failed);
@@ -149,7 +164,7 @@ tl::expected<std::unique_ptr<Recording>, FileError> Recording::start(const Packe
 tl::expected<std::unique_ptr<Recording>, FileError> Recording::begin(std::unique_ptr<Recording> recording,
                                                                      const RecordingInfo& info) {
     recording->m_info = info;
-    if (const auto begun = recording->m_recorder->begin(info); !begun) {
+    if (const auto begun = recording->m_recorder->begin(info, recording->m_fromBefore); !begun) {
         return tl::unexpected(begun.error());
     }
     recording->m_figures = recording->figuresNow();
@@ -277,7 +292,8 @@ Recording::Result Recording::goOn() {
     if (!ended) {
         m_displaced.push_back({ended.error().text, path, follower.position() - begin});
     }
-    return m_recorder->begin(m_info);
+    const bool isWhole = !ended && m_ended.empty(); // in place of the first file
+    return m_recorder->begin(m_info, isWhole ? m_fromBefore : std::vector<std::uint64_t>());
 }
 
 /// Of the files that have ended, those from the first one on that is not there as it was. The packet that it

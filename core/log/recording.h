@@ -62,7 +62,9 @@ public:
     /// Goes on where another recorder has ended, with its follower: what the log drops meanwhile is missed.
     Recorder(const PacketLog& log, ByteSink& sink, LogFollower follower);
 
-    Result begin(const RecordingInfo& info);
+    /// `before`: packets of the log from before the first one that come ahead of it, as
+    /// PacketFlags::isFromBefore; those that the log has dropped are left out.
+    Result begin(const RecordingInfo& info, std::span<const std::uint64_t> before = {});
 
     /// Writes what is new and hands it to the system.
     Result follow();
@@ -91,15 +93,17 @@ private:
     };
 
     Result writeNew();
+    Result write(const Packet& packet);
 
     ByteSink& m_sink;
-    const Timeline& m_timeline;
+    const PacketLog& m_log;
     LogFollower m_follower;
     const std::uint64_t m_first; ///< packet
     const std::uint64_t m_missedBefore;
     std::vector<Hole> m_holes;
     SenderFinder m_senders;
     PcapngWriter m_writer;
+    std::uint64_t m_before = 0; ///< packets ahead of the first one
     std::uint64_t m_synced = 0; ///< the packet after the last one on the disk
 };
 
@@ -108,10 +112,12 @@ private:
 /// power fails.
 class Recording {
 public:
-    /// Records from packet `from` on. Fails if the file cannot be made. `log` must outlive the recording.
+    /// Records from packet `from` on, after packets from before it (see Recorder). Fails if the file cannot
+    /// be made. `log` must outlive the recording.
     static tl::expected<std::unique_ptr<Recording>, FileError>
     start(const PacketLog& log, const std::string& path, const RecordingInfo& info,
-          const OutputRules& rules = {}, std::uint64_t from = 0, const RecordingLimits& limits = {});
+          const OutputRules& rules = {}, std::uint64_t from = 0, const RecordingLimits& limits = {},
+          std::vector<std::uint64_t> before = {});
     /// The same to a sink that is there already, without limits.
     static tl::expected<std::unique_ptr<Recording>, FileError> start(const PacketLog& log,
                                                                      std::unique_ptr<ByteSink> sink,
@@ -158,6 +164,7 @@ private:
     std::string m_path; ///< that others are named after; empty if a sink was given
     RecordingInfo m_info;
     RecordingLimits m_limits;
+    std::vector<std::uint64_t> m_fromBefore; ///< packets that come first
     // The thread's own:
     std::unique_ptr<ByteSink> m_sink;
     std::optional<Recorder> m_recorder;

@@ -28,6 +28,21 @@ log::RecordedMark markOn(const model::SessionView& live, std::uint64_t packet, c
     return {packet, when.toStdString(), comment};
 }
 
+/// The newest of what MVN sends seldom of each character, before a packet: without it a take begins with
+/// bodies of no size and without names.
+std::vector<std::uint64_t> bodiesBefore(const model::SessionView& live, std::uint64_t packet) {
+    std::vector<std::uint64_t> packets;
+    for (const model::Character* character : live.roster().listed()) {
+        for (const std::uint8_t type : {10, 11, 12, 13}) {
+            const auto whole =
+                live.messages().wholeBefore({character->key.sender, character->key.character, type}, packet);
+            packets.insert(packets.end(), whole.begin(), whole.end());
+        }
+    }
+    std::ranges::sort(packets);
+    return packets;
+}
+
 } // namespace
 
 QString Takes::toggle(const RecordingChoice& choice) {
@@ -112,7 +127,7 @@ QString Takes::start(const RecordingChoice& choice) {
                                       static_cast<std::uint64_t>(choice.freeMegabytes) * 1'000'000,
                                       QFile::encodeName(recordingFolder({})).toStdString()};
     auto recording = log::Recording::start(m_log, QFile::encodeName(path).toStdString(), writtenByUs(), {},
-                                           m_from, limits);
+                                           m_from, limits, bodiesBefore(m_live, m_from));
     if (!recording) {
         return QString::fromStdString(recording.error().text);
     }

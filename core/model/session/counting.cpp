@@ -21,6 +21,9 @@ Counting::Counting(const std::shared_ptr<log::Scratch>& scratch, Roll& roll, Inc
 
 void Counting::takePacket(const Observed& seen) {
     Sender& sender = *seen.sender;
+    if (seen.packet.flags.isFromBefore) {
+        return;
+    }
     m_observed = seen.packet.stamp;
     sender.lastStamp = seen.packet.stamp;
     sender.kernelDrops += seen.packet.kernelDropsBefore;
@@ -76,6 +79,9 @@ void Counting::takeDatagram(Observed& seen) {
         header.markLast();
     }
     m_index.add(packet, header);
+    if (packet.flags.isFromBefore) {
+        return;
+    }
     stream.statistics.add(packet.stamp);
     if (stream.hasEnded && packet.stamp - stream.accounting.lastStamp() >= kUnsent) {
         stream.accounting.beginRun(packet.stamp);

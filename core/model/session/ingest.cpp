@@ -4,6 +4,8 @@
 #include "core/model/body/pose_messages.h"
 #include "core/wire/type_table.h"
 
+#include <utility>
+
 namespace posewire::model {
 namespace {
 
@@ -102,14 +104,16 @@ std::size_t Ingest::takeNew(log::Stamp now, std::size_t most) {
 }
 
 void Ingest::take(const log::Packet& packet) {
-    const bool isFirst = m_counting.digests().end() == 0;
-    m_firstStamp = isFirst ? packet.stamp : m_firstStamp;
-    // A computer that drops packets is held up: silence meanwhile is no evidence.
-    if (!isFirst && packet.kernelDropsBefore == 0) {
-        passTime(packet.stamp);
+    if (!packet.flags.isFromBefore) {
+        const bool isFirst = !std::exchange(m_isBegun, true);
+        m_firstStamp = isFirst ? packet.stamp : m_firstStamp;
+        // A computer that drops packets is held up: silence meanwhile is no evidence.
+        if (!isFirst && packet.kernelDropsBefore == 0) {
+            passTime(packet.stamp);
+        }
+        m_observed = packet.stamp;
+        m_moment = packet.stamp + Counting::kUnderWay;
     }
-    m_observed = packet.stamp;
-    m_moment = packet.stamp + Counting::kUnderWay;
     Observed seen{.packet = packet, .sender = m_roll.take(packet)};
     decode(seen);
     if (seen.sender != nullptr) {

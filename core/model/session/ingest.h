@@ -98,6 +98,7 @@ private:
     log::Stamp m_firstStamp{};
     log::Stamp m_observed{}; ///< of the newest packet
     log::Stamp m_moment{};   ///< at which silence after it is looked at next
+    bool m_isBegun = false;  ///< the first packet has come
     bool m_isFile = false;
     bool m_isRead = false;   ///< to its end
     bool m_isHeldUp = false; ///< only packets tell what time it is

@@ -241,6 +241,30 @@ std::optional<std::uint64_t> Messages::firstSample(const log::StreamKey& key) co
     return (*entries)[place].packet;
 }
 
+std::vector<std::uint64_t> Messages::wholeBefore(const log::StreamKey& key, std::uint64_t packet) const {
+    const log::StreamEntries* entries = m_moment.entriesOf(key);
+    const auto place =
+        entries != nullptr && packet != 0 ? entries->atOrBeforePacket(packet - 1) : std::nullopt;
+    std::vector<std::uint64_t> parts;
+    log::Stamp since{};
+    for (std::size_t i = place ? *place + 1 : 0; i-- != 0;) {
+        const log::StreamEntry& entry = (*entries)[i];
+        if (entry.isLast) {
+            parts.assign(std::size_t{entry.datagram} + 1, UINT64_MAX);
+            since = entry.stamp - MessageRounds::kTogether;
+        } else if (entry.stamp < since) {
+            parts.clear();
+        }
+        if (entry.datagram < parts.size()) {
+            parts[entry.datagram] = entry.packet;
+        }
+        if (!parts.empty() && std::ranges::count(parts, UINT64_MAX) == 0) {
+            return parts;
+        }
+    }
+    return {};
+}
+
 std::uint64_t Messages::samplesIn(const log::StreamKey& key, const TimeRange& range) const {
     const log::StreamEntries* entries = m_moment.entriesOf(key);
     if (entries == nullptr || !countsSamples(key.type)) {

@@ -71,7 +71,7 @@ log::Stamp SessionView::firstStamp() const {
 
 log::Stamp SessionView::keptSince() const {
     const auto oldest = begin() != 0 ? packet(begin()) : std::nullopt;
-    return oldest ? oldest->stamp : firstStamp();
+    return oldest ? std::max(oldest->stamp, firstStamp()) : firstStamp();
 }
 
 bool SessionView::isBeingRead() const {

@@ -76,6 +76,7 @@ std::vector<Recorded> everyKind() {
         with({.stampedByKernel = true}, 0xffffffff),
         with({.truncated = true, .stampedByKernel = true}),
         with({.stampedByKernel = true, .afterClosed = true}),
+        with({.stampedByKernel = true, .isFromBefore = true}),
         with({.stampedByKernel = true, .shared = 2}),
         with({.truncated = true, .shared = 7}),
         with({}),

@@ -6,6 +6,9 @@
 
 #include <gmock/gmock.h>
 
+#include <array>
+#include <vector>
+
 namespace posewire::log {
 namespace {
 
@@ -58,6 +61,24 @@ TEST_F(RecorderTest, BringsToTheDiskWhatIsNew) {
     }
     ASSERT_TRUE(recorder.finish());
     EXPECT_EQ(m_sink.syncs, 2);
+}
+
+TEST_F(RecorderTest, HasAheadOfTheFirstPacketWhatCameBeforeIt) {
+    for (std::uint32_t sample = 0; sample < 10; ++sample) {
+        append(sample);
+    }
+    Recorder recorder(m_log, m_sink, 7);
+    ASSERT_TRUE(recorder.begin({}, std::vector<std::uint64_t>{2, 5, 99}));
+    ASSERT_TRUE(recorder.finish());
+    const auto seen = recordedIn(m_sink.bytes);
+    ASSERT_EQ(seen.size(), 5U);
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+        const std::uint32_t sample = std::array{2U, 5U, 7U, 8U, 9U}.at(i);
+        EXPECT_EQ(seen[i].bytes, poseDatagram(sample));
+        EXPECT_EQ(seen[i].stamp, Stamp(1us + Duration(sample)));
+        EXPECT_EQ(seen[i].flags.isFromBefore, i < 2);
+    }
+    EXPECT_EQ(recorder.placeOf(8), 3U);
 }
 
 TEST_F(RecorderTest, BeginsWithThePacketThatWasAskedFor) {

@@ -3,6 +3,8 @@
 
 #include "app/gui/driver/session_driver.h"
 #include "core/log/output_file.h"
+#include "core/log/recording_file.h"
+#include "core/wire/codec.h"
 #include "tests/support/manual_clock.h"
 
 #include <QDir>
@@ -15,6 +17,8 @@
 #include <chrono>
 #include <functional>
 #include <thread>
+#include <utility>
+#include <vector>
 
 namespace posewire::gui {
 namespace {
@@ -138,6 +142,51 @@ TEST(TakesAtTheEnd, LeaveTheHistoryIfTheyAreNotOnTheDisk) {
         const QStringList files = QDir(place.folder.path()).entryList({"history-*.pcapng"}, QDir::Files);
         EXPECT_EQ(files.size(), isTakenAway ? 1 : 0);
     }
+}
+
+/// The records of a take.
+std::vector<std::pair<std::vector<std::byte>, bool>> packetsIn(const QString& path) {
+    std::vector<std::pair<std::vector<std::byte>, bool>> packets;
+    auto source = log::openFile(QFile::encodeName(path).toStdString());
+    static_cast<void>(log::readFile(**source, [&packets](const log::FileRecord& record) {
+        packets.emplace_back(std::vector(record.bytes.begin(), record.bytes.end()),
+                             record.flags.isFromBefore);
+    }));
+    return packets;
+}
+
+TEST_F(TakesTest, BeginWithTheNewestBodyAndNameFromBefore) {
+    const auto sent = [&](wire::Body body, std::uint8_t counter = 0x80) {
+        wire::Datagram datagram{.body = std::move(body)};
+        datagram.header.datagramCounter = counter;
+        wire::completeHeader(datagram, wire::HeaderEra::Counted);
+        auto bytes = wire::encode(datagram).value();
+        m_origin.log().writer().append(bytes, {.stamp = log::Stamp(1s), .sender = log::SenderId{}});
+        m_origin.log().writer().publish();
+        return bytes;
+    };
+    const auto named = [](const char* name) {
+        wire::MetaData metadata;
+        metadata.text = std::string("name:") + name + '\n';
+        return metadata;
+    };
+    sent(named("Anna"));
+    const auto first = sent(named("Bert"), 0x00);
+    const auto second = sent(named("Bert"), 0x81);
+    sent(named("Carl"), 0x00); // its second part has not come yet
+    for (int i = 0; i < 3; ++i) {
+        sent(wire::PoseQuaternion{});
+    }
+    m_origin.session().follow(log::Stamp(1s));
+    ASSERT_EQ(m_takes.toggle({.folder = m_folder, .pattern = "take", .freeMegabytes = 0}), "");
+    const auto after = sent(wire::PoseQuaternion{});
+    ASSERT_TRUE(until([this] { return m_takes.state()->figures.packets == 3; }));
+    ASSERT_TRUE(m_takes.end());
+    const auto packets = packetsIn(m_folder + "/take.pcapng");
+    ASSERT_EQ(packets.size(), 3U);
+    EXPECT_EQ(packets[0], std::pair(first, true));
+    EXPECT_EQ(packets[1], std::pair(second, true));
+    EXPECT_EQ(packets[2], std::pair(after, false));
 }
 
 } // namespace

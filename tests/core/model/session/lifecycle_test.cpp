@@ -8,6 +8,7 @@
 #include "core/model/body/null_pose_findings.h"
 #include "core/model/body/pose_remark.h"
 #include "core/model/session/accounts.h"
+#include "core/model/session/listed_incidents.h"
 #include "core/model/session/messages.h"
 #include "core/model/session/roster.h"
 
@@ -295,6 +296,29 @@ TEST(Dropped, PacketsAreThisComputersLossToTheSampleHoweverMany) {
     EXPECT_EQ(counts.restarts, 0U);
     EXPECT_EQ(stream.lostByCause()[static_cast<std::size_t>(LossCause::ThisComputer)], counts.lost);
     EXPECT_EQ(session.accounts().attribution().gaps().size(), 1U);
+}
+
+TEST_F(LifecycleTest, WhatIsFromBeforeARecordingCountsForWhatItSaysAlone) {
+    wire::MetaData named;
+    named.text = "name:Anna\n";
+    m_isFromBefore = true;
+    send(named, 1, at(1s));
+    m_isFromBefore = false;
+    for (std::uint32_t sample = 0; sample < 120; ++sample) {
+        send(swayingAt(0, sample), sample, at(3600s + sample * 1s / 60));
+    }
+    follow();
+    m_session.endFile();
+    EXPECT_EQ(m_session.firstStamp(), at(3600s));
+    EXPECT_EQ(m_session.keptSince(), at(3600s));
+    EXPECT_EQ(m_session.messages().metadata(key()).value("name", 100), "Anna");
+    EXPECT_EQ(m_session.roster().senders().front().datagrams, 120U);
+    for (const ListedIncident& one : listedIncidents(m_session)) {
+        EXPECT_TRUE(isNote(one.incident)) << static_cast<int>(one.incident.kind);
+    }
+    const Stream* messages = m_session.roster().find(log::StreamKey{sender(), 0, 12});
+    ASSERT_NE(messages, nullptr);
+    EXPECT_EQ(messages->accounting.datagrams(), 0U);
 }
 
 } // namespace

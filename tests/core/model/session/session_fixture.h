@@ -27,6 +27,7 @@ protected:
         log::Arrival arrival;
         arrival.stamp = stamp;
         arrival.sender = sender(address);
+        arrival.flags.isFromBefore = m_isFromBefore;
         m_log.writer().append(bytes, arrival);
         m_log.writer().publish();
         m_now = stamp;
@@ -67,6 +68,7 @@ protected:
     log::PacketLog m_log;
     Session m_session{m_log};
     log::Stamp m_now{};
+    bool m_isFromBefore = false; ///< what is sent
 };
 
 } // namespace posewire::model
