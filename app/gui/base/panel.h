@@ -72,12 +72,6 @@ struct ActionsOf {
     static bool isFor(const QWidget& owner) {
         return std::invoke(function, std::invoke(part, static_cast<const Owner&>(owner)), arguments...);
     }
-    /// Sets in a part what is not set, and the other way round.
-    template <auto part, auto isSet, auto set>
-    static void toggleIn(QWidget& owner) {
-        auto& owned = std::invoke(part, static_cast<Owner&>(owner));
-        std::invoke(set, owned, !std::invoke(isSet, owned));
-    }
 };
 
 /// Adds the entries of a table that belong to the menu at the path `from`, as they are now.

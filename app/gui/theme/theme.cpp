@@ -177,6 +177,11 @@ QAbstractSpinBox::up-arrow:hover { border-bottom-color: @text; }
 QAbstractSpinBox::down-arrow:hover { border-top-color: @text; }
 QAbstractSpinBox:focus, QPlainTextEdit:focus, QTextEdit:focus, QTextBrowser:focus { border-color: @accent; }
 
+QLabel[heading="true"] { font-weight: 600; }
+QCheckBox::indicator { background: @panel; border: 1px solid @dim; border-radius: 3px; width: @box; height: @box; }
+QCheckBox::indicator:checked { background: @accent; border-color: @accent; image: url(:/icons/check_@mark.svg); }
+QCheckBox::indicator:hover, QCheckBox::indicator:focus { border-color: @text; }
+
 QTabBar::tab { background: @header; color: @dim; border: none; border-right: 1px solid @line;
   border-top: 2px solid transparent; padding: @menuv 12px; }
 QTabBar::tab:selected { background: @panel; color: @text; border-top-color: @accent; }
@@ -206,7 +211,7 @@ QColor mixed(const QColor& a, const QColor& b, double share) {
 QString styleSheet(const Theme& theme, const QFontMetrics& metrics) {
     const auto pixels = [](int value) { return QString::number(value) + QStringLiteral("px"); };
     // Longer names first, so that no name is taken for the beginning of another.
-    const std::array<std::pair<QString, QString>, 18> values{{
+    const std::array<std::pair<QString, QString>, 20> values{{
         {"@window", theme.window.name()},
         {"@panel", theme.panel.name()},
         {"@raised", theme.raised.name()},
@@ -222,6 +227,8 @@ QString styleSheet(const Theme& theme, const QFontMetrics& metrics) {
         {"@errorfill", mixed(theme.panel, theme.error, 0.16).name()},
         {"@good", theme.good.name()},
         {"@error", theme.error.name()},
+        {"@mark", theme.panel.lightness() < theme.text.lightness() ? "dark" : "light"},
+        {"@box", pixels(metrics.height() - 3)},
         {"@row", pixels(metrics.height() + 8)},
         {"@menuv", pixels(std::max(3, metrics.height() / 4))},
         {"@buttonv", pixels(std::max(3, metrics.height() / 4))},

@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/window/alerts.h"
 
-#include "app/gui/base/help_topics.h"
 #include "app/gui/models/text.h"
-#include "app/gui/theme/help_link.h"
-#include "app/gui/theme/theme.h"
+#include "app/gui/theme/widgets.h"
 #include "app/gui/theme/words.h"
 
 #include <QApplication>
-#include <QDialogButtonBox>
+#include <QCheckBox>
 #include <QDoubleSpinBox>
 #include <QFormLayout>
 #include <QPushButton>
 #include <QSystemTrayIcon>
-#include <QVBoxLayout>
 
 #include <algorithm>
 #include <utility>
@@ -25,6 +22,18 @@ namespace {
 bool isWanted(const model::Incident& event, const AlertChoices& choices) {
     return (choices.hasErrorSound && event.severity() == model::IncidentSeverity::Error) ||
            (choices.hasWarningSound && event.severity() == model::IncidentSeverity::Warning);
+}
+
+QString hysteresisText(const model::Thresholds& thresholds) {
+    const double loss = thresholds.lossPercent;
+    return loss > 0
+               ? tr("Hysteresis: a loss alert begins above %1 % and ends below %2 %, so that a figure that "
+                    "hovers about its limit alerts once.")
+                     .arg(QString::number(loss, 'f', 1),
+                          QString::number(loss * thresholds.hysteresis, 'f', 2))
+               : tr("Hysteresis: an alert ends below %1 % of its limit, so that a figure that hovers about "
+                    "its limit alerts once.")
+                     .arg(QString::number(thresholds.hysteresis * 100, 'f', 0));
 }
 
 } // namespace
@@ -84,75 +93,53 @@ void VerdictNotifier::look(const model::TakeVerdict& verdict, bool isWanted) {
                         QSystemTrayIcon::Warning);
 }
 
-ThresholdsDialog::ThresholdsDialog(const AlertChoices& choices, QWidget* parent) : QDialog(parent) {
-    setWindowTitle(tr("Thresholds"));
-    auto* form = new QFormLayout;
+void addThresholdRows(QFormLayout& rows, AlertChoices& choices, const std::function<void()>& changed) {
+    QWidget* form = rows.parentWidget();
+    rows.addRow(dimText(tr("A stream that exceeds one of these raises one incident per episode, which also "
+                           "shows in the health of its character. Changes apply from now on."),
+                        form));
+    auto* explanation = dimText(hysteresisText(choices.thresholds), form);
+    auto* defaults = new QPushButton(tr("Re&store as shipped"));
+    defaults->setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Fixed);
     for (const model::ThresholdRow& row : model::thresholdTable()) {
-        auto* box = new QDoubleSpinBox(this);
+        auto* box = new QDoubleSpinBox(form);
+        box->setKeyboardTracking(false); // a number counts once it is complete
         box->setDecimals(row.shownPerUnit == 1 ? 1 : 0);
         box->setRange(row.least * row.shownPerUnit, row.most * row.shownPerUnit);
         box->setSuffix(translatedText(row.unit));
         box->setSpecialValueText(row.least == 0 ? tr("never an alert") : QString()); // at the least
         box->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
         box->setToolTip(toolTipText(translatedText(row.help)));
-        form->addRow(translatedText(row.label), box);
-        m_fields.push_back({&row, box});
-        connect(box, &QDoubleSpinBox::valueChanged, this, &ThresholdsDialog::explainHysteresis);
+        box->setValue(choices.thresholds.*row.limit * row.shownPerUnit);
+        rows.addRow(translatedText(row.label), box);
+        QObject::connect(box, &QDoubleSpinBox::valueChanged, form, [=, &row, &choices](double value) {
+            choices.thresholds.*row.limit = value / row.shownPerUnit;
+            explanation->setText(hysteresisText(choices.thresholds));
+            changed();
+        });
+        QObject::connect(defaults, &QPushButton::clicked, box,
+                         [box, &row] { box->setValue(model::Thresholds().*row.limit * row.shownPerUnit); });
     }
-    auto* sounds = new QVBoxLayout;
-    sounds->addWidget(m_warningSound);
-    sounds->addWidget(m_errorSound);
-    form->addRow(tr("Sound"), sounds);
-    form->addRow(tr("Notification"), m_notification);
-    auto* buttons = new QDialogButtonBox(
-        QDialogButtonBox::Ok | QDialogButtonBox::Cancel | QDialogButtonBox::RestoreDefaults, this);
-    connect(buttons->button(QDialogButtonBox::RestoreDefaults), &QPushButton::clicked, this,
-            [this] { setChoices({}); });
-    layOut(*this,
-           {dimText(tr("A stream that exceeds one of these raises one incident per episode, which also "
-                       "shows in the health of its character. Changes apply from now on."),
-                    this),
-            form, m_explanation},
-           *buttons, placeOf(HelpTopic::Thresholds), 62);
-    setChoices(choices);
-    const int width = std::max(minimumWidth(), layout()->minimumSize().width());
-    setMinimumSize(width,
-                   layout()->totalHeightForWidth(width)); // a dialog does not ask for lines of wrapped text
-}
-
-void ThresholdsDialog::explainHysteresis() {
-    const AlertChoices shown = choices();
-    const double loss = shown.thresholds.lossPercent;
-    const QString share = QString::number(shown.thresholds.hysteresis * 100, 'f', 0);
-    m_explanation->setText(
-        loss > 0 ? tr("Hysteresis: a loss alert begins above %1 % and ends below %2 %, so that a figure that "
-                      "hovers about its limit alerts once.")
-                       .arg(QString::number(loss, 'f', 1),
-                            QString::number(loss * shown.thresholds.hysteresis, 'f', 2))
-                 : tr("Hysteresis: an alert ends below %1 % of its limit, so that a figure that hovers about "
-                      "its limit alerts once.")
-                       .arg(share));
-}
-
-AlertChoices ThresholdsDialog::choices() const {
-    AlertChoices choices;
-    for (const Field& field : m_fields) {
-        choices.thresholds.*field.row->limit = field.box->value() / field.row->shownPerUnit;
-    }
-    choices.hasWarningSound = m_warningSound->isChecked();
-    choices.hasErrorSound = m_errorSound->isChecked();
-    choices.hasNotification = m_notification->isChecked();
-    return choices;
-}
-
-void ThresholdsDialog::setChoices(const AlertChoices& choices) {
-    for (const Field& field : m_fields) {
-        field.box->setValue(choices.thresholds.*field.row->limit * field.row->shownPerUnit);
-    }
-    m_warningSound->setChecked(choices.hasWarningSound);
-    m_errorSound->setChecked(choices.hasErrorSound);
-    m_notification->setChecked(choices.hasNotification);
-    explainHysteresis();
+    rows.addRow({}, explanation);
+    auto* sounds = new QWidget(form);
+    tightColumn(sounds)->setSpacing(form->fontMetrics().height() / 2);
+    const auto boxFor = [&](bool AlertChoices::*choice, const QString& text) {
+        auto* box = new QCheckBox(text, form);
+        box->setChecked(choices.*choice);
+        QObject::connect(box, &QCheckBox::toggled, form, [=, &choices](bool isOn) {
+            choices.*choice = isOn;
+            changed();
+        });
+        QObject::connect(defaults, &QPushButton::clicked, box,
+                         [=] { box->setChecked(AlertChoices().*choice); });
+        return box;
+    };
+    sounds->layout()->addWidget(boxFor(&AlertChoices::hasWarningSound, tr("at a &warning")));
+    sounds->layout()->addWidget(boxFor(&AlertChoices::hasErrorSound, tr("at an &error")));
+    rows.addRow(tr("Sound"), sounds);
+    rows.addRow(tr("Notification"),
+                boxFor(&AlertChoices::hasNotification, tr("by t&he desktop, when the verdict turns bad")));
+    rows.addRow({}, defaults);
 }
 
 } // namespace posewire::gui

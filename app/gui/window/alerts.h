@@ -2,18 +2,17 @@
 #pragma once
 
 #include "app/gui/base/settings.h"
-#include "app/gui/theme/widgets.h"
 #include "core/model/session/verdict.h"
 
-#include <QCheckBox>
-#include <QDialog>
+#include <QString>
 
+#include <functional>
 #include <map>
 #include <set>
-#include <vector>
 
-class QDoubleSpinBox;
+class QFormLayout;
 class QSystemTrayIcon;
+class QWidget;
 
 namespace posewire::gui {
 
@@ -56,28 +55,8 @@ private:
     BadTurns m_turns;
 };
 
-/// The limits that streams must keep, and what announces that one was exceeded.
-class ThresholdsDialog final : public QDialog {
-    Q_OBJECT
-
-public:
-    explicit ThresholdsDialog(const AlertChoices& choices, QWidget* parent = nullptr);
-
-    [[nodiscard]] AlertChoices choices() const;
-    void setChoices(const AlertChoices& choices);
-
-private:
-    struct Field {
-        const model::ThresholdRow* row;
-        QDoubleSpinBox* box;
-    };
-    void explainHysteresis();
-
-    std::vector<Field> m_fields;
-    QLabel* m_explanation = dimText({}, this);
-    QCheckBox* m_warningSound = new QCheckBox(tr("at a &warning"), this);
-    QCheckBox* m_errorSound = new QCheckBox(tr("at an &error"), this);
-    QCheckBox* m_notification = new QCheckBox(tr("by the &desktop, when the verdict turns bad"), this);
-};
+/// Adds fields for the limits that streams must keep and for what announces that one was exceeded. They write
+/// into `choices`, which outlives them, and call `changed`.
+void addThresholdRows(QFormLayout& rows, AlertChoices& choices, const std::function<void()>& changed);
 
 } // namespace posewire::gui

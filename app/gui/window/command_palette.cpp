@@ -9,6 +9,7 @@
 #include <QKeyEvent>
 #include <QMenu>
 #include <QMenuBar>
+#include <QRegularExpression>
 #include <QVBoxLayout>
 
 #include <algorithm>
@@ -21,18 +22,7 @@ namespace {
 
 constexpr int kRows = 14; ///< in sight
 
-QString withoutMnemonic(const QString& text) {
-    QString plain;
-    for (qsizetype i = 0; i < text.size(); ++i) {
-        if (text[i] == u'&' && i + 1 < text.size()) {
-            ++i;
-        }
-        plain += text[i];
-    }
-    return plain;
-}
-
-/// Other words for commands, by the name of the action or the dock.
+/// See synonymsOf().
 constexpr std::pair<const char*, const char*> kSynonyms[] = {
     {"pause", QT_TRANSLATE_NOOP("Action", "freeze stop hold")},
     {"live", QT_TRANSLATE_NOOP("Action", "now follow end")},
@@ -43,47 +33,42 @@ constexpr std::pair<const char*, const char*> kSynonyms[] = {
     {"inputs", QT_TRANSLATE_NOOP("Action", "port network udp tcp address cable connect")},
     {"relay", QT_TRANSLATE_NOOP("Action", "forward send on")},
     {"thresholds", QT_TRANSLATE_NOOP("Action", "limits alarm sound mute beep notification")},
+    {"preferences", QT_TRANSLATE_NOOP("Action", "settings options configure")},
+    {"recordingOptions", QT_TRANSLATE_NOOP("Action", "take disk files split")},
+    {"themeSystem", QT_TRANSLATE_NOOP("Action", "colours night mode contrast")},
+    {"interpolation", QT_TRANSLATE_NOOP("Action", "smooth")},
     {"connectionHelp", QT_TRANSLATE_NOOP("Action", "cable firewall nothing arrives")},
     {"statistics", QT_TRANSLATE_NOOP("Action", "fps rate jitter loss bandwidth cpu")},
     {"metadata", QT_TRANSLATE_NOOP("Action", "units revision up axis tags name colour")},
 };
 
-QString synonymsOf(const QAction& action) {
-    const QString id = action.objectName().isEmpty() && action.parent() != nullptr
-                           ? action.parent()->objectName()
-                           : action.objectName();
-    const auto found =
-        std::ranges::find_if(kSynonyms, [&](const auto& one) { return id == QLatin1String(one.first); });
-    return found == std::end(kSynonyms) ? QString() : QCoreApplication::translate("Action", found->second);
-}
-
 void collect(const QList<QAction*>& actions, const QString& menu, std::vector<Command>& into) {
+    static const QRegularExpression mnemonic(QStringLiteral("&(.)"));
     for (QAction* action : actions) {
-        const QString name = withoutMnemonic(action->text());
+        const QString name = action->text().replace(mnemonic, QStringLiteral("\\1"));
         if (action->menu() != nullptr) {
             emit action->menu()->aboutToShow(); // its entries are as when it is opened
             collect(action->menu()->actions(), menu.isEmpty() ? name : menu + QStringLiteral(" › ") + name,
                     into);
         } else if (!action->isSeparator() && action->isVisible() && !name.isEmpty()) {
-            into.push_back({action, name, menu, synonymsOf(*action)});
+            const QObject* named = action->objectName().isEmpty() ? action->parent() : action;
+            into.push_back({action, name, menu, synonymsOf(named->objectName())});
         }
     }
 }
 
 QStringList wordsOf(const QString& text) {
-    QStringList words;
-    QString word;
-    for (const QChar letter : text) {
-        if (letter.isLetterOrNumber()) {
-            word += letter;
-        } else if (!word.isEmpty()) {
-            words += std::exchange(word, {});
-        }
-    }
-    return word.isEmpty() ? words : words << word;
+    static const QRegularExpression between(QStringLiteral("[^\\p{L}\\p{N}]+"));
+    return text.split(between, Qt::SkipEmptyParts);
 }
 
 } // namespace
+
+QString synonymsOf(const QString& id) {
+    const auto found =
+        std::ranges::find_if(kSynonyms, [&](const auto& one) { return id == QLatin1String(one.first); });
+    return found == std::end(kSynonyms) ? QString() : QCoreApplication::translate("Action", found->second);
+}
 
 std::vector<Command> commandsOf(const QMenuBar& bar) {
     std::vector<Command> commands;
@@ -113,9 +98,8 @@ CommandPalette::CommandPalette(const QMenuBar& bar, QWidget* window)
     m_list->setUniformRowHeights(true);
     m_list->setAllColumnsShowFocus(true);
     m_list->setFocusPolicy(Qt::NoFocus);
+    m_list->header()->setSectionResizeMode(QHeaderView::ResizeToContents);
     m_list->header()->setSectionResizeMode(0, QHeaderView::Stretch);
-    m_list->header()->setSectionResizeMode(1, QHeaderView::ResizeToContents);
-    m_list->header()->setSectionResizeMode(2, QHeaderView::ResizeToContents);
     m_list->header()->setStretchLastSection(false);
     auto* column = new QVBoxLayout(this);
     column->addWidget(m_line);

@@ -20,6 +20,10 @@ struct Command {
     QString synonyms{}; ///< words for it that people type
 };
 
+/// Other words for an action, a dock or a part of the preferences, by its object name; empty if there are
+/// none.
+[[nodiscard]] QString synonymsOf(const QString& id);
+
 /// All entries of the menus as they are now, in their order.
 [[nodiscard]] std::vector<Command> commandsOf(const QMenuBar& bar);
 

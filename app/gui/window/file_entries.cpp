@@ -11,6 +11,7 @@
 #include "app/gui/window/export_dialogs.h"
 #include "app/gui/window/main_window.h"
 #include "app/gui/window/opening.h"
+#include "app/gui/window/preferences.h"
 #include "app/gui/window/recording_dialogs.h"
 #include "app/gui/window/save_packets.h"
 #include "core/model/session/roster.h"
@@ -18,17 +19,13 @@
 #include "core/words/say.h"
 
 #include <QApplication>
-#include <QCheckBox>
 #include <QDateTime>
 #include <QDesktopServices>
-#include <QDialogButtonBox>
 #include <QDir>
 #include <QFileDialog>
 #include <QFileInfo>
-#include <QFormLayout>
 #include <QMenu>
 #include <QPushButton>
-#include <QSpinBox>
 #include <QUrl>
 
 namespace posewire::gui {
@@ -136,46 +133,35 @@ std::optional<std::optional<model::TimeRange>> askForRange(model::SessionView& s
     return question.clickedButton() == all ? std::optional(std::optional<model::TimeRange>()) : std::nullopt;
 }
 
-bool wantsToOpen(const QString& path, QWidget* parent) {
-    MessageBox question(tr("Save stream report"), tr("The report was saved as %1.").arg(path),
-                        QMessageBox::Close, parent);
-    const auto* open = question.addButton(tr("&Open it"), QMessageBox::AcceptRole);
-    question.exec();
-    return question.clickedButton() == open;
-}
-
-/// Returns a line to say, empty if the operator cancelled.
-QString saveStreamReport(model::SessionView& session, QWidget* parent) {
+void saveReport(Window& window) {
+    model::SessionView& session = shownSession(window);
     if (session.roster().streams().empty()) {
-        return tr("There is nothing to report on: no stream has arrived yet.");
+        return window.say(tr("There is nothing to report on: no stream has arrived yet."));
     }
-    const auto range = askForRange(session, parent);
+    const auto range = askForRange(session, &window);
     if (!range) {
-        return {};
+        return;
     }
     const QString name =
         QDateTime::currentDateTime().toString(QStringLiteral("'stream-report-'yyyyMMdd-HHmm"));
-    const QString path = askWhereToSave(parent, tr("Save stream report"), name + QStringLiteral(".html"),
+    const QString path = askWhereToSave(&window, tr("Save stream report"), name + QStringLiteral(".html"),
                                         fileFilters<exporting::ReportSheet>());
     if (path.isEmpty()) {
-        return {};
+        return;
     }
     QApplication::setOverrideCursor(Qt::WaitCursor);
     const QString problem = writeStreamReport(session, *range, path);
     QApplication::restoreOverrideCursor();
     if (!problem.isEmpty()) {
-        return problem;
+        return window.say(problem);
     }
-    if (wantsToOpen(path, parent) && !QDesktopServices::openUrl(QUrl::fromLocalFile(path))) {
-        return tr("No program on this computer opens %1").arg(path);
-    }
-    return tr("Saved %1").arg(path);
-}
-
-void saveReport(Window& window) {
-    if (const QString line = saveStreamReport(shownSession(window), &window); !line.isEmpty()) {
-        window.say(line);
-    }
+    MessageBox question(tr("Save stream report"), tr("The report was saved as %1.").arg(path),
+                        QMessageBox::Close, &window);
+    const auto* open = question.addButton(tr("&Open it"), QMessageBox::AcceptRole);
+    question.exec();
+    const bool isDone =
+        question.clickedButton() != open || QDesktopServices::openUrl(QUrl::fromLocalFile(path));
+    window.say((isDone ? tr("Saved %1") : tr("No program on this computer opens %1")).arg(path));
 }
 
 /// Says so if there is nothing to export yet.
@@ -222,13 +208,6 @@ void toggleRecording(Window& window) {
     }
 }
 
-void editRecording(Window& window) {
-    RecordingDialog dialog(window.kept().recording, &window);
-    if (dialog.exec() == QDialog::Accepted) {
-        window.kept().recording = dialog.choice();
-    }
-}
-
 void showReplay(Window& window) {
     auto* dialog = window.findChild<ReplayDialog*>();
     if (dialog == nullptr) {
@@ -254,62 +233,6 @@ void showRecovered(Window& window) {
     dialog->show();
 }
 
-/// "In memory: 512 MB of at most 1 024 MB. On disk: …": how far one can look back now.
-QString historyStateText(const model::SessionView& live, const History& history) {
-    const auto first = live.packet(live.begin());
-    const QString inMemory =
-        tr("In memory: %1 of at most %2.")
-            .arg(megabytes(live.log().figures().memoryInUse), megabytes(live.log().figures().memoryCap));
-    const log::DiskHistory* disk = history.onDisk();
-    const auto failure = disk != nullptr ? disk->failure() : std::nullopt;
-    QString onDisk =
-        disk != nullptr ? tr("On disk: %1.").arg(megabytes(disk->figures().bytes)) : tr("On disk: nothing.");
-    onDisk = failure ? QString::fromStdString(failure->text) : onDisk;
-    if (live.log().past().isDamaged()) {
-        onDisk += u' ' + tr("Another program has changed its files: some of it is lost.");
-    }
-    const QString since = first
-                              ? tr("The oldest packet is from %1.").arg(timeOfDay(live.wallOf(first->stamp)))
-                              : tr("Nothing was received yet.");
-    return inMemory + u' ' + onDisk + u' ' + since;
-}
-
-void editHistory(Window& window) {
-    HistoryChoice& kept = window.kept().history;
-    const History& history = window.driver().history();
-    QDialog dialog(&window);
-    dialog.setWindowTitle(tr("History"));
-    auto* isOnDisk = new QCheckBox(tr("Keep on &disk what memory has no room for"), &dialog);
-    isOnDisk->setChecked(kept.isOnDisk);
-    auto* gigabytes = new QSpinBox(&dialog);
-    gigabytes->setButtonSymbols(QAbstractSpinBox::NoButtons);
-    gigabytes->setRange(1, HistoryChoice::kMostGigabytes);
-    gigabytes->setSuffix(tr(" GB"));
-    gigabytes->setValue(kept.gigabytes);
-    gigabytes->setEnabled(kept.isOnDisk);
-    gigabytes->setAccessibleName(tr("Size of the history on disk, at most"));
-    QObject::connect(isOnDisk, &QCheckBox::toggled, gigabytes, &QWidget::setEnabled);
-    auto* form = new QFormLayout;
-    form->addRow(isOnDisk);
-    form->addRow(tr("At &most"), gigabytes);
-    const QString about = tr("What was received can be looked back at as long as it is in memory or on disk; "
-                             "the oldest goes first. On disk it takes at most a tenth of what is free, in "
-                             "%1, and goes when Posewire ends. To keep a take, record it.")
-                              .arg(history.folder());
-    layOut(dialog,
-           {dimText(about, &dialog), form,
-            dimText(historyStateText(window.driver().commands().live(), history), &dialog)},
-           *new QDialogButtonBox(QDialogButtonBox::Ok | QDialogButtonBox::Cancel, &dialog),
-           placeOf(HelpTopic::History), 62);
-    const HistoryChoice before = kept;
-    if (dialog.exec() == QDialog::Accepted) {
-        kept = {isOnDisk->isChecked(), gigabytes->value()};
-    }
-    if (kept != before) {
-        window.keepHistory();
-    }
-}
-
 const ActionInfo kFileEntries[] = {
     {"open", QT_TRANSLATE_NOOP("Action", "&File"), QT_TRANSLATE_NOOP("Action", "&Open…"), "Ctrl+O",
      FileDo::call<openFile>},
@@ -328,7 +251,7 @@ const ActionInfo kFileEntries[] = {
     lineIn("&File"),
     {"saveScreenshot", "&File", QT_TRANSLATE_NOOP("Action", "&Save screenshot…"), "Ctrl+Shift+S",
      FileDo::call<saveScreenshot>},
-    {"saveReport", "&File", QT_TRANSLATE_NOOP("Action", "Save stream re&port…"), "",
+    {"saveReport", "&File", QT_TRANSLATE_NOOP("Action", "Save stre&am report…"), "",
      FileDo::call<saveReport>},
     {"savePackets", "&File", QT_TRANSLATE_NOOP("Action", "Save pac&kets…"), "Ctrl+S",
      FileDo::call<savePackets>},
@@ -340,12 +263,15 @@ const ActionInfo kFileEntries[] = {
     {"record", "&File", QT_TRANSLATE_NOOP("Action", "Reco&rd"), "R", FileDo::call<toggleRecording>,
      FileDo::isIn<takesOf, &Takes::isRecording>},
     {"recordingOptions", "&File", QT_TRANSLATE_NOOP("Action", "Recor&ding options…"), "",
-     FileDo::call<editRecording>},
+     FileDo::call<openPreferences, PreferencesSection::Recording>},
     lineIn("&File"),
     {"replay", "&File", QT_TRANSLATE_NOOP("Action", "Repla&y to the network…"), "", FileDo::call<showReplay>},
     {"recovered", "&File", QT_TRANSLATE_NOOP("Action", "Reco&vered packets…"), "",
      FileDo::call<showRecovered>},
-    {"history", "&File", QT_TRANSLATE_NOOP("Action", "&History…"), "", FileDo::call<editHistory>},
+    {"history", "&File", QT_TRANSLATE_NOOP("Action", "&History…"), "",
+     FileDo::call<openPreferences, PreferencesSection::History>},
+    {"preferences", "&File", QT_TRANSLATE_NOOP("Action", "&Preferences…"), "Ctrl+,",
+     FileDo::call<openPreferences, PreferencesSection::Appearance>},
     lineIn("&File"),
     {"quit", "&File", QT_TRANSLATE_NOOP("Action", "&Quit"), "Ctrl+Q", FileDo::call<&Window::close>},
 };

@@ -139,9 +139,7 @@ private:
         const model::TakeVerdict& verdict = m_session.verdicts().of(m_key);
         const Health health = healthOf(verdict.state);
         auto* title = plainLabel(nameApart(m_session, m_key), this);
-        QFont bold = title->font();
-        bold.setWeight(QFont::DemiBold);
-        title->setFont(bold);
+        title->setProperty("heading", true);
         auto* words = plainLabel(healthText(health, said(verdict.said, words::Form::Brief)), this);
         setTextColour(*words, healthColour(health));
         auto* row = new QHBoxLayout;

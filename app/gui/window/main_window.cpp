@@ -195,9 +195,7 @@ MainWindow::MainWindow(SessionDriver& driver, SettingsFile& file, const Settings
 
 void MainWindow::makeBars() {
     auto* name = plainLabel(QStringLiteral("Posewire"), this);
-    QFont font = name->font();
-    font.setWeight(QFont::Bold);
-    name->setFont(font);
+    name->setProperty("heading", true);
     name->setContentsMargins(12, 0, 6, 0);
     menuBar()->setCornerWidget(name, Qt::TopLeftCorner);
     m_layoutButton = flatButton({}, {}, this);

@@ -15,6 +15,7 @@
 #include "app/gui/window/docks.h"
 #include "app/gui/window/guide.h"
 #include "app/gui/window/main_window.h"
+#include "app/gui/window/preferences.h"
 #include "core/model/session/roster.h"
 #include "core/model/session/verdict.h"
 
@@ -56,6 +57,10 @@ void toggleDemo(Window& window) {
     demo(window).setCharacters(demo(window).isRunning() ? 0 : kDemoCharacters);
 }
 
+void toggleLoop(Window& window) {
+    playback(window).setLooping(!playback(window).isLooping());
+}
+
 void copyDiagnostics(Window& window) {
     copyText(diagnosticsText(commands(window).session(), window.driver().receiving().state(),
                              window.viewport().pictures().rendererName()));
@@ -87,14 +92,6 @@ void showAbout(Window& window) {
                                "the MIT licence.\n\nQt %1")
                                 .arg(QLatin1String(qVersion())));
     box->open();
-}
-
-void editThresholds(Window& window) {
-    ThresholdsDialog dialog(window.kept().alerts, &window);
-    if (dialog.exec() == QDialog::Accepted) {
-        window.kept().alerts = dialog.choices();
-        commands(window).setThresholds(dialog.choices().thresholds);
-    }
 }
 
 void findCommand(Window& window) {
@@ -296,8 +293,7 @@ const ActionInfo kActions[] = {
     speed<400>("speed4", "&4 ×"),
     speed<800>("speed8", "&8 ×"),
     speed<1600>("speed16", "1&6 ×"),
-    {"loop", "&Time", QT_TRANSLATE_NOOP("Action", "L&oop"), "Ctrl+Alt+L",
-     Do::toggleIn<playback, &Playback::isLooping, &Playback::setLooping>,
+    {"loop", "&Time", QT_TRANSLATE_NOOP("Action", "L&oop"), "Ctrl+Alt+L", Do::call<toggleLoop>,
      Do::isIn<playback, &Playback::isLooping>},
     step<-1>("sampleBack", QT_TRANSLATE_NOOP("Action", "Previous sa&mple"), "Left"),
     step<1>("sampleOn", QT_TRANSLATE_NOOP("Action", "&Next sample"), "Right"),
@@ -337,7 +333,7 @@ const ActionInfo kActions[] = {
     {"relay", QT_TRANSLATE_NOOP("Action", "T&ools"), QT_TRANSLATE_NOOP("Action", "&Relay…"), "Ctrl+R",
      Do::call<&Window::openInputs, InputsDialog::Page::Relay>},
     {"thresholds", QT_TRANSLATE_NOOP("Action", "T&ools"), QT_TRANSLATE_NOOP("Action", "&Thresholds…"),
-     "Ctrl+T", Do::call<editThresholds>},
+     "Ctrl+T", Do::call<openPreferences, PreferencesSection::Thresholds>},
     {"copyDiagnostics", QT_TRANSLATE_NOOP("Action", "T&ools"),
      QT_TRANSLATE_NOOP("Action", "&Copy diagnostics"), "", Do::call<copyDiagnostics>},
 
@@ -444,8 +440,10 @@ QAction* Menus::makeAction(const MenuEntry& entry) {
     action->setObjectName(QLatin1String(info.id));
     action->setShortcut(QKeySequence(QLatin1String(info.shortcut), QKeySequence::PortableText));
     action->setCheckable(info.isOn != nullptr);
+    action->setMenuRole(action->objectName() == QLatin1String("preferences") ? QAction::PreferencesRole
+                                                                             : action->menuRole());
     QObject::connect(action, &QAction::triggered, &m_window, [this, entry] {
-        if (entry.panel != nullptr) {
+        if (entry.panel != nullptr && QApplication::activeModalWidget() == nullptr) {
             m_window.docks().show(QLatin1String(entry.panel->id));
         }
         entry.action->run(ownerOf(entry));

@@ -7,6 +7,7 @@
 #include "app/gui/inputs/relay_page.h"
 #include "app/gui/models/text.h"
 #include "app/gui/theme/help_link.h"
+#include "app/gui/theme/words.h"
 #include "app/net/relay.h"
 
 #include <QDateTime>
@@ -25,82 +26,128 @@
 
 namespace posewire::gui {
 
-RecordingDialog::RecordingDialog(const RecordingChoice& choice, QWidget* parent)
-    : QDialog(parent),
-      m_folder(new QLineEdit(recordingFolder(choice), this)),
-      m_pattern(new QLineEdit(choice.pattern, this)) {
-    setWindowTitle(tr("Recording options"));
-    auto* form = new QFormLayout;
-    auto* folder = new QWidget(this);
-    auto* row = spacedRow({}, -1, folder);
-    folder->setFocusProxy(m_folder);
-    auto* choose = new QPushButton(tr("Choose…"), this);
-    row->addWidget(m_folder, 1);
-    row->addWidget(choose);
-    form->addRow(tr("&Folder"), folder);
-    form->addRow(tr("&Name"), m_pattern);
-    form->addRow({}, m_next);
-    m_pattern->setPlaceholderText(QLatin1String(RecordingChoice::kDefaultPattern));
-    m_preRoll = addNumber(*form, tr("&Keep before"), tr(" s"), tr("nothing"), choice.preRollSeconds,
-                          RecordingChoice::kMostPreRoll);
-    m_megabytes = addNumber(*form, tr("New file &every"), tr(" MB"), tr("one file, however large"),
-                            choice.fileMegabytes, RecordingChoice::kMostMegabytes);
-    m_minutes = addNumber(*form, tr("New file &after"), tr(" min"), tr("one file, however long"),
-                          choice.fileMinutes, RecordingChoice::kMostMinutes);
-    m_free = addNumber(*form, tr("&Leave free"), tr(" MB"), tr("nothing: until the disk is full"),
-                       choice.freeMegabytes, RecordingChoice::kMostMegabytes);
-    auto* buttons = new QDialogButtonBox(QDialogButtonBox::Ok | QDialogButtonBox::Cancel, this);
-    m_ok = buttons->button(QDialogButtonBox::Ok);
-    connect(choose, &QPushButton::clicked, this, &RecordingDialog::chooseFolder);
-    connect(m_pattern, &QLineEdit::textChanged, this, &RecordingDialog::check);
-    connect(m_folder, &QLineEdit::textChanged, this, &RecordingDialog::check);
-    layOut(*this,
-           {dimText(tr("A take has everything that is received while it runs, as pcapng: Posewire "
-                       "and Wireshark open it. In its name {take} is a number, {date} and {time} "
-                       "are when it begins. What is chosen here counts from the next take on."),
-                    this),
-            form},
-           *buttons, placeOf(HelpTopic::RecordingOptions), 66);
-    check();
-}
+namespace {
 
-QSpinBox* RecordingDialog::addNumber(QFormLayout& form, const QString& label, const QString& unit,
-                                     const QString& none, int value, int most) {
-    auto* box = new QSpinBox(this);
+/// A field that writes a complete number into `value`.
+QSpinBox* addNumber(QFormLayout& rows, const QString& label, const QString& unit, int& value, int least,
+                    int most, const QString& none = {}) {
+    auto* box = new QSpinBox(rows.parentWidget());
     box->setButtonSymbols(QAbstractSpinBox::NoButtons);
-    box->setRange(0, most);
+    box->setKeyboardTracking(false);
+    box->setRange(least, most);
     box->setSuffix(unit);
     box->setSpecialValueText(none);
     box->setValue(value);
-    form.addRow(label, box);
+    rows.addRow(label, box);
+    QObject::connect(box, &QSpinBox::valueChanged, box, [&value](int number) { value = number; });
     return box;
 }
 
-void RecordingDialog::chooseFolder() {
-    const QString folder =
-        QFileDialog::getExistingDirectory(this, tr("Folder of recordings"), m_folder->text());
-    if (!folder.isEmpty()) {
-        m_folder->setText(folder);
+void addFolder(QFormLayout& rows, RecordingChoice& choice) {
+    auto* field = new QWidget(rows.parentWidget());
+    auto* line = new QLineEdit(recordingFolder(choice), field);
+    auto* choose = new QPushButton(tr("Choose…"), field);
+    auto* row = spacedRow({}, -1, field);
+    row->addWidget(line, 1);
+    row->addWidget(choose);
+    field->setFocusProxy(line);
+    line->setAccessibleName(tr("Folder"));
+    rows.addRow(tr("&Folder"), field);
+    QObject::connect(line, &QLineEdit::editingFinished, field, [line, &choice] {
+        const QString folder = line->text().trimmed();
+        choice.folder = folder == recordingFolder({}) ? QString() : folder;
+    });
+    QObject::connect(choose, &QPushButton::clicked, line, [line] {
+        const QString before = line->text();
+        const QString chosen = QFileDialog::getExistingDirectory(line, tr("Folder of recordings"), before);
+        line->setText(chosen.isEmpty() ? before : chosen);
+        emit line->editingFinished();
+    });
+}
+
+/// A pattern that cannot be used is marked, and the one before stays.
+void addPattern(QFormLayout& rows, RecordingChoice& choice) {
+    auto* line = new QLineEdit(choice.pattern, rows.parentWidget());
+    auto* note = new Note(rows.parentWidget());
+    line->setPlaceholderText(QLatin1String(RecordingChoice::kDefaultPattern));
+    note->setAccessibleDescription(tr("Name"));
+    rows.addRow(tr("&Name"), line);
+    rows.addRow({}, note);
+    const auto check = [line, note, &choice] {
+        RecordingChoice typed = choice;
+        typed.pattern = line->text().trimmed();
+        const QFileInfo next(nextTakePath(typed, QDateTime::currentDateTime()));
+        const QString problem = patternProblem(typed.pattern);
+        problem.isEmpty() ? note->explain(tr("Next: %1").arg(next.fileName())) : note->warn(problem);
+    };
+    QObject::connect(line, &QLineEdit::textChanged, note, check);
+    QObject::connect(line, &QLineEdit::editingFinished, note, [line, &choice] {
+        const QString pattern = line->text().trimmed();
+        choice.pattern = patternProblem(pattern).isEmpty() ? pattern : choice.pattern;
+    });
+    check();
+}
+
+/// "In memory: 512 MB of at most 1 024 MB. On disk: …": how far one can look back now.
+QString historyStateText(const model::SessionView& live, const History& history) {
+    const auto first = live.packet(live.begin());
+    const QString inMemory =
+        tr("In memory: %1 of at most %2.")
+            .arg(megabytes(live.log().figures().memoryInUse), megabytes(live.log().figures().memoryCap));
+    const log::DiskHistory* disk = history.onDisk();
+    const auto failure = disk != nullptr ? disk->failure() : std::nullopt;
+    QString onDisk = failure           ? QString::fromStdString(failure->text)
+                     : disk != nullptr ? tr("On disk: %1.").arg(megabytes(disk->figures().bytes))
+                                       : tr("On disk: nothing.");
+    if (live.log().past().isDamaged()) {
+        onDisk += u' ' + tr("Another program has changed its files: some of it is lost.");
     }
+    const QString since = first
+                              ? tr("The oldest packet is from %1.").arg(timeOfDay(live.wallOf(first->stamp)))
+                              : tr("Nothing was received yet.");
+    return inMemory + u' ' + onDisk + u' ' + since;
 }
 
-void RecordingDialog::check() {
-    const QString problem = patternProblem(m_pattern->text());
-    m_ok->setEnabled(problem.isEmpty());
-    const QString next = QFileInfo(nextTakePath(choice(), QDateTime::currentDateTime())).fileName();
-    m_next->setText(problem.isEmpty() ? tr("Next: %1").arg(next) : problem);
+} // namespace
+
+void addRecordingRows(QFormLayout& rows, RecordingChoice& choice) {
+    rows.addRow(dimText(tr("A take has everything that is received while it runs, as pcapng: Posewire "
+                           "and Wireshark open it. In its name {take} is a number, {date} and {time} "
+                           "are when it begins. What is chosen here counts from the next take on."),
+                        rows.parentWidget()));
+    addFolder(rows, choice);
+    addPattern(rows, choice);
+    addNumber(rows, tr("&Keep before"), tr(" s"), choice.preRollSeconds, 0, RecordingChoice::kMostPreRoll,
+              tr("nothing"));
+    addNumber(rows, tr("New file ever&y"), tr(" MB"), choice.fileMegabytes, 0,
+              RecordingChoice::kMostMegabytes, tr("one file, however large"));
+    addNumber(rows, tr("New file af&ter"), tr(" min"), choice.fileMinutes, 0, RecordingChoice::kMostMinutes,
+              tr("one file, however long"));
+    addNumber(rows, tr("Lea&ve free"), tr(" MB"), choice.freeMegabytes, 0, RecordingChoice::kMostMegabytes,
+              tr("nothing: until the disk is full"));
 }
 
-RecordingChoice RecordingDialog::choice() const {
-    RecordingChoice choice;
-    const QString folder = m_folder->text().trimmed();
-    choice.folder = folder == recordingFolder({}) ? QString() : folder;
-    choice.pattern = m_pattern->text().trimmed();
-    choice.preRollSeconds = m_preRoll->value();
-    choice.fileMegabytes = m_megabytes->value();
-    choice.fileMinutes = m_minutes->value();
-    choice.freeMegabytes = m_free->value();
-    return choice;
+void addHistoryRows(QFormLayout& rows, HistoryChoice& choice, const History& history,
+                    const model::SessionView& live) {
+    QWidget* form = rows.parentWidget();
+    rows.addRow(dimText(tr("What was received can be looked back at as long as it is in memory or on disk; "
+                           "the oldest goes first. On disk it takes at most a tenth of what is free, in "
+                           "%1, and goes when Posewire ends. To keep a take, record it. A change applies "
+                           "when this window is closed.")
+                            .arg(history.folder()),
+                        form));
+    auto* isOnDisk = new QCheckBox(tr("Keep on &disk what memory has no room for"), form);
+    isOnDisk->setChecked(choice.isOnDisk);
+    rows.addRow({}, isOnDisk);
+    QSpinBox* most =
+        addNumber(rows, tr("At &most"), tr(" GB"), choice.gigabytes, 1, HistoryChoice::kMostGigabytes);
+    most->setEnabled(choice.isOnDisk);
+    most->setAccessibleName(tr("Size of the history on disk, at most"));
+    rows.addRow({}, dimText(historyStateText(live, history), form));
+    QObject::connect(isOnDisk, &QCheckBox::toggled, form, [&choice, most](bool isOn) {
+        choice.isOnDisk = isOn;
+        most->setEnabled(isOn);
+    });
 }
 
 namespace {

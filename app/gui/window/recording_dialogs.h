@@ -19,35 +19,18 @@
 #include <future>
 
 class QFormLayout;
-class QSpinBox;
 
 namespace posewire::gui {
 
 class History;
 
-class RecordingDialog final : public QDialog {
-    Q_OBJECT
+/// Adds fields for where recordings go, what they are called and how large they become. They write each
+/// choice that can be used into `choice`, which outlives them.
+void addRecordingRows(QFormLayout& rows, RecordingChoice& choice);
 
-public:
-    RecordingDialog(const RecordingChoice& choice, QWidget* parent);
-
-    [[nodiscard]] RecordingChoice choice() const;
-
-private:
-    QSpinBox* addNumber(QFormLayout& form, const QString& label, const QString& unit, const QString& none,
-                        int value, int most);
-    void chooseFolder();
-    void check();
-
-    QLineEdit* m_folder;
-    QLineEdit* m_pattern;
-    QSpinBox* m_preRoll;
-    QSpinBox* m_megabytes;
-    QSpinBox* m_minutes;
-    QSpinBox* m_free;
-    QLabel* m_next = dimText({}, this);
-    QPushButton* m_ok;
-};
+/// Adds fields for how much of what was received stays on disk, and how far one can look back now.
+void addHistoryRows(QFormLayout& rows, HistoryChoice& choice, const History& history,
+                    const model::SessionView& live);
 
 /// What was received until Posewire was killed, the power failed or the like: files of the history on disk
 /// that nobody has saved, to be opened, saved or discarded.

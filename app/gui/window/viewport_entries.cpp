@@ -57,11 +57,7 @@ void selectCharacter(Window& window) {
     }
 }
 
-template <int index>
-constexpr ActionInfo selectEntry(const char* id, const char* text, const char* shortcut) {
-    return {id, QT_TRANSLATE_NOOP("Action", "&View/&Select character"), text, shortcut,
-            ViewDo::call<selectCharacter<index>>};
-}
+constexpr const char* kSelect = QT_TRANSLATE_NOOP("Action", "&View/&Select character");
 template <render::StandardView view>
 constexpr ActionInfo viewEntry(const char* id, const char* text, const char* shortcut) {
     return {id, QT_TRANSLATE_NOOP("Action", "&View/&Camera"), text, shortcut,
@@ -94,29 +90,21 @@ void keepView(Window& window) {
     choiceOf(window).keepView(index);
     window.say(tr("View %1 kept").arg(index + 1));
 }
-template <int index>
-constexpr ActionInfo showViewEntry(const char* id, const char* text, const char* shortcut) {
-    return {id, QT_TRANSLATE_NOOP("Action", "&View/&Camera/&Go to view"), text, shortcut,
-            ViewDo::call<showView<index>>};
-}
+constexpr const char* kShowView = QT_TRANSLATE_NOOP("Action", "&View/&Camera/&Go to view");
 template <int index>
 constexpr ActionInfo keepViewEntry(const char* id, const char* text, const char* shortcut) {
     return {id, QT_TRANSLATE_NOOP("Action", "&View/&Camera/&Keep view"), text, shortcut,
             ViewDo::call<keepView<index>>};
 }
 
-template <auto move, int right, int up>
+template <auto move, auto... steps>
 constexpr ActionInfo moveEntry(const char* id, const char* text, const char* shortcut) {
     return {id, QT_TRANSLATE_NOOP("Action", "&View/&Camera/&Move"), text, shortcut,
-            ViewDo::callIn<choiceOf, move, right, up>};
+            ViewDo::callIn<choiceOf, move, steps...>};
 }
 constexpr auto kOrbit = &ViewChoice::orbitBy;
 constexpr auto kPan = &ViewChoice::panBy;
-template <int steps>
-constexpr ActionInfo zoomEntry(const char* id, const char* text, const char* shortcut) {
-    return {id, QT_TRANSLATE_NOOP("Action", "&View/&Camera/&Move"), text, shortcut,
-            ViewDo::callIn<choiceOf, &ViewChoice::zoomBy, steps>};
-}
+constexpr auto kZoom = &ViewChoice::zoomBy;
 
 template <int count>
 constexpr ActionInfo splitEntry(const char* id, const char* text, const char* shortcut) {
@@ -131,16 +119,20 @@ constexpr ActionInfo switchEntry(const char* id, const char* menu, const char* t
     return {id, menu, text, "", toggle, ViewDo::isFor<choiceOf, &ViewChoice::isSwitchedOn, which>};
 }
 
+template <AxesMode mode>
+constexpr ActionInfo axesEntry(const char* id, const char* text) {
+    constexpr auto set = ViewDo::callIn<choiceOf, &ViewChoice::setAxes, mode>;
+    return {id,  QT_TRANSLATE_NOOP("Action", "&View/&Axes"),     text, "",
+            set, ViewDo::isIn<choiceOf, &ViewChoice::axes, mode>};
+}
+
 template <Overlay overlay>
 constexpr ActionInfo overlayEntry() {
     constexpr const OverlayEntry& entry = kOverlayTable[static_cast<std::size_t>(overlay)];
     static_assert(entry.overlay == overlay);
-    return {entry.key,
-            QT_TRANSLATE_NOOP("Action", "&View/O&verlays"),
-            entry.title,
-            "",
-            ViewDo::callIn<choiceOf, &ViewChoice::toggle, overlay>,
-            ViewDo::isFor<choiceOf, &ViewChoice::isOn, overlay>};
+    constexpr auto toggle = ViewDo::callIn<choiceOf, &ViewChoice::toggle, overlay>;
+    return {entry.key, QT_TRANSLATE_NOOP("Action", "&View/O&verlays"),     entry.title, "",
+            toggle,    ViewDo::isFor<choiceOf, &ViewChoice::isOn, overlay>};
 }
 
 const ActionInfo kEntries[] = {
@@ -169,12 +161,12 @@ const ActionInfo kEntries[] = {
     moveEntry<kPan, 1, 0>("panRight", QT_TRANSLATE_NOOP("Action", "Pan to the ri&ght"), "Ctrl+Shift+Right"),
     moveEntry<kPan, 0, 1>("panUp", QT_TRANSLATE_NOOP("Action", "&Pan up"), "Ctrl+Shift+Up"),
     moveEntry<kPan, 0, -1>("panDown", QT_TRANSLATE_NOOP("Action", "Pa&n down"), "Ctrl+Shift+Down"),
-    zoomEntry<1>("zoomIn", QT_TRANSLATE_NOOP("Action", "&Closer"), "Z"),
-    zoomEntry<-1>("zoomOut", QT_TRANSLATE_NOOP("Action", "&Farther"), "Shift+Z"),
-    showViewEntry<0>("showView1", QT_TRANSLATE_NOOP("Action", "View &1"), "Alt+7"),
-    showViewEntry<1>("showView2", QT_TRANSLATE_NOOP("Action", "View &2"), "Alt+8"),
-    showViewEntry<2>("showView3", QT_TRANSLATE_NOOP("Action", "View &3"), "Alt+9"),
-    showViewEntry<3>("showView4", QT_TRANSLATE_NOOP("Action", "View &4"), "Alt+0"),
+    moveEntry<kZoom, 1>("zoomIn", QT_TRANSLATE_NOOP("Action", "&Closer"), "Z"),
+    moveEntry<kZoom, -1>("zoomOut", QT_TRANSLATE_NOOP("Action", "&Farther"), "Shift+Z"),
+    {"showView1", kShowView, QT_TRANSLATE_NOOP("Action", "View &1"), "Alt+7", ViewDo::call<showView<0>>},
+    {"showView2", kShowView, QT_TRANSLATE_NOOP("Action", "View &2"), "Alt+8", ViewDo::call<showView<1>>},
+    {"showView3", kShowView, QT_TRANSLATE_NOOP("Action", "View &3"), "Alt+9", ViewDo::call<showView<2>>},
+    {"showView4", kShowView, QT_TRANSLATE_NOOP("Action", "View &4"), "Alt+0", ViewDo::call<showView<3>>},
     keepViewEntry<0>("keepView1", QT_TRANSLATE_NOOP("Action", "As view &1"), "Alt+Shift+7"),
     keepViewEntry<1>("keepView2", QT_TRANSLATE_NOOP("Action", "As view &2"), "Alt+Shift+8"),
     keepViewEntry<2>("keepView3", QT_TRANSLATE_NOOP("Action", "As view &3"), "Alt+Shift+9"),
@@ -184,7 +176,10 @@ const ActionInfo kEntries[] = {
     splitEntry<4>("splitFour", QT_TRANSLATE_NOOP("Action", "&Four views"), "Ctrl+Alt+4"),
     {"nextView", "&View/Sp&lit view", QT_TRANSLATE_NOOP("Action", "&Next view"), "Ctrl+Alt+N",
      ViewDo::callIn<choiceOf, &ViewChoice::activateNext>},
-    {"axes", "&View", QT_TRANSLATE_NOOP("Action", "&Axes: all, selected, none"), "A", ViewDo::call<nextAxes>},
+    axesEntry<AxesMode::All>("axesOfAll", QT_TRANSLATE_NOOP("Action", "&All segments")),
+    axesEntry<AxesMode::Selected>("axesOfSelected", QT_TRANSLATE_NOOP("Action", "&Selected character")),
+    axesEntry<AxesMode::None>("axesOfNone", QT_TRANSLATE_NOOP("Action", "&None")),
+    {"axes", "&View/&Axes", QT_TRANSLATE_NOOP("Action", "Ne&xt of these"), "A", ViewDo::call<nextAxes>},
     overlayEntry<Overlay::SegmentNames>(),
     overlayEntry<Overlay::JointAngles>(),
     overlayEntry<Overlay::Markers>(),
@@ -206,15 +201,15 @@ const ActionInfo kEntries[] = {
      ViewDo::call<toggleLifted>, ViewDo::is<isAnyLifted>},
     {"ghost", "&View", QT_TRANSLATE_NOOP("Action", "Null pose as &ghost"), "Shift+G",
      ViewDo::call<toggleGhost>, ViewDo::is<isGhostOn>},
-    selectEntry<0>("select1", QT_TRANSLATE_NOOP("Action", "First"), "1"),
-    selectEntry<1>("select2", QT_TRANSLATE_NOOP("Action", "Second"), "2"),
-    selectEntry<2>("select3", QT_TRANSLATE_NOOP("Action", "Third"), "3"),
-    selectEntry<3>("select4", QT_TRANSLATE_NOOP("Action", "Fourth"), "4"),
-    selectEntry<4>("select5", QT_TRANSLATE_NOOP("Action", "Fifth"), "5"),
-    selectEntry<5>("select6", QT_TRANSLATE_NOOP("Action", "Sixth"), "6"),
-    selectEntry<6>("select7", QT_TRANSLATE_NOOP("Action", "Seventh"), "7"),
-    selectEntry<7>("select8", QT_TRANSLATE_NOOP("Action", "Eighth"), "8"),
-    selectEntry<8>("select9", QT_TRANSLATE_NOOP("Action", "Ninth"), "9"),
+    {"select1", kSelect, QT_TRANSLATE_NOOP("Action", "First"), "1", ViewDo::call<selectCharacter<0>>},
+    {"select2", kSelect, QT_TRANSLATE_NOOP("Action", "Second"), "2", ViewDo::call<selectCharacter<1>>},
+    {"select3", kSelect, QT_TRANSLATE_NOOP("Action", "Third"), "3", ViewDo::call<selectCharacter<2>>},
+    {"select4", kSelect, QT_TRANSLATE_NOOP("Action", "Fourth"), "4", ViewDo::call<selectCharacter<3>>},
+    {"select5", kSelect, QT_TRANSLATE_NOOP("Action", "Fifth"), "5", ViewDo::call<selectCharacter<4>>},
+    {"select6", kSelect, QT_TRANSLATE_NOOP("Action", "Sixth"), "6", ViewDo::call<selectCharacter<5>>},
+    {"select7", kSelect, QT_TRANSLATE_NOOP("Action", "Seventh"), "7", ViewDo::call<selectCharacter<6>>},
+    {"select8", kSelect, QT_TRANSLATE_NOOP("Action", "Eighth"), "8", ViewDo::call<selectCharacter<7>>},
+    {"select9", kSelect, QT_TRANSLATE_NOOP("Action", "Ninth"), "9", ViewDo::call<selectCharacter<8>>},
 };
 
 } // namespace

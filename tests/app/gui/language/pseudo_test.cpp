@@ -410,8 +410,8 @@ TEST_F(PseudoTest, TranslatesEveryMenuAndDialog) {
     });
     closing.start(30);
     for (const QString id :
-         {"inputs", "thresholds", "recordingOptions", "replay", "recovered", "history", "exportMotion",
-          "exportPictures", "ownCharacter", "findCommand", "about", "connectionHelp"}) {
+         {"inputs", "preferences", "thresholds", "recordingOptions", "replay", "recovered", "history",
+          "exportMotion", "exportPictures", "ownCharacter", "findCommand", "about", "connectionHelp"}) {
         auto* action = m_window.findChild<QAction*>(id);
         ASSERT_NE(action, nullptr) << id.toStdString();
         action->trigger();

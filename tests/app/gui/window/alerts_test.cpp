@@ -10,9 +10,10 @@
 
 #include <QAbstractButton>
 #include <QAbstractItemView>
-#include <QDialogButtonBox>
+#include <QCheckBox>
 #include <QDoubleSpinBox>
 #include <QFile>
+#include <QFormLayout>
 #include <QPushButton>
 #include <QTemporaryDir>
 #include <QTest>
@@ -99,28 +100,28 @@ TEST(BadTurnsTest, PassOnNoMarkup) {
     EXPECT_TRUE(text.contains("Jonas"));
 }
 
-TEST(ThresholdsDialogTest, OpensWithRoomForAllOfIt) {
-    ThresholdsDialog dialog(AlertChoices{});
-    dialog.show();
-    for (const auto* part : dialog.findChildren<QWidget*>()) {
-        if (part->isVisible() && part->sizePolicy().horizontalPolicy() != QSizePolicy::Ignored) {
-            EXPECT_GE(part->height(), part->minimumSizeHint().height())
-                << part->metaObject()->className() << " " << part->objectName().toStdString();
-        }
-    }
-}
-
-TEST(ThresholdsDialogTest, GivesBackWhatItShowsAndTheDefaults) {
+TEST(ThresholdRowsTest, ShowWhatIsChosenAndRestoreTheDefaults) {
     AlertChoices choices;
     choices.thresholds = {3, 20, 400, 2, 30, 10, 0.5};
     choices.hasWarningSound = true;
-    ThresholdsDialog dialog(choices);
-    EXPECT_EQ(dialog.choices(), choices);
-    for (const QDoubleSpinBox* box : dialog.findChildren<QDoubleSpinBox*>()) {
+    const AlertChoices before = choices;
+    int changes = 0;
+    QWidget form;
+    auto* rows = new QFormLayout(&form);
+    addThresholdRows(*rows, choices, [&] { ++changes; });
+    EXPECT_EQ(choices, before);
+    std::vector<double> shown;
+    for (const QDoubleSpinBox* box : form.findChildren<QDoubleSpinBox*>()) {
         EXPECT_FALSE(box->suffix().isEmpty());
+        shown.push_back(box->value());
     }
-    dialog.findChild<QDialogButtonBox*>()->button(QDialogButtonBox::RestoreDefaults)->click();
-    EXPECT_EQ(dialog.choices(), AlertChoices());
+    EXPECT_EQ(shown, (std::vector<double>{3, 20, 400, 2, 30, 10, 50}));
+    EXPECT_TRUE(form.findChildren<QCheckBox*>().first()->isChecked());
+    form.findChildren<QDoubleSpinBox*>().last()->setValue(60);
+    EXPECT_EQ(choices.thresholds.hysteresis, 0.6);
+    EXPECT_EQ(changes, 1);
+    form.findChild<QPushButton*>()->click();
+    EXPECT_EQ(choices, AlertChoices());
 }
 
 class HealthBarTest : public testing::Test {

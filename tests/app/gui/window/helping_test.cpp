@@ -7,7 +7,7 @@
 #include "app/gui/window/docks.h"
 #include "app/gui/window/guide.h"
 #include "app/gui/window/main_window.h"
-#include "app/gui/window/recording_dialogs.h"
+#include "app/gui/window/preferences.h"
 #include "core/log/clock.h"
 
 #include <QAbstractSpinBox>
@@ -184,14 +184,16 @@ TEST_F(HelpingTest, AMessageThatWaitsForAnAnswerStaysWhileItsHelpIsRead) {
 }
 
 TEST_F(HelpingTest, ADialogHasAButtonAndF1) {
-    RecordingDialog dialog({}, &window);
-    dialog.show();
-    dialog.activateWindow();
+    openPreferences(window, PreferencesSection::Recording);
+    auto* dialog = window.findChild<QDialog*>();
+    dialog->activateWindow();
     QTest::qWait(1);
-    EXPECT_NE(dialog.findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Help), nullptr);
-    QTest::keyClick(&dialog, Qt::Key_F1);
-    EXPECT_EQ(place(), placeOf(HelpTopic::RecordingOptions));
-    EXPECT_EQ(helpPlaceOf(dialog.findChild<QPushButton*>()), place());
+    EXPECT_NE(dialog->findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Help), nullptr);
+    QTest::keyClick(dialog, Qt::Key_F1);
+    EXPECT_EQ(place(), placeOf(HelpTopic::Preferences));
+    EXPECT_EQ(helpPlaceOf(dialog->findChild<QPushButton*>()), place());
+    dialog->findChild<QWidget*>("recordingOptions")->findChild<QToolButton*>("helpButton")->click();
+    EXPECT_EQ(place(), placeOf(HelpTopic::RecordingOptions)) << "a section has help of its own";
 }
 
 /// Files come with their path as text, too.
