@@ -40,7 +40,7 @@ JsonValue jsonOf(std::uint8_t type, const performer::SentFigures& sent) {
     for (const auto& [figure, value] : valuesOf(sent)) {
         const model::FigureRow& row = model::rowOf(figure);
         if (wire::isSampled(type) || row.scope == model::FigureScope::Messages) {
-            json[row.key] = value;
+            json[std::string(row.key)] = value;
         }
     }
     return json;
@@ -53,9 +53,9 @@ JsonValue jsonOf(const performer::FaultTally& tally) {
 }
 
 /// The streams of a truth are in the order of their characters.
-JsonValue::List charactersOf(const performer::Truth& truth) {
-    JsonValue::List characters;
-    JsonValue::List streams;
+JsonValue::array_t charactersOf(const performer::Truth& truth) {
+    JsonValue::array_t characters;
+    JsonValue::array_t streams;
     std::optional<std::uint8_t> character;
     const auto finish = [&] {
         if (character) {
@@ -164,7 +164,7 @@ net::NetResult<void> SendRound::send(std::optional<log::Duration> until) {
 }
 
 tl::expected<void, std::string> writeTruth(const SendOptions& options, const std::vector<SendLine>& lines) {
-    JsonValue::List senders;
+    JsonValue::array_t senders;
     std::uint64_t foreign = 0;
     for (const SendLine& line : lines) {
         for (const SendLine::Sender& sender : line.senders()) {
@@ -178,7 +178,7 @@ tl::expected<void, std::string> writeTruth(const SendOptions& options, const std
     if (!options.fault.kind.empty()) {
         report["content"] = {{"what", options.fault.kind}, {"fromS", options.fault.fromSeconds}};
     }
-    return Output::writeFile(options.truth, {options.replaces}, report.text(2) + "\n");
+    return Output::writeFile(options.truth, {options.replaces}, exporting::jsonText(report, 2) + "\n");
 }
 
 namespace {

@@ -2,6 +2,7 @@
 #include "core/export/reports.h"
 
 #include "core/export/html.h"
+#include "core/export/json_value.h"
 #include "core/model/session/accounts.h"
 #include "core/model/session/memory_figures.h"
 #include "core/model/session/messages.h"
@@ -62,8 +63,8 @@ JsonValue streamJson(const model::StreamFigures& figures) {
             json["clock"]["from"] = figures.isFromTimeCode() ? "time code" : "sample counter";
         }
         const std::size_t dot = row.key.find('.');
-        JsonValue& object = dot == std::string_view::npos ? json : json[row.key.substr(0, dot)];
-        object[row.key.substr(dot + 1)] = valueJson(figures, row);
+        JsonValue& object = dot == std::string_view::npos ? json : json[std::string(row.key.substr(0, dot))];
+        object[std::string(row.key.substr(dot + 1))] = valueJson(figures, row);
     }
     return json;
 }
@@ -86,7 +87,7 @@ JsonValue charactersJson(const model::SessionView& session, const model::Sender&
         keys.push_back(character->key);
     }
     std::ranges::sort(keys);
-    JsonValue::List characters;
+    JsonValue::array_t characters;
     for (const model::CharacterKey& key : keys) {
         JsonValue character{{"id", key.character},
                             {"name", sentName(session, key)},
@@ -116,7 +117,7 @@ JsonValue senderJson(const model::SessionView& session, const model::Sender& sen
 JsonValue memoryJson(const model::MemoryFigures& memory) {
     JsonValue json{{"sum", memory.sum()}, {"budget", memory.budget()}};
     for (const model::MemoryFigures::Part& part : memory.parts) {
-        json[part.key] = part.bytes;
+        json[std::string(part.key)] = part.bytes;
     }
     return json;
 }
@@ -191,6 +192,11 @@ bool hasSentMxtp(const model::Sender& sender) {
     return sender.datagrams > sender.foreign || sender.skippedBytes != 0;
 }
 
+struct VerdictLines::Changes {
+    JsonValue::array_t changed;
+    std::vector<std::uint64_t> gone; ///< their numbers
+};
+
 std::optional<std::string> VerdictLines::lineAt(const model::SessionView& session, log::Stamp now) {
     const model::TakeVerdict verdict = model::verdictOf(session, model::recentSpan(session));
     return isDue(verdict, now) ? std::optional(line(session, now, verdict, changesOf(session)))
@@ -242,7 +248,7 @@ std::string VerdictLines::line(const model::SessionView& session, log::Stamp now
     if (!changes.gone.empty()) {
         object["gone"] = listOf(changes.gone, [](std::uint64_t number) { return JsonValue(number); });
     }
-    return object.text();
+    return jsonText(object);
 }
 
 VerdictLines::Changes VerdictLines::changesOf(const model::SessionView& session) {
@@ -250,7 +256,7 @@ VerdictLines::Changes VerdictLines::changesOf(const model::SessionView& session)
     std::map<std::uint64_t, std::uint64_t> told;
     for (const model::ListedIncident& listed : model::listedIncidents(session)) {
         JsonValue json = incidentJson(session, listed);
-        const std::uint64_t sum = std::hash<std::string>{}(json.text());
+        const std::uint64_t sum = std::hash<std::string>{}(jsonText(json));
         const auto before = m_told.find(listed.incident.number);
         if (before == m_told.end() || before->second != sum) {
             changes.changed.push_back(std::move(json));
@@ -275,8 +281,8 @@ std::string monitorReport(const model::SessionView& session, const MonitorFacts&
         everyone.push_back(&character);
     }
     const model::TakeVerdicts verdicts = model::verdictsOf(session, {}, everyone);
-    JsonValue::List senders;
-    JsonValue::List foreignSenders;
+    JsonValue::array_t senders;
+    JsonValue::array_t foreignSenders;
     for (const model::Sender& sender : session.roster().senders()) {
         if (hasSentMxtp(sender)) {
             senders.push_back(senderJson(session, sender, verdicts));
@@ -307,14 +313,14 @@ std::string monitorReport(const model::SessionView& session, const MonitorFacts&
                                            {"malformed", retired.malformed},
                                            {"samples", retired.samples},
                                            {"lost", retired.lost}}},
-                     {"exceeded", JsonValue::List(facts.exceeded.begin(), facts.exceeded.end())},
+                     {"exceeded", JsonValue::array_t(facts.exceeded.begin(), facts.exceeded.end())},
                      {"verdict", verdictJson(session, verdicts.all)},
                      {"incidents", listOf(model::listedIncidents(session),
                                           [&](const auto& one) { return incidentJson(session, one); })}};
     if (facts.hasMemory) {
         report["memory"] = memoryJson(session.memory());
     }
-    return report.text();
+    return jsonText(report);
 }
 
 } // namespace posewire::exporting

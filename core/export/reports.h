@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/export/json_value.h"
 #include "core/model/accounting/stream_figures.h"
 #include "core/model/session/session_view.h"
 #include "core/model/session/verdict.h"
@@ -64,10 +63,7 @@ public:
     [[nodiscard]] std::optional<std::string> lastLine(const model::SessionView& session, log::Stamp now);
 
 private:
-    struct Changes {
-        JsonValue::List changed;
-        std::vector<std::uint64_t> gone; ///< their numbers
-    };
+    struct Changes;
     [[nodiscard]] bool isDue(const model::TakeVerdict& verdict, log::Stamp now) const;
     void await(const model::TakeVerdict& verdict, log::Stamp now);
     [[nodiscard]] std::string line(const model::SessionView& session, log::Stamp now,

@@ -145,9 +145,9 @@ void addPoseRows(const model::NullPose& pose, std::string& text) {
 /// A number that is not finite is written as in decoded messages: "NaN", "Infinity" or "-Infinity".
 template <std::size_t N>
 JsonValue vectorOf(const std::array<float, N>& numbers) {
-    JsonValue::List list;
+    JsonValue list = JsonValue::array();
     for (const float number : numbers) {
-        list.push_back(std::isfinite(number) ? JsonValue(number) : JsonValue(numberText(number)));
+        list.push_back(std::isfinite(number) ? floatJson(number) : JsonValue(numberText(number)));
     }
     return list;
 }
@@ -212,7 +212,7 @@ std::string eventsCsv(const EventSheet& sheet) {
 std::string eventsJson(const EventSheet& sheet) {
     std::string text = "[";
     for (std::size_t i = 0; i < sheet.events.size(); ++i) {
-        text += (i == 0 ? "\n" : ",\n") + objectOf(sheet.session, *sheet.events[i]).text();
+        text += (i == 0 ? "\n" : ",\n") + jsonText(objectOf(sheet.session, *sheet.events[i]));
     }
     return text + "\n]\n";
 }
@@ -254,7 +254,7 @@ std::string nullPoseJson(const NullPoseSheet& sheet) {
             return JsonValue{{"id", prop.id}, {"name", prop.name}};
         });
     }
-    return object.text(2) + "\n";
+    return jsonText(object, 2) + "\n";
 }
 
 } // namespace posewire::exporting

@@ -21,8 +21,7 @@ namespace posewire::exporting {
 namespace {
 
 using Eigen::Vector3d;
-using Object = JsonValue::Object;
-using List = JsonValue::List;
+using List = JsonValue::array_t;
 
 static_assert(std::endian::native == std::endian::little, "the file is, and memory is written as it is");
 
@@ -34,8 +33,8 @@ constexpr int kArrayBuffer = 34962;
 constexpr int kElementArrayBuffer = 34963;
 
 JsonValue vectorList(const Vector3d& vector) {
-    return List{static_cast<float>(vector.x()), static_cast<float>(vector.y()),
-                static_cast<float>(vector.z())};
+    return List{floatJson(static_cast<float>(vector.x())), floatJson(static_cast<float>(vector.y())),
+                floatJson(static_cast<float>(vector.z()))};
 }
 
 template <class Element>
@@ -246,8 +245,8 @@ void addKeys(const Animated& one, std::size_t firstNode, Document& document) {
     const std::size_t times = column(one.keys.times(), {{"componentType", kFloat},
                                                         {"type", "SCALAR"},
                                                         {"count", count},
-                                                        {"min", List{one.keys.firstTime()}},
-                                                        {"max", List{one.keys.lastTime()}}});
+                                                        {"min", List{floatJson(one.keys.firstTime())}},
+                                                        {"max", List{floatJson(one.keys.lastTime())}}});
     for (std::size_t joint = 0; joint < one.skeleton.joints.size(); ++joint) {
         const auto channel = [&](const char* path, const FloatColumn& floats, const char* type) {
             const std::size_t output =
@@ -269,7 +268,7 @@ JsonValue boundsOf(const std::vector<std::array<float, 3>>& positions, bool isLe
                 isLeast ? std::min(bound[axis], position[axis]) : std::max(bound[axis], position[axis]);
         }
     }
-    return List{bound[0], bound[1], bound[2]};
+    return List{floatJson(bound[0]), floatJson(bound[1]), floatJson(bound[2])};
 }
 
 /// Adds the mesh with its skin; the node that shows it.
@@ -311,7 +310,8 @@ std::size_t addBody(Animated& one, std::size_t firstNode, Document& document) {
     const model::Colour& colour = one.character.colour;
     document.materials.push_back(
         {{"pbrMetallicRoughness",
-          JsonValue{{"baseColorFactor", List{colour.red, colour.green, colour.blue, 1}},
+          JsonValue{{"baseColorFactor",
+                     List{floatJson(colour.red), floatJson(colour.green), floatJson(colour.blue), 1}},
                     {"metallicFactor", 0},
                     {"roughnessFactor", 0.6}}}});
     const JsonValue attributes{
@@ -401,7 +401,7 @@ private:
         file["accessors"] = document.accessors();
         file["bufferViews"] = document.views();
         file["buffers"] = List{{{"byteLength", document.bytes()}}};
-        return file.text();
+        return jsonText(file);
     }
 
     const MotionTask& m_task;

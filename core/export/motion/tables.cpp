@@ -102,7 +102,7 @@ public:
             // The bytes that were sent; not where they are so many that each sample would be drowned in them.
             const bool isShort = character.name.exact().size() <= model::ForeignText::kMostBytes;
             const std::string name(isShort ? character.name.exact() : character.name.shown());
-            m_begins.push_back("{\"character\":" + JsonValue(name).text() +
+            m_begins.push_back("{\"character\":" + jsonText(name) +
                                ",\"id\":" + std::to_string(character.key.character) + ",\"run\":");
         }
     }
