@@ -9,6 +9,8 @@
 #include "core/wire/codec.h"
 
 #include <algorithm>
+#include <initializer_list>
+#include <utility>
 
 namespace posewire::gui {
 
@@ -47,6 +49,17 @@ QString gapText(const model::Gap* gap, std::uint64_t samples) {
              grouped(samples));
 }
 
+/// The texts of what is so.
+QStringList trueOf(std::initializer_list<std::pair<bool, QString>> findings) {
+    QStringList texts;
+    for (const auto& [isSo, text] : findings) {
+        if (isSo) {
+            texts += text;
+        }
+    }
+    return texts;
+}
+
 QString findingsOf(model::SessionView& view, const log::Packet& packet, const model::PacketDigest& digest) {
     QStringList texts;
     if (digest.kind == model::PacketKind::Malformed) {
@@ -64,21 +77,11 @@ QString findingsOf(model::SessionView& view, const log::Packet& packet, const mo
     if (digest.gap != 0) {
         texts += gapText(view.accounts().attribution().endedBy(packet.number), digest.gap);
     }
-    if (digest.isDuplicate) {
-        texts += tr("duplicate");
-    }
-    if (digest.isReordered) {
-        texts += tr("reordered");
-    }
-    if (digest.isRestart) {
-        texts += tr("counter restarted");
-    }
-    if (digest.isInDoubt) {
-        texts += tr("counter jumped");
-    }
-    if (digest.isTruncated) {
-        texts += tr("cut off when it was received");
-    }
+    texts += trueOf({{digest.isDuplicate, tr("duplicate")},
+                     {digest.isReordered, tr("reordered")},
+                     {digest.isRestart, tr("counter restarted")},
+                     {digest.isInDoubt, tr("counter jumped")},
+                     {digest.isTruncated, tr("cut off when it was received")}});
     if (packet.flags.shared != 0) {
         texts += said(words::sharedFact(packet.flags.shared), words::Form::Sentence);
     }
@@ -114,19 +117,12 @@ QStringList sequenceFindings(model::SessionView& view, std::uint64_t number) {
         }
         texts += sentences.join(QLatin1Char(' '));
     }
-    if (digest->isDuplicate) {
-        texts += tr("Duplicate: this datagram of this sample had come before.");
-    }
-    if (digest->isReordered) {
-        texts += tr("Reordered: a later sample of the stream came before it.");
-    }
-    if (digest->isRestart) {
-        texts += tr("The sample counter of the stream restarted here.");
-    }
-    if (digest->isInDoubt) {
-        texts += tr("The sample counter jumped here. What comes next shows whether it restarted.");
-    }
-    return texts;
+    return texts +
+           trueOf({{digest->isDuplicate, tr("Duplicate: this datagram of this sample had come before.")},
+                   {digest->isReordered, tr("Reordered: a later sample of the stream came before it.")},
+                   {digest->isRestart, tr("The sample counter of the stream restarted here.")},
+                   {digest->isInDoubt, tr("The sample counter jumped here. What comes next shows whether "
+                                          "it restarted.")}});
 }
 
 std::optional<PacketFacts> packetFacts(model::SessionView& view, std::uint64_t number) {
