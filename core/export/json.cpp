@@ -2,6 +2,7 @@
 #include "core/export/json.h"
 
 #include "core/export/json_fields.h"
+#include "core/export/json_value.h"
 #include "core/model/body/item_names.h"
 #include "core/wire/codec.h"
 #include "core/wire/form.h"
@@ -15,13 +16,7 @@ namespace posewire::exporting {
 namespace {
 
 Json jsonOf(float value) {
-    if (std::isnan(value)) {
-        return "NaN";
-    }
-    if (std::isinf(value)) {
-        return value > 0 ? "Infinity" : "-Infinity";
-    }
-    return value;
+    return std::isfinite(value) ? Json(value) : Json(numberText(value));
 }
 
 template <std::size_t N>
@@ -58,7 +53,6 @@ Json tagsOf(const std::string& text) {
     return tags;
 }
 
-/// A message's or item's fields as an object.
 template <class T, wire::Form F>
 Json fieldsOf(const T& value) {
     Json object = Json::object();

@@ -8,11 +8,21 @@
 namespace posewire::exporting {
 
 JsonValue floatJson(float value) {
-    std::array<char, 32> digits{};
-    const char* end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+    const std::string digits = numberText(value);
     double number = value;
-    std::from_chars(digits.data(), end, number);
+    std::from_chars(digits.data(), digits.data() + digits.size(), number);
     return number;
+}
+
+std::string numberText(float value) {
+    if (std::isnan(value)) {
+        return "NaN";
+    }
+    if (std::isinf(value)) {
+        return value > 0 ? "Infinity" : "-Infinity";
+    }
+    std::array<char, 32> digits{};
+    return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr};
 }
 
 std::string jsonText(const JsonValue& value, int indent) {

@@ -16,6 +16,10 @@ using JsonValue = nlohmann::ordered_json;
 /// With as few digits as distinguish the number from its neighbours of 32 bits.
 [[nodiscard]] JsonValue floatJson(float value);
 
+/// As floats are written, with as few digits; "NaN", "Infinity" or "-Infinity", which JSON has no numbers
+/// for.
+[[nodiscard]] std::string numberText(float value);
+
 /// One line, or indented by this many spaces per level. Bytes that are not UTF-8 are written as U+FFFD.
 [[nodiscard]] std::string jsonText(const JsonValue& value, int indent = -1);
 

@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 
 namespace posewire::exporting {
@@ -100,18 +99,6 @@ JsonValue objectOf(const model::SessionView& session, const Incident& event) {
 constexpr std::string_view kNullPoseHeader =
     "kind,segment,point,name,flags,x,y,z,m11,m12,m13,m21,m22,m23,m31,m32,m33\r\n";
 constexpr std::size_t kNullPoseColumns = 17;
-
-std::string numberText(float value) {
-    if (std::isnan(value)) {
-        return "NaN";
-    }
-    if (std::isinf(value)) {
-        return value > 0 ? "Infinity" : "-Infinity";
-    }
-    std::array<char, 32> digits{};
-    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
-    return {digits.data(), end};
-}
 
 std::string flagsText(std::uint32_t flags) {
     std::array<std::byte, 4> bytes{};
