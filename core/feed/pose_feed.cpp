@@ -23,18 +23,6 @@ constexpr std::size_t kRecent = 8;
 constexpr std::size_t kMarkerPlace = kPoseTypes.size() - 1;
 static_assert(kPoseTypes[kMarkerPlace] == wire::PointPositions::kType);
 
-void readMarkers(const wire::Datagram& datagram, model::LengthUnit unit, PoseSample& sample) {
-    sample.pose.type = datagram.header.type();
-    sample.pose.sample = datagram.header.sampleCounter;
-    sample.pose.timeCode = datagram.header.timeCode;
-    for (const wire::Point& point : std::get<wire::PointPositions>(datagram.body).points) {
-        const Eigen::Vector3d position = model::pointFromYUp(point.position, unit);
-        if (position.allFinite()) {
-            sample.markers.push_back({point.id, position});
-        }
-    }
-}
-
 /// Makes poses of one character from its datagrams.
 class CharacterFeed {
 public:
@@ -114,13 +102,24 @@ private:
 
     bool readMarkers() {
         const model::Message* message = m_recent.back().message(kMarkerPlace);
-        if (message != nullptr) {
-            m_sample.markers.clear();
-            m_sample.pose.stamp = message->stamp;
-            m_sample.pose.packet = message->packet;
-            feed::readMarkers(message->datagram, part().units[kMarkerPlace], m_sample);
+        if (message == nullptr) {
+            return false;
         }
-        return message != nullptr;
+        const wire::Header& header = message->datagram.header;
+        model::CharacterPose& pose = m_sample.pose;
+        pose.stamp = message->stamp;
+        pose.packet = message->packet;
+        pose.type = header.type();
+        pose.sample = header.sampleCounter;
+        pose.timeCode = header.timeCode;
+        m_sample.markers.clear();
+        for (const wire::Point& point : std::get<wire::PointPositions>(message->datagram.body).points) {
+            const Eigen::Vector3d position = model::pointFromYUp(point.position, part().units[kMarkerPlace]);
+            if (position.allFinite()) {
+                m_sample.markers.push_back({point.id, position});
+            }
+        }
+        return true;
     }
 
     /// False if the newest messages make no pose, or one of an earlier sample.
