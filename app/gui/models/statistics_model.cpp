@@ -125,11 +125,6 @@ std::optional<model::Figure> figureIn(int column) {
     return kColumns[static_cast<std::size_t>(column)].figure;
 }
 
-int columnOf(model::Figure figure) {
-    const auto* found = std::ranges::find(kColumns, std::optional(figure), &Column::figure);
-    return found == kColumns.end() ? -1 : static_cast<int>(found - kColumns.begin());
-}
-
 StatisticsModel::StatisticsModel(model::SessionView& view)
     : StreamTreeModel(view, columns(*this)), m_losses(std::in_place, view, m_range) {}
 
@@ -273,8 +268,7 @@ const StatisticsModel::Curve& StatisticsModel::curve(const QModelIndex& index) c
 }
 
 StatisticsModel::Curve StatisticsModel::makeCurve(const QModelIndex& index) const {
-    std::vector<const model::Stream*> streams;
-    addStreams(index, streams);
+    std::vector<const model::Stream*> streams = streamsOf(index);
     const bool isSum = stream(index) == nullptr;
     std::erase_if(streams, [](const auto* each) { return !model::countsSamples(each->key.type); });
     if (streams.empty()) {
@@ -332,9 +326,7 @@ QString StatisticsModel::csv() const {
         }
     }
     std::string text = exporting::csvLine(titles);
-    std::vector<const model::Stream*> streams;
-    addStreams({}, streams);
-    for (const model::Stream* each : streams) {
+    for (const model::Stream* each : streamsOf({})) {
         text += csvLine(*each);
     }
     return QString::fromStdString(text);

@@ -21,8 +21,6 @@ inline constexpr int kCurveColumn = 10;
 
 /// The figure of a column; nothing for the name and the curve.
 [[nodiscard]] std::optional<model::Figure> figureIn(int column);
-/// -1 for figures that are not shown.
-[[nodiscard]] int columnOf(model::Figure figure);
 
 /// Every figure of every stream, with sums for each character and sender, over the range that is chosen.
 /// Without one they keep counting while the display is paused. Figures are made when they are asked for, once

@@ -198,10 +198,6 @@ const model::Stream* StreamTreeModel::stream(const QModelIndex& index) const {
     return isStream ? m_view.roster().find(rowOf(index).key) : nullptr;
 }
 
-QModelIndex StreamTreeModel::indexOf(const model::CharacterKey& key) const {
-    return indexOf(characterRow(key));
-}
-
 QVariant StreamTreeModel::data(const QModelIndex& index, int role) const {
     return checkIndex(index, CheckIndexOption::IndexIsValid) && isThere(rowOf(index))
                ? cell(rowOf(index), index.column(), role)

@@ -35,9 +35,6 @@ public:
     [[nodiscard]] bool isEnded(const QModelIndex& index) const;
     /// Null if the row is not one of a stream.
     [[nodiscard]] const model::Stream* stream(const QModelIndex& index) const;
-    /// The row of a character, or an invalid index.
-    [[nodiscard]] QModelIndex indexOf(const model::CharacterKey& key) const;
-
     [[nodiscard]] QVariant data(const QModelIndex& index, int role = Qt::DisplayRole) const override;
 
 protected:

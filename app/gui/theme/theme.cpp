@@ -300,10 +300,6 @@ private:
     QColor m_colour;
 };
 
-/// Keeps line breaks.
-const QString kBegin = QStringLiteral("<qt><span style=\"white-space:pre-wrap\">");
-const QString kEnd = QStringLiteral("</span></qt>");
-
 } // namespace
 
 const Theme& theme() {
@@ -391,12 +387,9 @@ QIcon applicationIcon() {
 }
 
 QString toolTipText(const QString& plain) {
-    return Qt::mightBeRichText(plain) ? kBegin + plain.toHtmlEscaped() + kEnd : plain;
-}
-
-bool isEscapedToolTip(const QString& toolTip) {
-    const QString inside = toolTip.mid(kBegin.size()).chopped(kEnd.size());
-    return toolTip.startsWith(kBegin) && toolTip.endsWith(kEnd) && !inside.contains(QLatin1Char('<'));
+    // Keeps line breaks.
+    const QString escaped = QStringLiteral("<qt><span style=\"white-space:pre-wrap\">%1</span></qt>");
+    return Qt::mightBeRichText(plain) ? escaped.arg(plain.toHtmlEscaped()) : plain;
 }
 
 QString menuText(const QString& plain) {

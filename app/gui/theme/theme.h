@@ -79,8 +79,6 @@ enum class Health { Good, Warning, Error, Unknown };
     return plain.isEmpty() ? QVariant() : QVariant(toolTipText(plain));
 }
 
-[[nodiscard]] bool isEscapedToolTip(const QString& toolTip);
-
 /// An entry of a menu or the text of a button: no mnemonic, one line, at most 80 characters.
 [[nodiscard]] QString menuText(const QString& plain);
 

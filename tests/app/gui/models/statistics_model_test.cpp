@@ -19,6 +19,14 @@ namespace {
 
 using Figure = model::Figure;
 
+int columnOf(model::Figure figure) {
+    int column = 0;
+    while (figureIn(column) != figure) {
+        ++column;
+    }
+    return column;
+}
+
 class StatisticsModelTest : public testing::Test {
 protected:
     void refresh() {

@@ -17,6 +17,13 @@ namespace posewire::gui {
 
 namespace {
 
+bool isEscapedToolTip(const QString& toolTip) {
+    const QString begin = QStringLiteral("<qt><span style=\"white-space:pre-wrap\">");
+    const QString end = QStringLiteral("</span></qt>");
+    const QString inside = toolTip.mid(begin.size()).chopped(end.size());
+    return toolTip.startsWith(begin) && toolTip.endsWith(end) && !inside.contains(QLatin1Char('<'));
+}
+
 /// Sends a name in every place that has one, and looks at all that any panel shows then.
 class HostileNamesTest : public testing::TestWithParam<std::string> {
 protected:

@@ -18,6 +18,14 @@ namespace {
 
 using Column = model::Figure;
 
+int columnOf(model::Figure figure) {
+    int column = 0;
+    while (figureIn(column) != figure) {
+        ++column;
+    }
+    return column;
+}
+
 class StatisticsPanelTest : public testing::Test {
 protected:
     void open(int width = 420) {
