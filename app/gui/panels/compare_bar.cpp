@@ -9,7 +9,6 @@
 #include <QSignalBlocker>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace posewire::gui {
@@ -18,10 +17,6 @@ namespace {
 
 using exporting::AlignBy;
 using model::DifferenceFrame;
-
-constexpr std::array<AlignBy, 3> kAlignments{AlignBy::TimeCode, AlignBy::Sample, AlignBy::Begin};
-constexpr std::array<DifferenceFrame, 3> kFrames{DifferenceFrame::World, DifferenceFrame::Heading,
-                                                 DifferenceFrame::Pelvis};
 
 ComboBox* narrowBox(const QString& name, const QString& toolTip, QWidget* parent) {
     constexpr int kLetters = 10;
@@ -95,10 +90,11 @@ CompareBar::CompareBar(QWidget* parent)
                     this)),
       m_beside(framedButton(tr("Beside"), tr("Draw the second body at the side of the first one"), this)) {
     m_by->addItem(tr("Automatic"));
-    for (const AlignBy by : kAlignments) {
+    for (const AlignBy by : {AlignBy::TimeCode, AlignBy::Sample, AlignBy::Begin}) { // in their order
         m_by->addItem(alignedByText(by));
     }
-    for (const DifferenceFrame frame : kFrames) {
+    for (const DifferenceFrame frame :
+         {DifferenceFrame::World, DifferenceFrame::Heading, DifferenceFrame::Pelvis}) {
         m_frame->addItem(frameText(frame));
     }
     m_earlier->setAccessibleName(tr("A sample earlier"));
@@ -112,14 +108,13 @@ CompareBar::CompareBar(QWidget* parent)
     connect(m_partner, &QComboBox::activated, this,
             [this](int index) { emit partnerChosen(m_partners[static_cast<std::size_t>(index)]); });
     connect(m_by, &QComboBox::activated, this, [this](int index) {
-        emit alignmentChosen(index == 0 ? std::nullopt
-                                        : std::optional(kAlignments[static_cast<std::size_t>(index) - 1]));
+        emit alignmentChosen(index == 0 ? std::nullopt : std::optional(static_cast<AlignBy>(index - 1)));
     });
     connect(m_offset, &QDoubleSpinBox::valueChanged, this, &CompareBar::offsetChosen);
     connect(m_earlier, &QToolButton::clicked, this, [this] { emit nudged(-1); });
     connect(m_later, &QToolButton::clicked, this, [this] { emit nudged(1); });
     connect(m_frame, &QComboBox::activated, this,
-            [this](int index) { emit frameChosen(kFrames[static_cast<std::size_t>(index)]); });
+            [this](int index) { emit frameChosen(static_cast<DifferenceFrame>(index)); });
     connect(m_beside, &QToolButton::clicked, this, &CompareBar::besideToggled);
 }
 
@@ -176,9 +171,8 @@ void CompareBar::refresh(const ComparisonState& state) {
     setText(*m_by, 0,
             state.alignment && !by ? tr("Automatic: %1").arg(alignedByText(state.alignment->by))
                                    : tr("Automatic"));
-    m_by->setCurrentIndex(by ? 1 + static_cast<int>(std::ranges::find(kAlignments, *by) - kAlignments.begin())
-                             : 0);
-    m_frame->setCurrentIndex(static_cast<int>(std::ranges::find(kFrames, frame) - kFrames.begin()));
+    m_by->setCurrentIndex(by ? 1 + static_cast<int>(*by) : 0);
+    m_frame->setCurrentIndex(static_cast<int>(frame));
     m_beside->setChecked(isBeside);
     const bool isCounts = state.alignment && state.alignment->by == AlignBy::Sample;
     constexpr double kDay = 86'400'000; // ms
