@@ -102,9 +102,7 @@ private:
 
     void addHostRow() {
         const int row = kFirstHostRow + static_cast<int>(m_rows.size());
-        HostRow widgets{valueLabel(this), dimLabel({}, this), new QToolButton(this)};
-        widgets.copy->setText(tr("Copy"));
-        widgets.copy->setProperty("framed", true);
+        HostRow widgets{valueLabel(this), dimLabel({}, this), framedButton(tr("Copy"), {}, this)};
         m_grid->addWidget(widgets.host, row, 1);
         m_grid->addWidget(widgets.copy, row, 2);
         m_grid->addWidget(widgets.interface, row, 3);
