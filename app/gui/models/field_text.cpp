@@ -15,6 +15,7 @@ namespace {
 
 using wire::FieldNode;
 using wire::NodeKind;
+using wire::RefersTo;
 using wire::Unit;
 
 /// The wire's vector in the frame above the wire, without a change of unit.
@@ -127,7 +128,7 @@ QString flagsText(double number) {
 
 QString headerText(const FieldDocument& document, std::int32_t index) {
     const FieldNode& node = document.node(index);
-    if (node.refersTo == wire::RefersTo::Character) {
+    if (node.refersTo == RefersTo::Character) {
         return tr("character %1").arg(node.number);
     }
     if (node.unit == Unit::ByteCount && node.number == 0) {
@@ -156,9 +157,6 @@ QString spacedName(std::string_view name) {
     return text == QStringLiteral("Id") ? QStringLiteral("ID") : text;
 }
 
-using wire::FieldNode;
-using wire::RefersTo;
-
 QString withName(const QString& id, std::string_view name) {
     return name.empty() ? id : id + QStringLiteral(" · ") + shownText(name);
 }
@@ -178,7 +176,7 @@ std::uint32_t idOf(const FieldDocument& document, std::int32_t item) {
 std::string_view textField(const FieldDocument& document, std::int32_t item) {
     for (const std::int32_t child : document.children(item)) {
         const FieldNode& field = document.node(child);
-        if (field.kind == wire::NodeKind::Field && field.scalar == wire::Scalar::Text) {
+        if (field.kind == NodeKind::Field && field.scalar == wire::Scalar::Text) {
             return field.value;
         }
     }
