@@ -86,7 +86,6 @@ public:
     /// not an error.
     tl::expected<void, std::string> finish();
 
-    /// A whole file at once.
     static tl::expected<void, std::string> writeFile(const std::string& path, const log::OutputRules& rules,
                                                      std::string_view text);
 

@@ -51,7 +51,6 @@ public:
         }
     }
 
-    /// Follows what has come so far.
     void flush() {
         m_waiting = 0;
         m_flushed = m_last.value_or(log::Stamp());

@@ -47,7 +47,6 @@ bool isContinuation(char byte) {
     return (static_cast<unsigned char>(byte) & 0xc0U) == 0x80U;
 }
 
-/// At most `most` characters.
 std::string_view cut(std::string_view text, std::size_t most) {
     std::size_t at = 0;
     for (std::size_t count = 0; at < text.size(); ++at) {
@@ -68,7 +67,6 @@ std::string right(const std::string& text, std::size_t width) {
     return std::string(width - std::min(width, widthOf(text)), ' ') + text;
 }
 
-/// A line with a cell for each column.
 template <class Cell>
 std::string tableRow(std::string_view name, Cell cell) {
     std::string line = left(name, kNameWidth);

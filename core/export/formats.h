@@ -11,7 +11,6 @@
 /// What can be saved to a file, and in which formats: the one list that menus and file dialogs walk.
 namespace posewire::exporting {
 
-/// One format of a subject.
 template <class Subject>
 struct Format {
     const char* title;  ///< "CSV", for menus

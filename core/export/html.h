@@ -31,7 +31,6 @@ public:
 
     explicit HtmlTable(std::vector<Column> columns) : m_columns(std::move(columns)) {}
 
-    /// A row with one cell for each column.
     void add(const std::vector<std::string>& cells);
     [[nodiscard]] bool isEmpty() const { return m_rows.empty(); }
     [[nodiscard]] std::string html() const;

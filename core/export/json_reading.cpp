@@ -146,7 +146,6 @@ bool readTags(const Json& object, std::string& into, FieldFault& fault) {
     return isList || fault.fail("needs a list of [name, value] pairs") || fault.under(kTagsKey);
 }
 
-/// Reads a message's or item's fields from an object.
 template <class T, wire::Form F>
 bool readObject(const Json& json, T& value, FieldFault& fault) {
     if (!json.is_object()) {

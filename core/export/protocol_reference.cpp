@@ -72,7 +72,6 @@ std::string itemSizes(const wire::TypeInfo& info) {
     return sizes.empty() ? "varies" : sizes;
 }
 
-/// One row of a table in Markdown.
 std::string row(std::initializer_list<std::string_view> cells) {
     std::string text;
     for (const std::string_view cell : cells) {

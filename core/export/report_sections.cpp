@@ -11,7 +11,6 @@
 #include "core/model/session/messages.h"
 #include "core/model/session/roster.h"
 #include "core/model/session/verdict.h"
-#include "core/wire/text.h"
 #include "core/wire/type_table.h"
 #include "core/words/say.h"
 
@@ -33,7 +32,6 @@ std::vector<const model::Stream*> sampledStreams(const model::SessionView& sessi
     return streams;
 }
 
-/// Seconds of all steps.
 double plottedS(const ReportSteps& steps) {
     return log::secondsOf(steps.width) * static_cast<double>(steps.count);
 }

@@ -41,7 +41,6 @@ struct CharacterSettings {
     model::SegmentLayout layout;
 };
 
-/// Everything known about a character at one moment.
 struct CharacterMoment {
     std::vector<SegmentState> segments; ///< body, props, fingers, as in the layout
     PointState centreOfMass;

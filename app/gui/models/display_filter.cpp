@@ -310,7 +310,6 @@ QString characterFilter(const model::SessionView& view, const model::CharacterKe
     return conditions.join(QStringLiteral(" && "));
 }
 
-/// Its ID.
 std::optional<std::uint8_t> characterOf(const model::Incident& event) {
     const auto character = event.character();
     return character ? std::optional(character->character) : std::nullopt;

@@ -10,7 +10,6 @@
 
 namespace posewire::gui {
 
-/// A row of the fault matrix.
 struct FaultRow {
     enum Kind : std::uint8_t { All, Character, Unconfirmed, Stream };
     Kind kind = All;

@@ -80,7 +80,6 @@ public:
         m_table->setFixedHeight(m_table->heightForRows(std::clamp(count, 1, kMostRows)));
     }
 
-    /// Takes all ended senders out of the lists.
     void forgetAll() {
         for (const EndedSender& one : std::vector(m_model.rows())) {
             m_commands.forgetSender(one.sender);

@@ -26,7 +26,6 @@ public:
     explicit FilterBar(QWidget* parent = nullptr);
 
     [[nodiscard]] FilterLine& line() const { return *m_line; }
-    /// Puts the keyboard into the line.
     void focusLine();
 
     /// Says that a jump put the filter there, and what was filtered by before; nothing if none did.

@@ -47,7 +47,6 @@ void setLines(QLabel& label, const QStringList& richLines) {
     label.setText(richLines.join(QStringLiteral("<br>")));
 }
 
-/// Describes the packet as a whole.
 QStringList packetLines(const FieldDocument& document) {
     const QStringList facts = documentLines(document);
     QStringList lines{QStringLiteral("<b>%1</b>").arg(documentTitle(document).toHtmlEscaped()),

@@ -14,7 +14,6 @@ namespace posewire::gui {
 
 namespace {
 
-/// Columns that are shown, in order.
 std::vector<int> shownColumns(const PacketView& view) {
     std::vector<int> columns;
     for (int column = 0; column < view.header().count(); ++column) {

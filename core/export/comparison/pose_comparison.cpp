@@ -16,7 +16,6 @@ namespace {
 
 constexpr std::size_t kSlots = model::kMaxSegmentCount;
 
-/// A sample of the first recording with its partner.
 struct ComparedPair {
     const model::CharacterPose* first = nullptr;
     const model::CharacterPose* second = nullptr;      ///< null where it has none

@@ -24,7 +24,6 @@ struct Share {
     MotionSurvey survey;
 };
 
-/// A file on its way.
 struct OpenFile {
     MotionTask task;
     MotionOutput out;

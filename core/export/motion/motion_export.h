@@ -47,7 +47,6 @@ struct MotionRequest {
 /// several, each to a file beside it that has the character's name behind the path's: "take-Factory.bvh".
 [[nodiscard]] std::vector<std::string> motionPaths(const MotionRequest& request);
 
-/// One character in a file.
 struct ExportedMotion {
     std::size_t character = 0; ///< its place in the source
     std::string path;
