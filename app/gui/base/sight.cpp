@@ -79,7 +79,8 @@ bool isCovered(const QWindow& /*window*/) {
 bool isAnyWindowInSight() {
     bool isAny = false;
     for (const QWindow* window : QGuiApplication::topLevelWindows()) {
-        if (window->isExposed() && !isCovered(*window)) {
+        const bool isMinimized = window->windowStates().testFlag(Qt::WindowMinimized);
+        if (window->isExposed() && !isMinimized && !isCovered(*window)) {
             return true;
         }
         isAny = isAny || window->isVisible();

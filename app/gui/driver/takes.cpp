@@ -32,7 +32,7 @@ log::RecordedMark markOn(const model::SessionView& live, std::uint64_t packet, c
 /// bodies of no size and without names.
 std::vector<std::uint64_t> bodiesBefore(const model::SessionView& live, std::uint64_t packet) {
     std::vector<std::uint64_t> packets;
-    for (const model::Character* character : live.roster().listed()) {
+    for (const model::Character* character : live.atNow().roster().listed()) {
         for (const std::uint8_t type : {10, 11, 12, 13}) {
             const auto whole =
                 live.messages().wholeBefore({character->key.sender, character->key.character, type}, packet);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/driver/session_driver.h"
 
+#include "app/gui/base/sight.h"
 #include "app/net/datagram_sender.h"
 #include "app/net/listening.h"
 #include "core/log/output_file.h"
@@ -16,6 +17,7 @@
 #include <QFile>
 #include <QSignalSpy>
 #include <QTemporaryDir>
+#include <QWidget>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -430,6 +432,30 @@ TEST_F(SessionDriverTest, OpeningAFileCanBeStoppedAndWhatWasReadStays) {
     EXPECT_EQ(driver.commands().session().end(), read);
     driver.files().cancelOpening();
     EXPECT_EQ(opened.count(), 1) << "there is nothing to stop any more";
+}
+
+/// How often tables are refreshed in ten seconds in which no packet comes.
+qsizetype refreshesInTenSeconds(SessionDriver& driver, log::ManualClock& clock) {
+    QSignalSpy refreshed(&driver, &SessionDriver::tableTick);
+    for (int tick = 0; tick < 625; ++tick) {
+        driver.tick();
+        clock.advance(16ms);
+    }
+    return refreshed.count();
+}
+
+TEST(SessionDriver, RestsWhileNothingComesOrNothingIsInSight) {
+    log::ManualClock clock(log::WallTime(1'700'000'000s));
+    SessionDriver driver(clock);
+    EXPECT_LE(refreshesInTenSeconds(driver, clock), 30) << "two seconds as ever, and then once a second";
+    EXPECT_LE(refreshesInTenSeconds(driver, clock), 11);
+    QWidget window;
+    window.show();
+    QCoreApplication::processEvents();
+    EXPECT_TRUE(isAnyWindowInSight());
+    window.showMinimized();
+    QCoreApplication::processEvents();
+    EXPECT_FALSE(isAnyWindowInSight());
 }
 
 } // namespace

@@ -178,6 +178,7 @@ TEST_F(TakesTest, BeginWithTheNewestBodyAndNameFromBefore) {
         sent(wire::PoseQuaternion{});
     }
     m_origin.session().follow(log::Stamp(1s));
+    m_origin.session().setCursor({.mode = model::Cursor::Mode::Paused, .packet = 0}); // no matter
     ASSERT_EQ(m_takes.toggle({.folder = m_folder, .pattern = "take", .freeMegabytes = 0}), "");
     const auto after = sent(wire::PoseQuaternion{});
     ASSERT_TRUE(until([this] { return m_takes.state()->figures.packets == 3; }));
