@@ -11,6 +11,7 @@
 #include <QFile>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 namespace posewire::gui {
@@ -33,7 +34,7 @@ log::RecordedMark markOn(const model::SessionView& live, std::uint64_t packet, c
 std::vector<std::uint64_t> bodiesBefore(const model::SessionView& live, std::uint64_t packet) {
     std::vector<std::uint64_t> packets;
     for (const model::Character* character : live.atNow().roster().listed()) {
-        for (const std::uint8_t type : {10, 11, 12, 13}) {
+        for (const std::uint8_t type : std::array<std::uint8_t, 4>{10, 11, 12, 13}) {
             const auto whole =
                 live.messages().wholeBefore({character->key.sender, character->key.character, type}, packet);
             packets.insert(packets.end(), whole.begin(), whole.end());

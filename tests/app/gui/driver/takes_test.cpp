@@ -157,7 +157,8 @@ std::vector<std::pair<std::vector<std::byte>, bool>> packetsIn(const QString& pa
 
 TEST_F(TakesTest, BeginWithTheNewestBodyAndNameFromBefore) {
     const auto sent = [&](wire::Body body, std::uint8_t counter = 0x80) {
-        wire::Datagram datagram{.body = std::move(body)};
+        wire::Datagram datagram;
+        datagram.body = std::move(body);
         datagram.header.datagramCounter = counter;
         wire::completeHeader(datagram, wire::HeaderEra::Counted);
         auto bytes = wire::encode(datagram).value();
