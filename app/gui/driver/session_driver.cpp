@@ -234,7 +234,8 @@ void SessionDriver::tick() {
     m_isChanged = m_files.follow(kFollowTime) || m_isChanged;
     m_isInSight = isAnyWindowInSight();
     m_changed = hasNew || m_isChanged || m_files.isOpening() ? now : m_changed;
-    m_isQuiet = now - m_changed > kQuiet;
+    const bool isWaiting = live.end() == 0 && m_files.file() == nullptr; // help looks for why nothing comes
+    m_isQuiet = !isWaiting && now - m_changed > kQuiet;
     const bool isTableTick = now - m_tableTick >= (m_isQuiet || !m_isInSight ? kSlowTableTick : kTableTick);
     if (isTableTick) { // tables and pictures say the same
         live.judge();

@@ -434,7 +434,7 @@ TEST_F(SessionDriverTest, OpeningAFileCanBeStoppedAndWhatWasReadStays) {
     EXPECT_EQ(opened.count(), 1) << "there is nothing to stop any more";
 }
 
-/// How often tables are refreshed in ten seconds in which no packet comes.
+/// How often tables are refreshed in ten seconds.
 qsizetype refreshesInTenSeconds(SessionDriver& driver, log::ManualClock& clock) {
     QSignalSpy refreshed(&driver, &SessionDriver::tableTick);
     for (int tick = 0; tick < 625; ++tick) {
@@ -444,11 +444,10 @@ qsizetype refreshesInTenSeconds(SessionDriver& driver, log::ManualClock& clock) 
     return refreshed.count();
 }
 
-TEST(SessionDriver, RestsWhileNothingComesOrNothingIsInSight) {
+TEST(SessionDriver, RestsWhileNoWindowIsInSight) {
     log::ManualClock clock(log::WallTime(1'700'000'000s));
     SessionDriver driver(clock);
-    EXPECT_LE(refreshesInTenSeconds(driver, clock), 30) << "two seconds as ever, and then once a second";
-    EXPECT_LE(refreshesInTenSeconds(driver, clock), 11);
+    EXPECT_GE(refreshesInTenSeconds(driver, clock), 80);
     QWidget window;
     window.show();
     QCoreApplication::processEvents();
@@ -456,6 +455,7 @@ TEST(SessionDriver, RestsWhileNothingComesOrNothingIsInSight) {
     window.showMinimized();
     QCoreApplication::processEvents();
     EXPECT_FALSE(isAnyWindowInSight());
+    EXPECT_LE(refreshesInTenSeconds(driver, clock), 11);
 }
 
 } // namespace
