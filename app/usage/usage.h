@@ -5,8 +5,6 @@
 #include <string_view>
 #include <vector>
 
-#include <tl/expected.hpp>
-
 namespace posewire::usage {
 
 /// An option or, if it has no name, an argument.
@@ -52,21 +50,6 @@ struct Program {
 
 /// `separator` between the words.
 [[nodiscard]] std::string joined(const std::vector<std::string>& words, std::string_view separator);
-
-struct PageFacts {
-    std::string version;
-    std::string date; ///< of the release, "2026-11-23"
-};
-
-/// The manual page in roff. `frame` is the page with prose of its own and, for the options, the lines
-/// @SYNOPSIS@, @OPTIONS@ and, for a program with commands, @COMMANDS@; @VERSION@ and @DATE@ in its first
-/// line. The error names what the frame lacks.
-[[nodiscard]] tl::expected<std::string, std::string>
-manualPage(const Program& program, std::string_view frame, const PageFacts& facts);
-
-/// The script by which bash completes commands, options and their values: a whole file, for the folder where
-/// bash looks for completions.
-[[nodiscard]] std::string bashCompletion(const Program& program);
 
 /// The version of both programs, "0.1.0": that of the project in the topmost CMakeLists.txt.
 [[nodiscard]] std::string_view version();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/command.h"
 #include "app/gui/base/options.h"
-#include "app/usage/usage.h"
+#include "packaging/manual/pages.h"
 
 #include <array>
 #include <filesystem>
@@ -17,7 +17,7 @@ using namespace posewire;
 struct Places {
     std::filesystem::path frames;
     std::filesystem::path output;
-    usage::PageFacts facts;
+    manual::PageFacts facts;
 };
 
 bool write(const std::filesystem::path& path, const std::string& text) {
@@ -36,7 +36,7 @@ bool writePage(const usage::Program& program, const Places& places) {
     const std::filesystem::path path = places.frames / (program.name + ".1.in");
     std::ifstream file(path, std::ios::binary);
     const std::string frame{std::istreambuf_iterator<char>(file), {}};
-    const auto page = usage::manualPage(program, frame, places.facts);
+    const auto page = manual::manualPage(program, frame, places.facts);
     if (!page) {
         std::cerr << path.string() << ": " << page.error() << '\n';
         return false;
@@ -56,7 +56,7 @@ int main(int argc, char** argv) {
     bool isWritten = true;
     for (const usage::Program& program : std::array{gui::programUsage(), cli::Program().line.usage()}) {
         isWritten = isWritten && writePage(program, places) &&
-                    write(places.output / "bash" / program.name, usage::bashCompletion(program));
+                    write(places.output / "bash" / program.name, manual::bashCompletion(program));
     }
     return isWritten ? 0 : 1;
 }

@@ -26,6 +26,7 @@ MAY_INCLUDE = [
     ("core/filter", ["core/wire", "core/field", "core/model/body"]),
     ("render", []),
     ("packaging/help", ["core/export", "app/gui/help", "app/gui/window"]),
+    ("packaging/manual", ["app/cli", "app/gui/base", "app/usage"]),
     ("app/usage", []),
     ("app/system", []),
     ("app/net", ["core", "app/system"]),

@@ -1,14 +1,16 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/usage/usage.h"
+// SPDX-License-Identifier: MIT
+#include "packaging/manual/pages.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace posewire::usage {
+namespace posewire::manual {
 namespace {
 
 using testing::HasSubstr;
 using testing::Not;
+using usage::Option;
+using usage::Program;
 
 constexpr std::string_view kFrame = ".TH X 1 \"@DATE@\" \"@VERSION@\"\n@SYNOPSIS@\n@OPTIONS@\n@COMMANDS@\n";
 const PageFacts kFacts{"1.2.3", "2026-01-31"};
@@ -89,4 +91,4 @@ TEST(ManualPage, TextIsNeverTakenForARequestOfRoff) {
 }
 
 } // namespace
-} // namespace posewire::usage
+} // namespace posewire::manual
