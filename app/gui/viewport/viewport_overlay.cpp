@@ -5,10 +5,8 @@
 #include "app/gui/theme/help_link.h"
 #include "app/gui/theme/widgets.h"
 #include "app/gui/theme/words.h"
-#include "app/gui/viewport/overlays.h"
 #include "app/gui/viewport/viewport_widget.h"
 
-#include <QCoreApplication>
 #include <QMenu>
 #include <QPainter>
 #include <QPainterPath>
@@ -72,35 +70,11 @@ int weightOf(const ViewportLabel& label) {
     return (label.isSelected ? 4 : 0) + trouble;
 }
 
-/// Each entry shows whether it is on, also if something else has switched it.
-QMenu* overlayMenu(ViewChoice& choice, QWidget* parent) {
-    auto* menu = new QMenu(parent);
-    const auto add = [&](const QString& text, auto toggle, auto isOn) {
-        QAction* action = menu->addAction(text, &choice, toggle);
-        action->setCheckable(true);
-        QObject::connect(menu, &QMenu::aboutToShow, action, [action, isOn] { action->setChecked(isOn()); });
-    };
-    for (const OverlayEntry& entry : kOverlayTable) {
-        add(
-            QCoreApplication::translate("Action", entry.title),
-            [&choice, one = entry.overlay] { choice.toggle(one); },
-            [&choice, one = entry.overlay] { return choice.isOn(one); });
-    }
-    menu->addSeparator();
-    for (const auto& [which, text] : {std::pair{ViewSwitch::Scale, tr("Metres on the f&loor")},
-                                      std::pair{ViewSwitch::Card, tr("Val&ues of a segment")}}) {
-        add(
-            text, [&choice, which = which] { choice.toggleSwitch(which); },
-            [&choice, which = which] { return choice.isSwitchedOn(which); });
-    }
-    return menu;
-}
-
 class ViewportButtons final : public QWidget {
     static constexpr int kApart = 8; // pixels
 
 public:
-    explicit ViewportButtons(ViewportWidget* viewport)
+    ViewportButtons(ViewportWidget* viewport, QMenu& axes, QMenu& overlays)
         : QWidget(viewport),
           m_frame(
               framedButton(tr("Frame  F"), tr("Show all characters, and keep them in the picture"), this)) {
@@ -110,24 +84,19 @@ public:
             each->setFocusPolicy(Qt::TabFocus);
             row->addWidget(each);
         }
-        const std::array modes{std::pair{AxesMode::All, tr("All segments")},
-                               std::pair{AxesMode::Selected, tr("Selected character")},
-                               std::pair{AxesMode::None, tr("None")}};
-        auto* menu = new QMenu(m_axes);
-        for (const auto& [mode, text] : modes) {
-            menu->addAction(text, viewport, [viewport, mode = mode] { viewport->choice().setAxes(mode); });
-        }
-        m_axes->setMenu(menu);
-        m_axes->setPopupMode(QToolButton::InstantPopup);
-        m_overlays->setMenu(overlayMenu(viewport->choice(), m_overlays));
-        m_overlays->setPopupMode(QToolButton::InstantPopup);
+        const auto setMenu = [](QToolButton* button, QMenu* menu) {
+            button->setMenu(menu);
+            button->setPopupMode(QToolButton::InstantPopup);
+        };
+        setMenu(m_axes, &axes);
+        setMenu(m_overlays, &overlays);
+        setMenu(m_more, new QMenu(m_more));
         m_overlays->setAccessibleName(tr("Overlays"));
+        m_frame->setAccessibleName(tr("Frame all"));
         connect(m_frame, &QToolButton::clicked, viewport, &ViewportWidget::frameAll);
         connect(m_projection, &QToolButton::clicked, &viewport->choice(), &ViewChoice::toggleProjection);
         m_more->setObjectName(QStringLiteral("moreOfViewport"));
         m_more->setAccessibleName(tr("More"));
-        m_more->setMenu(new QMenu(m_more));
-        m_more->setPopupMode(QToolButton::InstantPopup);
         connect(m_more->menu(), &QMenu::aboutToShow, this, &ViewportButtons::listMore);
         connect(&viewport->choice(), &ViewChoice::changed, this,
                 [this, viewport] { showOptions(*viewport); });
@@ -138,15 +107,13 @@ public:
 private:
     void showOptions(const ViewportWidget& viewport) {
         const std::array names{tr("all"), tr("selected"), tr("none")};
-        m_axes->setText(tr("Axes: %1 ▾").arg(names[static_cast<std::size_t>(viewport.choice().axes())]));
-        m_projection->setText(
-            viewport.choice().projection() == render::Projection::Perspective ? tr("Persp") : tr("Ortho"));
-        m_axes->setAccessibleName(
-            tr("Axes: %1").arg(names[static_cast<std::size_t>(viewport.choice().axes())]));
-        m_frame->setAccessibleName(tr("Frame all"));
-        m_projection->setAccessibleName(viewport.choice().projection() == render::Projection::Perspective
-                                            ? tr("Projection: perspective")
-                                            : tr("Projection: orthographic"));
+        const QString axes = tr("Axes: %1").arg(names[static_cast<std::size_t>(viewport.choice().axes())]);
+        const bool isPerspective = viewport.choice().projection() == render::Projection::Perspective;
+        m_axes->setText(axes + QStringLiteral(" ▾"));
+        m_axes->setAccessibleName(axes);
+        m_projection->setText(isPerspective ? tr("Persp") : tr("Ortho"));
+        m_projection->setAccessibleName(isPerspective ? tr("Projection: perspective")
+                                                      : tr("Projection: orthographic"));
         fitInto(viewport.width());
     }
     /// The last ones go into a menu where there is no room for all.
@@ -173,7 +140,7 @@ private:
                 continue;
             }
             if (button->menu() != nullptr) {
-                m_more->menu()->addMenu(button->menu())->setText(button->text().chopped(2));
+                m_more->menu()->addMenu(button->menu());
             } else {
                 m_more->menu()->addAction(button->accessibleName(), button, &QToolButton::click);
             }
@@ -195,8 +162,8 @@ void paintPlate(QPainter& painter, const QRectF& plate, const QPen& border, doub
     painter.drawRoundedRect(plate.adjusted(0.5, 0.5, -0.5, -0.5), radius, radius);
 }
 
-void addViewportButtons(ViewportWidget& viewport) {
-    new ViewportButtons(&viewport);
+void addViewportButtons(ViewportWidget& viewport, QMenu& axes, QMenu& overlays) {
+    new ViewportButtons(&viewport, axes, overlays);
 }
 
 /// A few words and a way into the guide over a picture that shows no character.

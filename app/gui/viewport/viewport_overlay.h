@@ -12,6 +12,8 @@
 #include <map>
 #include <vector>
 
+class QMenu;
+
 namespace posewire::gui {
 
 class MessageCard;
@@ -21,8 +23,9 @@ class ViewportWidget;
 void paintPlate(QPainter& painter, const QRectF& plate, const QPen& border, double opacity,
                 double radius = 5);
 
-/// Lays the few choices over the picture: axes, framing, projection.
-void addViewportButtons(ViewportWidget& viewport);
+/// Lays the few choices over the picture: axes and overlays, whose menus are those of the window, framing and
+/// projection.
+void addViewportButtons(ViewportWidget& viewport, QMenu& axes, QMenu& overlays);
 
 /// The text of a label in each length, and the width of its plate.
 struct LabelText {

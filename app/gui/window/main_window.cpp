@@ -178,7 +178,8 @@ MainWindow::MainWindow(SessionDriver& driver, SettingsFile& file, const Settings
     setCentralWidget(m_viewport);
     layout()->setSizeConstraint(QLayout::SetNoConstraint); // docks give way; the window stays on its screen
     setHelpPlace(*m_viewport, placeOf(HelpTopic::Viewport));
-    addViewportButtons(*m_viewport);
+    addViewportButtons(*m_viewport, *menuAt(*menuBar(), QStringLiteral("&View/&Axes")),
+                       *menuAt(*menuBar(), QStringLiteral("&View/O&verlays")));
     makeBars();
     m_docks = new Docks(driver, *this, *menuAt(*menuBar(), QStringLiteral("&View")), settings.panels);
     connectDriver();

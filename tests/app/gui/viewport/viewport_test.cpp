@@ -10,6 +10,7 @@
 
 #include <QApplication>
 #include <QJsonArray>
+#include <QMenu>
 #include <QMouseEvent>
 #include <QSignalSpy>
 #include <QTest>
@@ -72,6 +73,7 @@ protected:
 
     Stage stage;
     ViewportWidget viewport{stage.session, stage.commands};
+    QMenu menu; ///< stands for those of the window
 };
 
 TEST_F(Viewport, PaintsACharacterInItsColourWithoutADisplay) {
@@ -342,7 +344,7 @@ TEST(ViewportLabels, ShowHowACharacterDoesHoweverLongItsName) {
 }
 
 TEST_F(Viewport, ButtonsWithoutRoomAreInAMenu) {
-    addViewportButtons(viewport);
+    addViewportButtons(viewport, menu, menu);
     auto* buttons = viewport.findChild<QWidget*>("viewportButtons");
     ASSERT_NE(buttons, nullptr);
     buttons->show();
@@ -370,7 +372,7 @@ TEST_F(Viewport, ButtonsWithoutRoomAreInAMenu) {
 }
 
 TEST_F(Viewport, LabelsStandAboveHeadsRightBelowTheButtons) {
-    addViewportButtons(viewport);
+    addViewportButtons(viewport, menu, menu);
     auto* buttons = viewport.findChild<QWidget*>("viewportButtons");
     ASSERT_NE(buttons, nullptr);
     buttons->show();
