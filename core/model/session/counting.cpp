@@ -21,9 +21,6 @@ Counting::Counting(const std::shared_ptr<log::Scratch>& scratch, Roll& roll, Inc
 
 void Counting::takePacket(const Observed& seen) {
     Sender& sender = *seen.sender;
-    if (seen.packet.flags.isFromBefore) {
-        return;
-    }
     m_observed = seen.packet.stamp;
     sender.lastStamp = seen.packet.stamp;
     sender.kernelDrops += seen.packet.kernelDropsBefore;
@@ -71,17 +68,18 @@ void Counting::takeFaulty(const Observed& seen) {
     }
 }
 
+void Counting::index(const Observed& seen) {
+    wire::Header header = *seen.header;
+    if (seen.stream->accounting.framing().isUnmarked()) {
+        header.markLast();
+    }
+    m_index.add(seen.packet, header);
+}
+
 void Counting::takeDatagram(Observed& seen) {
     const log::Packet& packet = seen.packet;
     Stream& stream = *seen.stream;
-    wire::Header header = *seen.header;
-    if (stream.accounting.framing().isUnmarked()) {
-        header.markLast();
-    }
-    m_index.add(packet, header);
-    if (packet.flags.isFromBefore) {
-        return;
-    }
+    index(seen);
     stream.statistics.add(packet.stamp);
     if (stream.hasEnded && packet.stamp - stream.accounting.lastStamp() >= kUnsent) {
         stream.accounting.beginRun(packet.stamp);

@@ -28,6 +28,8 @@ public:
     void takePacket(const Observed& seen);
     /// One that cannot be decoded.
     void takeFaulty(const Observed& seen);
+    /// A datagram that can be found but counts for nothing.
+    void index(const Observed& seen);
     /// One that was decoded, of a stream that is followed.
     void takeDatagram(Observed& seen);
     /// Each packet, last.

@@ -116,7 +116,12 @@ void Ingest::take(const log::Packet& packet) {
     }
     Observed seen{.packet = packet, .sender = m_roll.take(packet)};
     decode(seen);
-    if (seen.sender != nullptr) {
+    if (packet.flags.isFromBefore) {
+        if (seen.sender != nullptr && seen.datagram != nullptr && enter(seen)) {
+            m_counting.index(seen);
+            m_content.take(seen);
+        }
+    } else if (seen.sender != nullptr) {
         m_counting.takePacket(seen);
         if (seen.datagram == nullptr) {
             m_counting.takeFaulty(seen);
