@@ -17,8 +17,6 @@ void add(InputCounters& counters, ReceiveTotals& totals) {
     totals.bytes += counters.bytes;
     totals.kernelDropped += counters.kernelDropped;
     totals.refusedDatagrams += counters.refusedDatagrams;
-    totals.refusedPeers += counters.refusedPeers;
-    totals.closedPeers += counters.closedPeers;
 }
 
 } // namespace

@@ -59,9 +59,7 @@ struct ReceiveTotals {
     std::uint64_t kernelDropped = 0;     ///< see InputCounters
     std::int64_t receiveBufferBytes = 0; ///< the smallest granted to an open UDP input; 0 if none is open
     log::Duration longestDelay{};
-    std::uint64_t refusedDatagrams = 0; ///< see InputCounters, as the next two
-    std::uint64_t refusedPeers = 0;
-    std::uint64_t closedPeers = 0;
+    std::uint64_t refusedDatagrams = 0; ///< see InputCounters
     log::KernelCounters kernel{}; ///< looked at a few times a second; zeros if the system does not say
 };
 

@@ -23,7 +23,8 @@ class CoveredWindows final : public QAbstractNativeEventFilter {
 public:
     CoveredWindows() { QCoreApplication::instance()->installNativeEventFilter(this); }
 
-    bool contains(const QWindow& window) {
+    /// Known from the second time on that it is asked about: it is watched from the first.
+    bool watchFor(const QWindow& window) {
         const auto id = static_cast<xcb_window_t>(window.winId());
         if (m_watched.insert(id).second) {
             watch(id);
@@ -66,7 +67,7 @@ bool isCovered(const QWindow& window) {
     static auto* const covered = QGuiApplication::platformName() == QLatin1String("xcb")
                                      ? new CoveredWindows // until the program ends
                                      : nullptr;
-    return covered != nullptr && covered->contains(window);
+    return covered != nullptr && covered->watchFor(window);
 }
 #else
 bool isCovered(const QWindow& /*window*/) {

@@ -201,7 +201,6 @@ TEST_F(TcpRoomTest, OthersThanThoseListenedToAreClosedAndCounted) {
     ASSERT_TRUE(eventually([&] { return status().refusedPeers == 2; }));
     EXPECT_TRUE(status().peers.empty());
     EXPECT_THAT(status().text, HasSubstr("2 connections were closed: only chosen hosts are listened to"));
-    EXPECT_EQ(receiver->totals().refusedPeers, 2U);
     receiver->listenTo({});
     const Socket again = connected();
     EXPECT_TRUE(eventually([&] { return status().peers.size() == 1; }));
