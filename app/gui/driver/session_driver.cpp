@@ -238,8 +238,10 @@ void SessionDriver::tick() {
     m_isQuiet = !isWaiting && now - m_changed > kQuiet;
     const bool isTableTick = now - m_tableTick >= (m_isQuiet || !m_isInSight ? kSlowTableTick : kTableTick);
     if (isTableTick) { // tables and pictures say the same
+        live.sharpenRange();
         live.judge();
         if (OpenedFile* file = m_files.file()) {
+            file->session().sharpenRange();
             file->session().judge();
         }
     }

@@ -26,6 +26,13 @@ void add(Counters& counters, const Counters& change) {
     }
 }
 
+void subtract(Counters& counters, const Counters& part) {
+    counters.bytes -= part.bytes;
+    for (const auto counter : kCounters) {
+        counters.*counter -= part.*counter;
+    }
+}
+
 } // namespace
 
 log::Stamp roundedDown(log::Stamp stamp, log::Duration width) {
@@ -43,8 +50,9 @@ log::Duration roundedUp(log::Duration time, log::Duration width) {
 }
 
 log::Stamp CountHistory::roundedUp(log::Stamp stamp) const {
-    return stamp < m_fineFrom ? std::min(model::roundedUp(stamp, m_width), m_fineFrom)
-                              : model::roundedUp(stamp, kFirstWidth);
+    return stamp == m_edges.from || stamp == m_edges.to ? stamp
+           : stamp < m_fineFrom ? std::min(model::roundedUp(stamp, m_width), m_fineFrom)
+                                : model::roundedUp(stamp, kFirstWidth);
 }
 
 log::Stamp CountHistory::beginOf(log::Stamp stamp, log::Duration width) const {
@@ -96,6 +104,23 @@ void CountHistory::merge(Bucket& bucket, const Bucket& before) {
     }
 }
 
+/// Buckets that began at the edges of before are made whole again.
+void CountHistory::setEdges(const TimeRange& range) {
+    for (const log::Stamp edge : {m_edges.from, m_edges.to}) {
+        const std::size_t i = firstFrom(edge);
+        if (i == m_buckets.size() || m_buckets[i].start != edge) {
+            continue;
+        }
+        m_buckets[i].start = roundedDown(edge, widthOf(i));
+        if (i > 0 && m_buckets[i - 1].start >= m_buckets[i].start) {
+            merge(m_buckets[i], m_buckets[i - 1]);
+            m_buckets[i].start = m_buckets[i - 1].start;
+            m_buckets.erase(m_buckets.begin() + static_cast<std::ptrdiff_t>(i - 1));
+        }
+    }
+    m_edges = range;
+}
+
 /// The newer half stays as it is; of the older one little enough is left that much has to come until the next
 /// time.
 void CountHistory::coarsen() {
@@ -104,7 +129,7 @@ void CountHistory::coarsen() {
         return;
     }
     std::size_t old = m_buckets.size() - fine;
-    m_fineFrom = m_buckets[old].start;
+    m_fineFrom = roundedDown(m_buckets[old].start, kFirstWidth);
     while (true) {
         std::size_t kept = 0;
         for (std::size_t i = 0; i < old; ++i) {
@@ -188,20 +213,66 @@ const CountHistory::Bucket& CountHistory::before(std::size_t index) const {
     return index == 0 ? none : m_buckets[index - 1];
 }
 
-Counters CountHistory::between(log::Stamp from, log::Stamp to) const {
+CountHistory::Bucket CountHistory::sumOf(log::Stamp from, log::Stamp to) const {
     const std::size_t first = firstFrom(from);
     const std::size_t end = std::max(first, firstFrom(to));
-    const Counters& earlier = before(first).counters;
-    Counters result = before(end).counters;
-    result.bytes -= earlier.bytes;
-    for (const auto counter : kCounters) {
-        result.*counter -= earlier.*counter;
+    const Bucket& earlier = before(first);
+    Bucket result = end == first ? Bucket() : m_buckets[end - 1];
+    for (std::size_t i = end; i-- > first;) {
+        merge(result, m_buckets[i]);
+    }
+    if (end != first) {
+        subtract(result.counters, earlier.counters);
+        result.sum -= earlier.sum;
+        result.sumSquares -= earlier.sumSquares;
+        result.arrivals -= earlier.arrivals;
     }
     return result;
 }
 
+void CountHistory::cutAt(log::Stamp edge, const CountHistory& exact, const TimeRange& read) {
+    if (m_buckets.size() >= m_most) {
+        coarsen();
+    }
+    const std::size_t next = firstFrom(edge);
+    if (next == 0) {
+        return;
+    }
+    Bucket& after = m_buckets[next - 1]; // becomes what comes after the edge
+    log::Stamp end = roundedDown(after.start, widthOf(next - 1)) + widthOf(next - 1);
+    end = next < m_buckets.size() ? std::min(end, m_buckets[next].start) : end;
+    if (edge >= end || after.start < read.from || end > read.to) {
+        return;
+    }
+    const Bucket earlier = before(next - 1);
+    const Bucket rest = exact.sumOf(edge, end);
+    Bucket cut = exact.sumOf(after.start, edge);
+    for (const auto counter : kCounters) { // no more than ours, all of it where nothing is left for the rest
+        const auto whole = static_cast<std::int32_t>(after.counters.*counter - earlier.counters.*counter);
+        const auto part = static_cast<std::int32_t>(cut.counters.*counter);
+        const auto ours = std::clamp(part, std::min(whole, 0), std::max(whole, 0));
+        cut.counters.*counter = static_cast<std::uint32_t>(rest.counters.*counter == 0 ? whole : ours);
+    }
+    model::add(cut.counters, earlier.counters);
+    cut.sum += earlier.sum;
+    cut.sumSquares += earlier.sumSquares;
+    cut.arrivals += earlier.arrivals;
+    cut.start = std::exchange(after.start, edge);
+    after.longestGap = rest.longestGap;
+    after.leastMs = rest.leastMs;
+    after.mostMs = rest.mostMs;
+    // Those of another history cannot be compared with ours.
+    cut.hasDifference = after.hasDifference && after.leastDelayed < edge;
+    after.hasDifference = after.hasDifference && !cut.hasDifference;
+    cut.generation = after.generation;
+    cut.leastDelayed = after.leastDelayed;
+    cut.differenceMs = after.differenceMs;
+    m_buckets.insert(m_buckets.begin() + static_cast<std::ptrdiff_t>(next - 1), cut);
+}
+
 StreamCounts CountHistory::countsBetween(log::Stamp from, log::Stamp to) const {
-    const Counters came = between(from, to);
+    const Bucket sum = sumOf(from, to);
+    const Counters& came = sum.counters;
     StreamCounts counts;
     counts.datagrams = came.datagrams;
     counts.bytes = came.bytes;
@@ -212,15 +283,12 @@ StreamCounts CountHistory::countsBetween(log::Stamp from, log::Stamp to) const {
     counts.late = came.late;
     counts.incomplete = came.incomplete;
     counts.restarts = came.restarts;
-    const std::size_t end = firstFrom(to);
-    for (std::size_t i = firstFrom(from); i < end; ++i) {
-        counts.longestGapSamples = std::max<std::uint64_t>(counts.longestGapSamples, m_buckets[i].longestGap);
-    }
+    counts.longestGapSamples = sum.longestGap;
     return counts;
 }
 
 BurstCounts CountHistory::burstsBetween(log::Stamp from, log::Stamp to) const {
-    const Counters came = between(from, to);
+    const Counters came = sumOf(from, to).counters;
     return {came.bursts, came.burstLost, came.burstSamples};
 }
 
@@ -254,27 +322,18 @@ ClockSkew CountHistory::skewBetween(log::Stamp from, log::Stamp to) const {
 }
 
 InterArrival CountHistory::arrivalsBetween(log::Stamp from, log::Stamp to) const {
+    const Bucket sum = sumOf(from, to);
     InterArrival result;
-    const std::size_t begin = firstFrom(from);
-    const std::size_t end = std::max(begin, firstFrom(to));
-    const Bucket& earlier = before(begin);
-    const Bucket& last = before(end);
-    result.count = last.arrivals - earlier.arrivals;
+    result.count = sum.arrivals;
     if (result.count == 0) {
         return result;
     }
     const auto count = static_cast<double>(result.count);
-    result.meanMs = log::millisecondsOf(last.sum - earlier.sum) / count;
-    const double squares = (last.sumSquares - earlier.sumSquares) / count;
+    result.meanMs = log::millisecondsOf(sum.sum) / count;
+    const double squares = sum.sumSquares / count;
     result.deviationMs = std::sqrt(std::max(0.0, squares - result.meanMs * result.meanMs));
-    float least = Bucket().leastMs;
-    float most = 0;
-    for (std::size_t i = begin; i < end; ++i) {
-        least = std::min(least, m_buckets[i].leastMs);
-        most = std::max(most, m_buckets[i].mostMs);
-    }
-    result.leastMs = static_cast<double>(least);
-    result.mostMs = static_cast<double>(most);
+    result.leastMs = static_cast<double>(sum.leastMs);
+    result.mostMs = static_cast<double>(sum.mostMs);
     return result;
 }
 

@@ -56,7 +56,7 @@ public:
     [[nodiscard]] InterArrival arrivalsBetween(log::Stamp from, log::Stamp to) const;
     [[nodiscard]] BurstCounts burstsBetween(log::Stamp from, log::Stamp to) const;
     [[nodiscard]] std::uint64_t malformedBetween(log::Stamp from, log::Stamp to) const {
-        return between(from, to).malformed;
+        return sumOf(from, to).counters.malformed;
     }
     [[nodiscard]] ClockSkew skewBetween(log::Stamp from, log::Stamp to) const;
     /// At the end of the range.
@@ -69,7 +69,10 @@ public:
     [[nodiscard]] log::Stamp roundedUp(log::Stamp stamp) const;
 
     /// Buckets of what comes from now on begin at both ends of a range too, so that its counts are exact.
-    void setEdges(const TimeRange& range) { m_edges = range; }
+    void setEdges(const TimeRange& range);
+    /// One of what came before begins at an edge too. `exact` has counted all that came in `read` with the
+    /// same edges; nothing happens where the bucket to be cut is not within that.
+    void cutAt(log::Stamp edge, const CountHistory& exact, const TimeRange& read);
     /// How many buckets there may be; three if fewer.
     void setMost(std::size_t buckets);
     [[nodiscard]] std::size_t memoryBytes() const { return m_buckets.capacity() * sizeof(Bucket); }
@@ -96,7 +99,8 @@ private:
     };
     /// The newest bucket before one, empty if there is none.
     [[nodiscard]] const Bucket& before(std::size_t index) const;
-    [[nodiscard]] Counters between(log::Stamp from, log::Stamp to) const;
+    /// Those that begin in [from, to) as one.
+    [[nodiscard]] Bucket sumOf(log::Stamp from, log::Stamp to) const;
     static void merge(Bucket& bucket, const Bucket& before);
     Bucket& bucketAt(log::Stamp stamp);
     /// The beginning of the bucket that holds a stamp, if buckets are that wide.

@@ -33,6 +33,7 @@ public:
         m_present.completeAll(history, f);
     }
     void conclude(CountHistory* history) { m_present.conclude(history); }
+    void addBursts(CountHistory* history) { m_present.addBursts(history); }
 
     [[nodiscard]] const SampleSequence& present() const { return m_present; }
     [[nodiscard]] const SampleSequence& before() const { return m_before; }

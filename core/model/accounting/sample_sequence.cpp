@@ -431,9 +431,13 @@ void SampleSequence::conclude(CountHistory* history) {
     }
 }
 
-void SampleSequence::clear(CountHistory* history) {
+void SampleSequence::addBursts(CountHistory* history) {
     settle(0, history);
     noteBurst(m_bursts.endRun(), history);
+}
+
+void SampleSequence::clear(CountHistory* history) {
+    addBursts(history);
     SampleWindow window = std::move(m_window); // whose memory stays
     window.clear();
     *this = {};

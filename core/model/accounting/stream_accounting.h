@@ -110,6 +110,10 @@ public:
     [[nodiscard]] const AccountingDepth& depth() const { return m_depth; }
     /// See CountHistory.
     void setEdges(const TimeRange& range) { m_history.setEdges(range); }
+    void cutAt(log::Stamp edge, StreamAccounting& exact, const TimeRange& read) {
+        exact.m_ledger.addBursts(&exact.m_history);
+        m_history.cutAt(edge, exact.m_history, read);
+    }
     /// Beside itself.
     [[nodiscard]] std::size_t memoryBytes() const;
     /// What memoryBytes() can become: two windows of samples, a history, and what waits or was decided in

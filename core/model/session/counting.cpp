@@ -156,7 +156,7 @@ void Counting::dropBefore(std::uint64_t packet) {
 
 void Counting::began(Stream& stream, const Sender& sender) {
     stream.accounting.setDepth(m_depth);
-    stream.accounting.setEdges(m_edges);
+    stream.accounting.setEdges(m_roll.edges());
     fitDepth();
     m_attribution.evidence().addStream(stream, sender.info);
 }

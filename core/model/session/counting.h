@@ -43,8 +43,6 @@ public:
     void advance(log::Stamp stamp);
     /// Nothing more comes: what is not there by now is lost.
     void settle();
-    /// Counts of this range are exact, if it is set before anything is followed; else to a bucket.
-    void setEdges(const TimeRange& range) { m_edges = range; }
     void dropBefore(std::uint64_t packet);
 
     [[nodiscard]] const Attribution& attribution() const { return m_attribution; }
@@ -71,7 +69,6 @@ private:
     log::StreamIndex m_index;
     PacketDigests m_digests;
     AccountingDepth m_depth;
-    TimeRange m_edges{log::Stamp::min(), log::Stamp::max()};
     log::Stamp m_observed{}; ///< of the newest packet
 };
 

@@ -75,6 +75,23 @@ void Ingest::setOverride(log::SenderId sender, const SenderOverride& overrides) 
     }
 }
 
+void Ingest::cutAt(log::Stamp edge, const TimeRange& read, std::uint64_t first, std::uint64_t end) {
+    Ingest again(m_log, first);
+    again.setEdges(m_roll.edges());
+    again.takeNew(m_now, end - std::min(end, again.end()));
+    again.settle();
+    m_roll.streams().forEach([&](Stream& stream) {
+        if (Stream* one = again.m_roll.streams().find(stream.key)) {
+            stream.accounting.cutAt(edge, one->accounting, read);
+        }
+    });
+    m_roll.senders().forEach([&](Sender& sender) {
+        if (const Sender* one = again.m_roll.senders().find(sender.id)) {
+            sender.history.cutAt(edge, one->history, read);
+        }
+    });
+}
+
 std::size_t Ingest::takeNew(log::Stamp now, std::size_t most) {
     m_now = now;
     m_follower.refresh();

@@ -26,9 +26,9 @@ public:
     /// 3,000 bytes.
     static constexpr std::size_t kMostNewestBytes = 4096;
 
-    explicit Ingest(const log::PacketLog& log)
+    explicit Ingest(const log::PacketLog& log, std::uint64_t from = 0)
         : m_log(log),
-          m_follower(log),
+          m_follower(log::LogFollower::fromOldest(log, from)),
           m_counting(log.scratch(), m_roll, m_incidents),
           m_roll(log.senders(), m_counting),
           m_content(m_roll, m_incidents) {}
@@ -40,7 +40,10 @@ public:
     bool followFile(log::Stamp now, std::size_t most);
     /// Nothing more is read: what is not there by now is lost.
     void settle() { m_counting.settle(); }
-    void setEdges(const TimeRange& range) { m_counting.setEdges(range); }
+    void setEdges(const TimeRange& range) { m_roll.setEdges(range); }
+    /// Counts become exact at one of the edges: packets [first, end), which hold all that came in `read` and
+    /// some seconds around it, are counted once more. See CountHistory.
+    void cutAt(log::Stamp edge, const TimeRange& read, std::uint64_t first, std::uint64_t end);
     /// All that was read is a file that has ended: no sender in it is expected to send on after the time that
     /// went by after its last packet while it was recorded.
     void endFile();

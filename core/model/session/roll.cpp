@@ -18,6 +18,12 @@ constexpr log::Duration kEnded = std::chrono::milliseconds(200);
 
 } // namespace
 
+void Roll::setEdges(const TimeRange& range) {
+    m_edges = range;
+    m_streams.forEach([&range](Stream& stream) { stream.accounting.setEdges(range); });
+    m_senders.forEach([&range](Sender& sender) { sender.history.setEdges(range); });
+}
+
 Sender* Roll::take(const log::Packet& packet) {
     m_observed = packet.stamp;
     if (Sender* known = m_senders.find(packet.sender)) {
@@ -35,6 +41,7 @@ Sender* Roll::take(const log::Packet& packet) {
     Sender& sender = m_senders.add(packet.sender);
     sender.info = *held;
     sender.history.setMost(kBucketsOfSender);
+    sender.history.setEdges(m_edges);
     sender.held = std::move(held);
     sender.overrides = m_usual;
     if (const auto host = sender.host()) {

@@ -116,6 +116,9 @@ public:
 
     /// Declared of all senders that come from now on.
     void setUsual(const SenderOverride& usual) { m_usual = usual; }
+    /// Counts of this range are exact as far as it is followed from now on; see Ingest for what came before.
+    void setEdges(const TimeRange& range);
+    [[nodiscard]] const TimeRange& edges() const { return m_edges; }
 
     [[nodiscard]] const KeyedList<log::SenderId, Sender>& senders() const { return m_senders; }
     [[nodiscard]] const KeyedList<CharacterKey, Character>& characters() const { return m_characters; }
@@ -170,6 +173,7 @@ private:
     const log::SenderTable& m_known;
     RollListener& m_listener;
     SenderOverride m_usual;
+    TimeRange m_edges{log::Stamp::min(), log::Stamp::max()};
     KeyedList<log::SenderId, Sender> m_senders;
     KeyedList<CharacterKey, Character> m_characters;
     KeyedList<log::StreamKey, Stream> m_streams;

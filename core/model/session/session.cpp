@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/session/session.h"
 
+#include "core/model/session/accounts.h"
+
+#include <algorithm>
 #include <set>
+#include <utility>
 
 namespace posewire::model {
 
@@ -28,6 +32,37 @@ bool Session::forget(log::SenderId sender) {
     m_choices.lifted = std::move(lifted);
     m_choices.selection = selection.sender == sender ? Selection{} : selection;
     return true;
+}
+
+void Session::sharpenRange() {
+    constexpr log::Duration kBefore = std::chrono::seconds(3); // streams show their step and what they send
+    constexpr log::Duration kAfter = std::chrono::seconds(2);  // what is late has come
+    constexpr std::uint64_t kMost = 200'000;                   // packets
+    const std::optional<TimeRange>& range = m_choices.range.fixed;
+    if (range != m_edges) {
+        m_edges = range;
+        m_isExact = {};
+        m_ingest.setEdges(range.value_or(kAllTime));
+        return;
+    }
+    for (std::size_t i = 0; range && !isBeingRead() && i < m_isExact.size(); ++i) {
+        const log::Stamp edge = i == 0 ? range->from : range->to;
+        const bool isPast = m_ingest.isFile() || edge + kAfter <= now();
+        if (!isPast || std::exchange(m_isExact[i], true)) {
+            continue;
+        }
+        log::Duration width = CountHistory::kFirstWidth;
+        for (const Stream& stream : roster().streams()) {
+            width = std::max(width, stream.accounting.resolution(edge));
+        }
+        const log::Stamp bucket = roundedDown(edge, width);
+        const std::uint64_t first = packetFrom(bucket - kBefore);
+        const std::uint64_t end = packetFrom(bucket + width + kAfter);
+        const bool isKept = begin() == 0 || first > begin();
+        if (isKept && end - first <= kMost) {
+            m_ingest.cutAt(edge, {bucket, bucket + width}, first, end);
+        }
+    }
 }
 
 void Session::report(IncidentKind kind, log::Stamp now, words::Fact detail, log::SenderId sender) {

@@ -5,6 +5,9 @@
 #include "core/model/session/session_view.h"
 #include "core/model/session/verdict.h"
 
+#include <array>
+#include <optional>
+
 namespace posewire::model {
 
 /// A session without its view.
@@ -29,8 +32,12 @@ public:
     void setHeldUp(bool isHeldUp) { m_ingest.setHeldUp(isHeldUp); }
     /// The same while a file is read: however new its packets are, silence after them is no silence.
     bool followFile(log::Stamp now, std::size_t most = 200'000) { return m_ingest.followFile(now, most); }
-    /// See Counting.
+    /// See Roll.
     void setEdges(const TimeRange& range) { m_ingest.setEdges(range); }
+    /// To be called again and again: counts of the range that is chosen become exact to the packet, once it
+    /// has been the same for two calls. What came around its ends is read again then, unless that is more
+    /// than the window should wait for.
+    void sharpenRange();
     /// Nothing more is read: what is not there by now is lost.
     void settle() { m_ingest.settle(); }
     /// All that was read is a file that has ended: its end is no outage, however long it was recorded after
@@ -108,6 +115,9 @@ public:
     void setGhostShown(bool isShown) { m_choices.isGhostShown = isShown; }
 
 private:
+    std::optional<TimeRange> m_edges; ///< of the range that is chosen, as it was
+    std::array<bool, 2> m_isExact{};  ///< from its beginning on, up to its end
+
     template <class Value>
     static void setIn(std::set<Value>& set, const Value& value, bool isIn) {
         if (isIn) {
