@@ -9,7 +9,6 @@
 
 #include <QMenu>
 #include <QPainter>
-#include <QPainterPath>
 #include <QtMath>
 
 #include <algorithm>
@@ -383,8 +382,11 @@ void ViewportOverlay::paintLabel(QPainter& painter, const ViewportLabel& label, 
 /// Each with a halo of the background, so that it can be read over anything.
 void ViewportOverlay::paintTexts(QPainter& painter, std::vector<QRectF>& taken) const {
     constexpr qreal kAside = 7;
+    constexpr std::array<QPointF, 8> kAround{
+        {{-1.5, 0}, {1.5, 0}, {0, -1.5}, {0, 1.5}, {-1, -1}, {1, -1}, {-1, 1}, {1, 1}}};
     QFont small = tabularFont();
     small.setPointSizeF(0.85 * small.pointSizeF());
+    painter.setFont(small);
     const QFontMetricsF metrics(small);
     for (const ViewportText& text : m_texts) {
         const QRectF room(text.place.x() + kAside, text.place.y() - metrics.height() / 2,
@@ -394,11 +396,13 @@ void ViewportOverlay::paintTexts(QPainter& painter, std::vector<QRectF>& taken) 
             continue;
         }
         taken.push_back(room);
-        QPainterPath path;
-        path.addText(room.left(), room.bottom() - metrics.descent(), small, text.text);
-        painter.strokePath(path, QPen(withAlpha(theme().window, kBackgroundOpacity), 3, Qt::SolidLine,
-                                      Qt::RoundCap, Qt::RoundJoin));
-        painter.fillPath(path, text.colour);
+        const QPointF place(room.left(), room.bottom() - metrics.descent());
+        painter.setPen(theme().window);
+        for (const QPointF& around : kAround) {
+            painter.drawText(place + around, text.text);
+        }
+        painter.setPen(text.colour);
+        painter.drawText(place, text.text);
     }
 }
 

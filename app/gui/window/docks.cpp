@@ -2,6 +2,7 @@
 #include "app/gui/window/docks.h"
 
 #include "app/gui/base/dock_layout.h"
+#include "app/gui/base/sight.h"
 #include "app/gui/driver/session_driver.h"
 #include "app/gui/theme/event_watch.h"
 #include "app/gui/theme/help_link.h"
@@ -300,6 +301,9 @@ void Docks::forgetFile() {
 }
 
 void Docks::refresh() {
+    if (!isAnyWindowInSight()) {
+        return;
+    }
     for (const Dock& dock : m_docks) {
         const bool isInSight = dock.isInSight();
         if (isInSight) {
