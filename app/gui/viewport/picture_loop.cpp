@@ -40,7 +40,10 @@ void PictureLoop::use(Presenter* presenter) {
     m_presenter->lower();
     m_presenter->setVisible(true);
     connect(m_presenter, &Presenter::presented, this, &PictureLoop::onPresented);
-    connect(m_presenter, &Presenter::ready, this, &PictureLoop::drawNext);
+    connect(m_presenter, &Presenter::ready, this, [this] {
+        emit due();
+        drawNext();
+    });
     connect(m_presenter, &Presenter::outgrown, this, &PictureLoop::refresh);
     refresh();
 }

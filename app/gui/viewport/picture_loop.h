@@ -48,6 +48,8 @@ public:
 
 signals:
     void presented();
+    /// The next picture can be drawn: of what there is at this moment.
+    void due();
 
 private:
     [[nodiscard]] std::unique_ptr<SceneBuilder> makeBuilder() const;

@@ -244,6 +244,7 @@ void MainWindow::connectDriver() {
     connect(&commands, &Commands::wentBack, m_docks, &Docks::uncover);
     connect(m_verdict, &VerdictBar::evidenceRequested, m_docks, &Docks::showEvidence);
     connect(&m_driver, &SessionDriver::moved, m_viewport, &ViewportWidget::refresh);
+    connect(&m_viewport->pictures(), &PictureLoop::due, &m_driver, &SessionDriver::tick);
     connect(&m_driver, &SessionDriver::moved, m_transport, &TransportBar::refresh);
     // Once the changes of the tick are painted: both in a row would delay mouse and keyboard.
     connect(&m_driver, &SessionDriver::tableTick, m_docks,
