@@ -149,7 +149,8 @@ void Comparing::workAgain() {
 
 void Comparing::endOf(const log::PacketLog& log) {
     if (m_known.log == &log) {
-        forgetResults();
+        close();
+        return;
     }
     m_ending.clear();
     if (m_savingOf == &log) {
