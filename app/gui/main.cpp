@@ -162,9 +162,10 @@ void saveScreenshot(MainWindow& window, const Options& options) {
 }
 
 /// Takes the picture once the file is open and the viewport has one to show; after some seconds without, as
-/// it is. Right after a refresh: what is painted later may know more than the verdict beside it.
+/// it is. Once all have shown the same tick: what is painted later may know more than the verdict beside it.
 void takeScreenshot(MainWindow& window, const Options& options, int attempts) {
     constexpr int kAgainMs = 50;
+    constexpr int kPaintedMs = 30; // the docks follow the tick, and the next one is later
     const bool isOpening = window.driver().files().isOpening();
     const bool isUnsettled =
         window.viewport().pictures().failure().isEmpty() && !window.viewport().pictures().isSettled();
@@ -176,7 +177,10 @@ void takeScreenshot(MainWindow& window, const Options& options, int attempts) {
     }
     QObject::connect(
         &window.driver(), &SessionDriver::tableTick, &window,
-        [&window, options] { saveScreenshot(window, options); }, Qt::SingleShotConnection);
+        [&window, options] {
+            QTimer::singleShot(kPaintedMs, &window, [&window, options] { saveScreenshot(window, options); });
+        },
+        Qt::SingleShotConnection);
 }
 
 void begin(MainWindow& window, const Options& options, const Settings& settings) {

@@ -375,8 +375,11 @@ void ViewportOverlay::paintLabel(QPainter& painter, const ViewportLabel& label, 
                          : placed.form == LabelForm::Named ? text.shortName
                                                            : initialsOf(label.name);
     x = paintText(painter, x, plate, name, label.isBehind ? theme().dim : theme().text);
-    paintText(painter, x + (isWhole ? 0.6 : 0.4) * unit, plate,
-              isWhole ? text.status : healthSymbol(label.state.health), healthColour(label.state.health));
+    const QString symbol = healthSymbol(label.state.health);
+    x = paintText(painter, x + (isWhole ? 0.6 : 0.4) * unit, plate, symbol, healthColour(label.state.health));
+    if (isWhole) { // the verdict has said it in large
+        paintText(painter, x, plate, text.status.mid(symbol.size()), theme().dim);
+    }
 }
 
 /// Each with a halo of the background, so that it can be read over anything.
