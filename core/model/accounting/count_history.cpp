@@ -213,19 +213,27 @@ const CountHistory::Bucket& CountHistory::before(std::size_t index) const {
     return index == 0 ? none : m_buckets[index - 1];
 }
 
+Counters CountHistory::between(log::Stamp from, log::Stamp to) const {
+    const std::size_t first = firstFrom(from);
+    Counters result = before(std::max(first, firstFrom(to))).counters;
+    subtract(result, before(first).counters);
+    return result;
+}
+
 CountHistory::Bucket CountHistory::sumOf(log::Stamp from, log::Stamp to) const {
     const std::size_t first = firstFrom(from);
     const std::size_t end = std::max(first, firstFrom(to));
-    const Bucket& earlier = before(first);
-    Bucket result = end == first ? Bucket() : m_buckets[end - 1];
-    for (std::size_t i = end; i-- > first;) {
-        merge(result, m_buckets[i]);
+    if (first == end) {
+        return {};
     }
-    if (end != first) {
-        subtract(result.counters, earlier.counters);
-        result.sum -= earlier.sum;
-        result.sumSquares -= earlier.sumSquares;
-        result.arrivals -= earlier.arrivals;
+    const Bucket& earlier = before(first);
+    Bucket result = m_buckets[end - 1];
+    result.counters = between(from, to);
+    result.sum -= earlier.sum;
+    result.sumSquares -= earlier.sumSquares;
+    result.arrivals -= earlier.arrivals;
+    for (std::size_t i = first; i + 1 < end; ++i) {
+        merge(result, m_buckets[i]);
     }
     return result;
 }
@@ -254,6 +262,7 @@ void CountHistory::cutAt(log::Stamp edge, const CountHistory& exact, const TimeR
         cut.counters.*counter = static_cast<std::uint32_t>(rest.counters.*counter == 0 ? whole : ours);
     }
     model::add(cut.counters, earlier.counters);
+    cut.jitterMs = cut.arrivals == 0 ? earlier.jitterMs : cut.jitterMs;
     cut.sum += earlier.sum;
     cut.sumSquares += earlier.sumSquares;
     cut.arrivals += earlier.arrivals;
@@ -288,7 +297,7 @@ StreamCounts CountHistory::countsBetween(log::Stamp from, log::Stamp to) const {
 }
 
 BurstCounts CountHistory::burstsBetween(log::Stamp from, log::Stamp to) const {
-    const Counters came = sumOf(from, to).counters;
+    const Counters came = between(from, to);
     return {came.bursts, came.burstLost, came.burstSamples};
 }
 

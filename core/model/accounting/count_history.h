@@ -56,7 +56,7 @@ public:
     [[nodiscard]] InterArrival arrivalsBetween(log::Stamp from, log::Stamp to) const;
     [[nodiscard]] BurstCounts burstsBetween(log::Stamp from, log::Stamp to) const;
     [[nodiscard]] std::uint64_t malformedBetween(log::Stamp from, log::Stamp to) const {
-        return sumOf(from, to).counters.malformed;
+        return between(from, to).malformed;
     }
     [[nodiscard]] ClockSkew skewBetween(log::Stamp from, log::Stamp to) const;
     /// At the end of the range.
@@ -99,6 +99,7 @@ private:
     };
     /// The newest bucket before one, empty if there is none.
     [[nodiscard]] const Bucket& before(std::size_t index) const;
+    [[nodiscard]] Counters between(log::Stamp from, log::Stamp to) const;
     /// Those that begin in [from, to) as one.
     [[nodiscard]] Bucket sumOf(log::Stamp from, log::Stamp to) const;
     static void merge(Bucket& bucket, const Bucket& before);
