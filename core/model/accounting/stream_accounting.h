@@ -129,7 +129,7 @@ public:
     void addMalformed(log::Stamp stamp);
 
     // Figures of all there is, or of a range of time, at a cost that does not depend on it. The ends are
-    // rounded to the resolution. What belongs to samples counts when they were due.
+    // rounded to the resolution, but for edges. What belongs to samples counts when they were due.
     using Range = std::optional<TimeRange>;
     [[nodiscard]] StreamCounts counts(const Range& range = {}) const;
     [[nodiscard]] StreamCounts countsBetween(log::Stamp from, log::Stamp to) const;
