@@ -300,10 +300,13 @@ void Docks::forgetFile() {
     }
 }
 
-void Docks::refresh() {
-    if (!isAnyWindowInSight()) {
-        return;
+void Docks::refreshInSight() {
+    if (isAnyWindowInSight()) {
+        refresh();
     }
+}
+
+void Docks::refresh() {
     for (const Dock& dock : m_docks) {
         const bool isInSight = dock.isInSight();
         if (isInSight) {

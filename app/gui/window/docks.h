@@ -41,6 +41,8 @@ public:
     /// The session of the file is about to go.
     void forgetFile();
     void refresh();
+    /// The same, unless no window can be seen.
+    void refreshInSight();
 
     /// Brings a dock to the front, by its object name.
     void show(const QString& name);

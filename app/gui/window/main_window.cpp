@@ -248,7 +248,7 @@ void MainWindow::connectDriver() {
     connect(&m_driver, &SessionDriver::moved, m_transport, &TransportBar::refresh);
     // Once the changes of the tick are painted: both in a row would delay mouse and keyboard.
     connect(&m_driver, &SessionDriver::tableTick, m_docks,
-            [this] { QTimer::singleShot(kAfterTick, m_docks, &Docks::refresh); });
+            [this] { QTimer::singleShot(kAfterTick, m_docks, &Docks::refreshInSight); });
     connect(&m_driver, &SessionDriver::tableTick, this, [this, showTake] {
         showReceiving();
         if (m_sounds.isDue(m_driver.commands().live().verdicts().incidents(), m_settings.alerts)) {
