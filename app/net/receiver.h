@@ -60,7 +60,7 @@ struct ReceiveTotals {
     std::int64_t receiveBufferBytes = 0; ///< the smallest granted to an open UDP input; 0 if none is open
     log::Duration longestDelay{};
     std::uint64_t refusedDatagrams = 0; ///< see InputCounters
-    log::KernelCounters kernel{}; ///< looked at a few times a second; zeros if the system does not say
+    log::KernelCounters kernel{};       ///< looked at a few times a second; zeros if the system does not say
 };
 
 /// The one thread that writes a PacketLog for as long as the program runs. It receives UDP datagrams straight
