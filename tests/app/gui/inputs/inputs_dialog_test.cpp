@@ -324,12 +324,15 @@ TEST_F(InputsDialogTest, HelpOffersToListenToTheOtherTransport) {
     type({"127.0.0.1", port});
     dialog.open(InputsDialog::Page::Help);
     auto* findings = dialog.findChild<QTextBrowser*>();
-    const auto offer = [&] {
-        return QRegularExpression(QStringLiteral("href=\"(offer:\\d+)\"")).match(findings->toHtml());
+    const InputAddress wanted{"127.0.0.1", port, Kind::TcpListener};
+    const QString text = QRegularExpression::escape(displayText(wanted));
+    const auto offer = [&] { // another program on this computer may cause more of them
+        return QRegularExpression(QStringLiteral("href=\"(offer:\\d+)\"(?:[^<]|<(?!/a))*%1").arg(text))
+            .match(findings->toHtml());
     };
     ASSERT_TRUE(tickUntil([&] { return offer().hasMatch(); }));
     emit findings->anchorClicked(QUrl(offer().captured(1)));
-    EXPECT_EQ(ports().back().port, (InputAddress{"127.0.0.1", port, Kind::TcpListener}));
+    EXPECT_EQ(ports().back().port, wanted);
     EXPECT_EQ(changed.count(), 2);
     dialog.open(InputsDialog::Page::Help);
     EXPECT_TRUE(tickUntil([&] { return !offer().hasMatch(); })) << "it is open";
