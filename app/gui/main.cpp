@@ -162,7 +162,7 @@ void saveScreenshot(MainWindow& window, const Options& options) {
 }
 
 /// Takes the picture once the file is open and the viewport has one to show; after some seconds without, as
-/// it is. Once all have shown the same tick: what is painted later may know more than the verdict beside it.
+/// it is. Waits until all parts of the window show one tick, so that their numbers agree.
 void takeScreenshot(MainWindow& window, const Options& options, int attempts) {
     constexpr int kAgainMs = 50;
     constexpr int kPaintedMs = 30; // the docks follow the tick, and the next one is later

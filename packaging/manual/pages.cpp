@@ -25,7 +25,7 @@ std::string words(const std::vector<std::string>& list, const std::string& place
     return "mapfile -t " + place + "COMPREPLY < <(compgen -W '" + joined(list, " ") + "' -- \"$word\")";
 }
 
-/// What completes the value of an option: its choices, else files, else nothing.
+/// The commands that complete the value of an option: from its choices, from file names, or not at all.
 std::string valueAction(const Option& option) {
     const std::vector<std::string> choices = choicesOf(option);
     const std::string files = takesFile(option) ? std::string(kFiles) + "; " : "";
@@ -158,7 +158,7 @@ std::string italic(std::string_view text) {
     return "\\fI" + plain(text) + "\\fR";
 }
 
-/// What is typed as it stands is bold, what stands for something italic.
+/// Literal words are bold, placeholders italic.
 std::string formText(const Option& option) {
     const std::vector<std::string> choices = choicesOf(option);
     std::vector<std::string> parts;

@@ -8,7 +8,7 @@
 
 #include <tl/expected.hpp>
 
-/// What is installed for people who type commands, made from what the programs declare.
+/// Manual pages and shell completions, generated from the options that the programs declare.
 namespace posewire::manual {
 
 struct PageFacts {

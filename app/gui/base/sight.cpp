@@ -23,7 +23,7 @@ class CoveredWindows final : public QAbstractNativeEventFilter {
 public:
     CoveredWindows() { QCoreApplication::instance()->installNativeEventFilter(this); }
 
-    /// Known from the second time on that it is asked about: it is watched from the first.
+    /// Starts to watch a window when first called for it, so only later calls can return true.
     bool watchFor(const QWindow& window) {
         const auto id = static_cast<xcb_window_t>(window.winId());
         if (m_watched.insert(id).second) {

@@ -67,7 +67,7 @@ public:
     /// Ends the work on the range until it is asked for again, or something else is chosen.
     void stop();
     void workAgain();
-    /// Where this log is compared that has ended; no thread reads it any more once it returns.
+    /// Ends the comparison if it is of this log. No thread reads the log once this returns.
     void endOf(const log::PacketLog& log);
 
     /// One display tick, for about as long as `most`; true if there is something new to show.

@@ -168,7 +168,7 @@ public:
 signals:
     /// The view moved: at most once a tick.
     void moved();
-    /// Ten times a second, or once where nothing changes or is seen, after the session has followed.
+    /// Ten times a second, or once if nothing changes or can be seen, after the session has followed.
     void tableTick();
     /// A relay was switched off because its datagrams came back.
     void relayStopped();

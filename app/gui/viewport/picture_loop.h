@@ -48,7 +48,7 @@ public:
 
 signals:
     void presented();
-    /// The next picture can be drawn: of what there is at this moment.
+    /// The pause after a picture is over, and the next one is about to be drawn.
     void due();
 
 private:

@@ -377,7 +377,7 @@ void ViewportOverlay::paintLabel(QPainter& painter, const ViewportLabel& label, 
     x = paintText(painter, x, plate, name, label.isBehind ? theme().dim : theme().text);
     const QString symbol = healthSymbol(label.state.health);
     x = paintText(painter, x + (isWhole ? 0.6 : 0.4) * unit, plate, symbol, healthColour(label.state.health));
-    if (isWhole) { // the verdict has said it in large
+    if (isWhole) { // dim: the verdict bar shows it in large
         paintText(painter, x, plate, text.status.mid(symbol.size()), theme().dim);
     }
 }

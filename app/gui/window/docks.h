@@ -41,7 +41,7 @@ public:
     /// The session of the file is about to go.
     void forgetFile();
     void refresh();
-    /// The same, unless no window can be seen.
+    /// Calls refresh() if any window can be seen.
     void refreshInSight();
 
     /// Brings a dock to the front, by its object name.

@@ -104,7 +104,7 @@ void CountHistory::merge(Bucket& bucket, const Bucket& before) {
     }
 }
 
-/// Buckets that began at the edges of before are made whole again.
+/// Joins the buckets that the previous edges had split.
 void CountHistory::setEdges(const TimeRange& range) {
     for (const log::Stamp edge : {m_edges.from, m_edges.to}) {
         const std::size_t i = firstFrom(edge);
@@ -246,7 +246,7 @@ void CountHistory::cutAt(log::Stamp edge, const CountHistory& exact, const TimeR
     if (next == 0) {
         return;
     }
-    Bucket& after = m_buckets[next - 1]; // becomes what comes after the edge
+    Bucket& after = m_buckets[next - 1]; // keeps the part after the edge
     log::Stamp end = roundedDown(after.start, widthOf(next - 1)) + widthOf(next - 1);
     end = next < m_buckets.size() ? std::min(end, m_buckets[next].start) : end;
     if (edge >= end || after.start < read.from || end > read.to) {
@@ -255,7 +255,7 @@ void CountHistory::cutAt(log::Stamp edge, const CountHistory& exact, const TimeR
     const Bucket earlier = before(next - 1);
     const Bucket rest = exact.sumOf(edge, end);
     Bucket cut = exact.sumOf(after.start, edge);
-    for (const auto counter : kCounters) { // no more than ours, all of it where nothing is left for the rest
+    for (const auto counter : kCounters) { // at most our own count, and all of it if none came after the edge
         const auto whole = static_cast<std::int32_t>(after.counters.*counter - earlier.counters.*counter);
         const auto part = static_cast<std::int32_t>(cut.counters.*counter);
         const auto ours = std::clamp(part, std::min(whole, 0), std::max(whole, 0));
@@ -270,7 +270,7 @@ void CountHistory::cutAt(log::Stamp edge, const CountHistory& exact, const TimeR
     after.longestGap = rest.longestGap;
     after.leastMs = rest.leastMs;
     after.mostMs = rest.mostMs;
-    // Those of another history cannot be compared with ours.
+    // Clock differences of another history cannot be compared with ours.
     cut.hasDifference = after.hasDifference && after.leastDelayed < edge;
     after.hasDifference = after.hasDifference && !cut.hasDifference;
     cut.generation = after.generation;

@@ -70,8 +70,8 @@ public:
 
     /// Buckets of what comes from now on begin at both ends of a range too, so that its counts are exact.
     void setEdges(const TimeRange& range);
-    /// One of what came before begins at an edge too. `exact` has counted all that came in `read` with the
-    /// same edges; nothing happens where the bucket to be cut is not within that.
+    /// Splits the bucket that an edge is in. `exact` has counted all packets in `read` with the same edges; a
+    /// bucket that reaches beyond `read` is not split.
     void cutAt(log::Stamp edge, const CountHistory& exact, const TimeRange& read);
     /// How many buckets there may be; three if fewer.
     void setMost(std::size_t buckets);
@@ -100,7 +100,7 @@ private:
     /// The newest bucket before one, empty if there is none.
     [[nodiscard]] const Bucket& before(std::size_t index) const;
     [[nodiscard]] Counters between(log::Stamp from, log::Stamp to) const;
-    /// Those that begin in [from, to) as one.
+    /// Merges the buckets that begin in [from, to).
     [[nodiscard]] Bucket sumOf(log::Stamp from, log::Stamp to) const;
     static void merge(Bucket& bucket, const Bucket& before);
     Bucket& bucketAt(log::Stamp stamp);

@@ -74,9 +74,9 @@ public:
 
     /// Ends the sequence. A change of step near its end counts even if only a few samples followed it.
     void conclude(CountHistory* history);
-    /// Adds the newest bursts to the history: nothing more comes.
+    /// Adds the newest bursts to the history. To be called once nothing more comes.
     void addBursts(CountHistory* history);
-    /// The same, and forgets everything.
+    /// Adds the newest bursts to the history and forgets everything.
     void clear(CountHistory* history);
 
 private:

@@ -28,7 +28,7 @@ public:
     void takePacket(const Observed& seen);
     /// One that cannot be decoded.
     void takeFaulty(const Observed& seen);
-    /// A datagram that can be found but counts for nothing.
+    /// Adds a datagram to the index without counting it.
     void index(const Observed& seen);
     /// One that was decoded, of a stream that is followed.
     void takeDatagram(Observed& seen);

@@ -41,8 +41,8 @@ public:
     /// Nothing more is read: what is not there by now is lost.
     void settle() { m_counting.settle(); }
     void setEdges(const TimeRange& range) { m_roll.setEdges(range); }
-    /// Counts become exact at one of the edges: packets [first, end), which hold all that came in `read` and
-    /// some seconds around it, are counted once more. See CountHistory.
+    /// Makes counts exact at one of the edges by counting packets [first, end) again: those in `read` and in
+    /// some seconds around it. See CountHistory::cutAt().
     void cutAt(log::Stamp edge, const TimeRange& read, std::uint64_t first, std::uint64_t end);
     /// All that was read is a file that has ended: no sender in it is expected to send on after the time that
     /// went by after its last packet while it was recorded.

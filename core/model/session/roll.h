@@ -116,7 +116,7 @@ public:
 
     /// Declared of all senders that come from now on.
     void setUsual(const SenderOverride& usual) { m_usual = usual; }
-    /// Counts of this range are exact as far as it is followed from now on; see Ingest for what came before.
+    /// Makes counts of this range exact for packets that follow; Ingest::cutAt() does so for earlier ones.
     void setEdges(const TimeRange& range);
     [[nodiscard]] const TimeRange& edges() const { return m_edges; }
 

@@ -35,8 +35,8 @@ bool Session::forget(log::SenderId sender) {
 }
 
 void Session::sharpenRange() {
-    constexpr log::Duration kBefore = std::chrono::seconds(3); // streams show their step and what they send
-    constexpr log::Duration kAfter = std::chrono::seconds(2);  // what is late has come
+    constexpr log::Duration kBefore = std::chrono::seconds(3); // enough to learn the step of each stream
+    constexpr log::Duration kAfter = std::chrono::seconds(2);  // datagrams that are late have come
     constexpr std::uint64_t kMost = 200'000;                   // packets
     const std::optional<TimeRange>& range = m_choices.range.fixed;
     if (range != m_edges) {

@@ -34,9 +34,8 @@ public:
     bool followFile(log::Stamp now, std::size_t most = 200'000) { return m_ingest.followFile(now, most); }
     /// See Roll.
     void setEdges(const TimeRange& range) { m_ingest.setEdges(range); }
-    /// To be called again and again: counts of the range that is chosen become exact to the packet, once it
-    /// has been the same for two calls. What came around its ends is read again then, unless that is more
-    /// than the window should wait for.
+    /// Makes counts of the chosen range exact to the packet: reads again what came around its ends, unless
+    /// that would take long. To be called repeatedly; waits until the range has been the same for two calls.
     void sharpenRange();
     /// Nothing more is read: what is not there by now is lost.
     void settle() { m_ingest.settle(); }
