@@ -34,6 +34,7 @@ struct Socket {
     std::shared_ptr<Input> input;
     log::Descriptor descriptor;
     SenderCache senders;
+    log::Stamp last{};              ///< the newest of its datagrams
     std::uint32_t dropsInLog = 0;   ///< how many of the kernel's drops the log has
     std::uint32_t dropsCounted = 0; ///< how many of them the counters have
     log::SenderId lastSender{};
@@ -199,7 +200,10 @@ private:
         arrival.flags.truncated = received.isTruncated;
         arrival.flags.stampedByKernel = received.time != log::WallTime();
         arrival.flags.afterClosed = std::exchange(socket.isReopened, false);
-        arrival.stamp = arrival.flags.stampedByKernel ? m_clock.stampOf(received.time) : now;
+        // Datagrams of one socket are in order, but the clocks of two CPUs of a virtual machine may not
+        // agree.
+        const log::Stamp stamp = arrival.flags.stampedByKernel ? m_clock.stampOf(received.time) : now;
+        arrival.stamp = socket.last = std::max(stamp, std::min(socket.last, now));
         // 0 is none. A packet under way may carry a smaller count than a record made meanwhile.
         if (received.drops != 0 && static_cast<std::int32_t>(received.drops - socket.dropsInLog) > 0) {
             arrival.kernelDropsBefore = received.drops - socket.dropsInLog;
