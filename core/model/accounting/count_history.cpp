@@ -17,20 +17,17 @@ using Counters = CountHistory::Counters;
 constexpr std::array kCounters{&Counters::datagrams,  &Counters::samples,   &Counters::lost,
                                &Counters::duplicates, &Counters::reordered, &Counters::late,
                                &Counters::incomplete, &Counters::restarts,  &Counters::malformed,
-                               &Counters::bursts,     &Counters::burstLost, &Counters::burstSamples};
+                               &Counters::bursts,     &Counters::burstLost, &Counters::burstSamples,
+                               &Counters::arrivals};
 
-void add(Counters& counters, const Counters& change) {
-    counters.bytes += change.bytes;
+/// Once, or -1 times to subtract.
+void add(Counters& counters, const Counters& part, int times = 1) {
+    counters.bytes += static_cast<std::uint64_t>(times) * part.bytes;
     for (const auto counter : kCounters) {
-        counters.*counter += change.*counter;
+        counters.*counter += static_cast<std::uint32_t>(times) * part.*counter;
     }
-}
-
-void subtract(Counters& counters, const Counters& part) {
-    counters.bytes -= part.bytes;
-    for (const auto counter : kCounters) {
-        counters.*counter -= part.*counter;
-    }
+    counters.sum += times * part.sum;
+    counters.sumSquares += times * part.sumSquares;
 }
 
 } // namespace
@@ -78,12 +75,10 @@ CountHistory::Bucket& CountHistory::bucketAt(log::Stamp stamp) {
         if (m_buckets.size() >= m_most) {
             coarsen();
         }
-        Bucket next = m_buckets.back();
+        Bucket next;
         next.start = begin;
-        next.longestGap = 0;
-        next.leastMs = Bucket().leastMs;
-        next.mostMs = 0;
-        next.hasDifference = false;
+        next.counters = m_buckets.back().counters;
+        next.jitterMs = m_buckets.back().jitterMs;
         m_buckets.push_back(next);
     }
     return m_buckets.back();
@@ -185,9 +180,9 @@ void CountHistory::addArrival(log::Stamp stamp, log::Duration since, double jitt
     Bucket& bucket = bucketAt(stamp);
     const double sinceMs = log::millisecondsOf(since);
     const auto shown = static_cast<float>(sinceMs);
-    bucket.sum += since;
-    bucket.sumSquares += sinceMs * sinceMs;
-    ++bucket.arrivals;
+    bucket.counters.sum += since;
+    bucket.counters.sumSquares += sinceMs * sinceMs;
+    ++bucket.counters.arrivals;
     bucket.leastMs = std::min(bucket.leastMs, shown);
     bucket.mostMs = std::max(bucket.mostMs, shown);
     bucket.jitterMs = static_cast<float>(jitterMs);
@@ -216,7 +211,7 @@ const CountHistory::Bucket& CountHistory::before(std::size_t index) const {
 Counters CountHistory::between(log::Stamp from, log::Stamp to) const {
     const std::size_t first = firstFrom(from);
     Counters result = before(std::max(first, firstFrom(to))).counters;
-    subtract(result, before(first).counters);
+    model::add(result, before(first).counters, -1);
     return result;
 }
 
@@ -226,12 +221,8 @@ CountHistory::Bucket CountHistory::sumOf(log::Stamp from, log::Stamp to) const {
     if (first == end) {
         return {};
     }
-    const Bucket& earlier = before(first);
     Bucket result = m_buckets[end - 1];
     result.counters = between(from, to);
-    result.sum -= earlier.sum;
-    result.sumSquares -= earlier.sumSquares;
-    result.arrivals -= earlier.arrivals;
     for (std::size_t i = first; i + 1 < end; ++i) {
         merge(result, m_buckets[i]);
     }
@@ -261,11 +252,8 @@ void CountHistory::cutAt(log::Stamp edge, const CountHistory& exact, const TimeR
         const auto ours = std::clamp(part, std::min(whole, 0), std::max(whole, 0));
         cut.counters.*counter = static_cast<std::uint32_t>(rest.counters.*counter == 0 ? whole : ours);
     }
+    cut.jitterMs = cut.counters.arrivals == 0 ? earlier.jitterMs : cut.jitterMs;
     model::add(cut.counters, earlier.counters);
-    cut.jitterMs = cut.arrivals == 0 ? earlier.jitterMs : cut.jitterMs;
-    cut.sum += earlier.sum;
-    cut.sumSquares += earlier.sumSquares;
-    cut.arrivals += earlier.arrivals;
     cut.start = std::exchange(after.start, edge);
     after.longestGap = rest.longestGap;
     after.leastMs = rest.leastMs;
@@ -318,7 +306,8 @@ ClockSkew CountHistory::skewBetween(log::Stamp from, log::Stamp to) const {
         return {};
     }
     const auto arrivalsIn = [this](std::size_t begin, std::size_t stop) {
-        return static_cast<double>(std::uint32_t{before(stop).arrivals - before(begin).arrivals});
+        return static_cast<double>(
+            std::uint32_t{before(stop).counters.arrivals - before(begin).counters.arrivals});
     };
     ClockFit fit(m_buckets[end - 1].start + widthOf(end - 1) - m_buckets[first].start);
     const double usualHz = arrivalsIn(first, end) / log::secondsOf(seen);
@@ -333,13 +322,13 @@ ClockSkew CountHistory::skewBetween(log::Stamp from, log::Stamp to) const {
 InterArrival CountHistory::arrivalsBetween(log::Stamp from, log::Stamp to) const {
     const Bucket sum = sumOf(from, to);
     InterArrival result;
-    result.count = sum.arrivals;
+    result.count = sum.counters.arrivals;
     if (result.count == 0) {
         return result;
     }
     const auto count = static_cast<double>(result.count);
-    result.meanMs = log::millisecondsOf(sum.sum) / count;
-    const double squares = sum.sumSquares / count;
+    result.meanMs = log::millisecondsOf(sum.counters.sum) / count;
+    const double squares = sum.counters.sumSquares / count;
     result.deviationMs = std::sqrt(std::max(0.0, squares - result.meanMs * result.meanMs));
     result.leastMs = static_cast<double>(sum.leastMs);
     result.mostMs = static_cast<double>(sum.mostMs);

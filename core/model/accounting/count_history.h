@@ -42,6 +42,9 @@ public:
         std::uint32_t bursts = 0; ///< see BurstCounts
         std::uint32_t burstLost = 0;
         std::uint32_t burstSamples = 0;
+        std::uint32_t arrivals = 0; ///< inter-arrival times
+        log::Duration sum{};        ///< of them
+        double sumSquares = 0;      ///< ms²
     };
     void add(log::Stamp stamp, const Counters& change);
     void addGap(log::Stamp stamp, std::uint32_t samples);
@@ -84,9 +87,6 @@ private:
     struct Bucket {
         log::Stamp start{};
         Counters counters{};
-        log::Duration sum{};   ///< of the inter-arrival times
-        double sumSquares = 0; ///< ms²
-        std::uint32_t arrivals = 0;
         // These are of this bucket alone:
         std::uint32_t longestGap = 0;
         float leastMs = std::numeric_limits<float>::infinity(); ///< where nothing came
