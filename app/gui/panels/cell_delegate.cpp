@@ -3,6 +3,7 @@
 
 #include "app/gui/models/column.h"
 #include "app/gui/theme/theme.h"
+#include "app/gui/theme/widgets.h"
 
 #include <QApplication>
 #include <QHeaderView>
@@ -195,7 +196,7 @@ void paintText(QPainter& painter, QRect rect, const QStyleOptionViewItem& option
     const int suffixWidth = widthWith(suffix);
     const int reserved = suffixWidth <= rect.width() / 2 ? suffixWidth : 0;
     const QString text = metrics.elidedText(whole, Qt::ElideRight, std::max(0, rect.width() - reserved));
-    painter.drawText(rect, Qt::AlignLeft | Qt::AlignVCenter, text);
+    paintMarked(painter, rect, text, isSelected ? onSelection(theme().text) : theme().text);
     rect.setLeft(rect.left() + metrics.horizontalAdvance(text + QLatin1Char(' ')));
     const QString added = metrics.elidedText(suffix, Qt::ElideLeft, rect.width()); // ports, counts
     if (added.size() > 1) { // an ellipsis alone says nothing

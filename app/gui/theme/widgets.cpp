@@ -9,6 +9,7 @@
 #include <QPushButton>
 
 #include <algorithm>
+#include <array>
 
 namespace posewire::gui {
 
@@ -308,8 +309,22 @@ void ColourText::paintEvent(QPaintEvent* /*event*/) {
     }
     const int margin = marginsOf(fontMetrics()) / 2;
     const QRect room = rect().adjusted(margin, 0, -margin, 0);
-    painter.drawText(room, Qt::AlignLeft | Qt::AlignVCenter,
-                     fontMetrics().elidedText(text(), Qt::ElideRight, room.width() + 1));
+    paintMarked(painter, room, fontMetrics().elidedText(text(), Qt::ElideRight, room.width() + 1),
+                theme().dim);
+}
+
+void paintMarked(QPainter& painter, QRect rect, const QString& text, const QColor& words) {
+    constexpr int kFlags = Qt::AlignLeft | Qt::AlignVCenter;
+    constexpr std::array kMarked{Health::Good, Health::Warning, Health::Error};
+    const bool isMarked = std::ranges::any_of(
+        kMarked, [&text](Health health) { return text.startsWith(healthSymbol(health) + QLatin1Char(' ')); });
+    const QString mark = isMarked ? text.left(1) : text;
+    painter.drawText(rect, kFlags, mark);
+    if (isMarked) {
+        rect.setLeft(rect.left() + painter.fontMetrics().horizontalAdvance(mark));
+        painter.setPen(words);
+        painter.drawText(rect, kFlags, text.mid(1));
+    }
 }
 
 void paintForgotten(QPainter& painter, const QRectF& rect) {

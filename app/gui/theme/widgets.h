@@ -161,7 +161,11 @@ public:
     void warn(const QString& problem);
 };
 
-/// A button of one short line in the colour of its health, as in the bar at the bottom.
+/// One line in the painter's colour; where it begins with the symbol of a health, only that: a colour marks,
+/// words are `words`.
+void paintMarked(QPainter& painter, QRect rect, const QString& text, const QColor& words);
+
+/// A button of one short line after the symbol of its health, as in the bar at the bottom.
 class ColourText final : public QAbstractButton {
     Q_OBJECT
 
