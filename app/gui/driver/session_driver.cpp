@@ -63,8 +63,7 @@ constexpr std::chrono::milliseconds kTick(16);
 constexpr std::chrono::milliseconds kSlowestTick(200);
 constexpr log::Duration kTableTick = std::chrono::milliseconds(100);
 // While no window is in sight, or nothing has come for a while: ages are all that changes.
-constexpr std::chrono::milliseconds kUnseenTick(100);
-constexpr std::chrono::milliseconds kQuietTick(50);
+constexpr std::chrono::milliseconds kRestingTick(100);
 constexpr log::Duration kSlowTableTick = std::chrono::seconds(1);
 constexpr log::Duration kQuiet = std::chrono::seconds(2);
 constexpr log::Duration kRetry = std::chrono::seconds(2);
@@ -196,7 +195,7 @@ SessionDriver::SessionDriver(const log::Clock& clock, const QString& cacheFolder
         // A tick that takes long is followed by a rest as long: the window never takes more than half a
         // processor.
         const auto took = sinceTick();
-        const auto tick = took > kTick ? kTick : !m_isInSight ? kUnseenTick : m_isQuiet ? kQuietTick : kTick;
+        const auto tick = took > kTick || (m_isInSight && !m_isQuiet) ? kTick : kRestingTick;
         m_timer.start(std::clamp(std::max(tick - took, took), std::chrono::milliseconds(1), kSlowestTick));
     });
 }
