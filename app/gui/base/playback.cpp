@@ -151,6 +151,19 @@ void Playback::setRangeEdge(bool isEnd) {
         range = {from, range.to > from ? range.to : newestMoment(session) + log::Duration(1)};
     }
     m_commands.selectRange({.fixed = range});
+    m_isEndSet = isEnd;
+}
+
+void Playback::trimRange(const model::CharacterKey& of, int steps) {
+    const model::SessionView& session = m_commands.session();
+    if (const auto range = session.choices().range.fixed) {
+        stopAt(session.packetAt(m_isEndSet ? range->to - log::Duration(1) : range->from));
+        stepSamples(of, steps);
+        const log::Stamp edge = session.cursorStamp();
+        if (m_isEndSet ? edge >= range->from : edge < range->to) {
+            setRangeEdge(m_isEndSet);
+        }
+    }
 }
 
 void Playback::stepSamples(const model::CharacterKey& of, int steps) {

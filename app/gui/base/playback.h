@@ -30,6 +30,8 @@ public:
     void goToLast();
     /// The range of figures, exports and replays begins or ends with the sample that is shown.
     void setRangeEdge(bool isEnd);
+    /// Moves the edge of the range that was set last by samples of a character, and the display with it.
+    void trimRange(const model::CharacterKey& of, int steps);
     /// Stops the display, and moves it by samples of a character, by packets or by time.
     void stepSamples(const model::CharacterKey& of, int steps);
     void stepPackets(int steps);
@@ -58,6 +60,7 @@ private:
     Commands& m_commands;
     const log::Clock& m_clock;
     std::optional<model::Playback> m_playing; ///< means nothing while the cursor stands still
+    bool m_isEndSet = true;                   ///< the edge of the range that was set last
     double m_speed = 1;
     bool m_isLooping = false;
 };

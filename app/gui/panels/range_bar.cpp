@@ -8,7 +8,6 @@
 #include "core/model/accounting/count_history.h"
 
 #include <QHelpEvent>
-#include <QKeyEvent>
 #include <QMouseEvent>
 #include <QPainter>
 #include <QToolTip>
@@ -71,13 +70,10 @@ void paintLosses(QPainter& painter, const RangeOverview& overview, const QRectF&
 
 RangeStrip::RangeStrip(model::SessionView& view, Commands& commands, QWidget* parent)
     : QWidget(parent), m_view(view), m_commands(commands), m_overview(view) {
-    setFocusPolicy(Qt::StrongFocus);
     setMouseTracking(true);
     setCursor(Qt::IBeamCursor);
     setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
     setAccessibleName(tr("Range of time"));
-    setAccessibleDescription(tr("Arrow keys move the range; with Shift they move its end, with Control ten "
-                                "times as far. Escape clears it."));
 }
 
 void RangeStrip::refresh() {
@@ -108,11 +104,6 @@ void RangeStrip::paintEvent(QPaintEvent*) {
         paintForgotten(painter, QRectF(0, 0, placeOf(m_view.keptSince()), height()));
         paintRange(painter);
         paintCursor(painter);
-    }
-    if (hasFocus()) {
-        painter.setPen(theme().accent);
-        painter.setBrush(Qt::NoBrush);
-        painter.drawRect(QRectF(rect()).adjusted(0.5, 0.5, -0.5, -0.5));
     }
 }
 
@@ -192,42 +183,6 @@ void RangeStrip::mouseReleaseEvent(QMouseEvent*) {
         update();
     }
     m_anchor.reset();
-}
-
-/// A fiftieth of the history, in round steps.
-log::Duration RangeStrip::keyStep() const {
-    const model::TimeRange& span = m_overview.span();
-    const log::Duration resolution = m_overview.resolution();
-    const log::Duration step = (span.to - span.from) / 50;
-    return std::max(resolution, step - step % resolution);
-}
-
-void RangeStrip::keyPressEvent(QKeyEvent* event) {
-    if (event->key() == Qt::Key_Escape) {
-        m_commands.selectRange({});
-        update();
-        return;
-    }
-    const bool isLeft = event->key() == Qt::Key_Left;
-    if ((!isLeft && event->key() != Qt::Key_Right) || m_overview.empty()) {
-        QWidget::keyPressEvent(event);
-        return;
-    }
-    const bool isFar = event->modifiers().testFlag(Qt::ControlModifier);
-    const log::Duration moved = (isLeft ? -1 : 1) * keyStep() * (isFar ? 10 : 1);
-    const model::TimeRange& span = m_overview.span();
-    const auto range = m_view.range();
-    if (!range) {
-        choose(span.to - std::min(5 * keyStep(), span.to - span.from), span.to);
-        return;
-    }
-    if (event->modifiers().testFlag(Qt::ShiftModifier)) {
-        choose(range->from, std::max(range->from, range->to + moved));
-        return;
-    }
-    const log::Duration length = range->to - range->from;
-    const log::Stamp from = std::clamp(range->from + moved, span.from, std::max(span.from, span.to - length));
-    choose(from, from + length);
 }
 
 QString RangeStrip::partText(double place) const {

@@ -46,7 +46,6 @@ protected:
     void mousePressEvent(QMouseEvent* event) override;
     void mouseMoveEvent(QMouseEvent* event) override;
     void mouseReleaseEvent(QMouseEvent* event) override;
-    void keyPressEvent(QKeyEvent* event) override;
     bool event(QEvent* event) override;
 
 private:
@@ -56,7 +55,6 @@ private:
     /// The end of the range that stays where the other one, which is at `place`, is dragged; nothing
     /// elsewhere.
     [[nodiscard]] std::optional<log::Stamp> otherEnd(double place) const;
-    [[nodiscard]] log::Duration keyStep() const;
     [[nodiscard]] QString partText(double place) const;
 
     model::SessionView& m_view;

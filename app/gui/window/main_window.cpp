@@ -5,7 +5,6 @@
 #include "app/gui/inputs/inputs_page.h"
 #include "app/gui/models/comparison_text.h"
 #include "app/gui/models/text.h"
-#include "app/gui/panels/range_bar.h"
 #include "app/gui/theme/event_watch.h"
 #include "app/gui/theme/help_link.h"
 #include "app/gui/theme/widgets.h"
@@ -82,8 +81,7 @@ bool wantsArrows(QObject& watched, Qt::KeyboardModifiers modifiers) {
     const auto* tree = qobject_cast<QTreeView*>(&watched);
     const bool isOfMoves =
         tree != nullptr ? tree->rootIsDecorated() : qobject_cast<QTabBar*>(&watched) != nullptr;
-    const bool isOfRange =
-        qobject_cast<QAbstractSlider*>(&watched) != nullptr || qobject_cast<RangeStrip*>(&watched) != nullptr;
+    const bool isOfRange = qobject_cast<QAbstractSlider*>(&watched) != nullptr;
     return isOfMoves ? (modifiers & ~Qt::KeypadModifier) == Qt::NoModifier
                      : isOfRange && !modifiers.testFlag(Qt::AltModifier);
 }

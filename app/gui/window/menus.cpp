@@ -132,6 +132,20 @@ void stepSamples(Window& window) {
     }
 }
 
+template <int steps>
+void trimRange(Window& window) {
+    if (const auto key = shownCharacter(commands(window).session())) {
+        playback(window).trimRange(*key, steps);
+    }
+}
+
+/// By ten samples; the edge of a range, where one is selected, by one.
+template <int way>
+void stepFar(Window& window) {
+    const bool hasRange = commands(window).session().choices().range.fixed.has_value();
+    hasRange ? trimRange<way>(window) : stepSamples<10 * way>(window);
+}
+
 template <int seconds>
 void stepSeconds(Window& window) {
     playback(window).stepTime(std::chrono::seconds(seconds));
@@ -297,8 +311,8 @@ const ActionInfo kActions[] = {
      Do::isIn<playback, &Playback::isLooping>},
     step<-1>("sampleBack", QT_TRANSLATE_NOOP("Action", "Previous sa&mple"), "Left"),
     step<1>("sampleOn", QT_TRANSLATE_NOOP("Action", "&Next sample"), "Right"),
-    step<-10>("tenBack", QT_TRANSLATE_NOOP("Action", "Ten samples bac&k"), "Shift+Left"),
-    step<10>("tenOn", QT_TRANSLATE_NOOP("Action", "&Ten samples on"), "Shift+Right"),
+    {"tenBack", kStep, QT_TRANSLATE_NOOP("Action", "Ten samples bac&k"), "Shift+Left", Do::call<stepFar<-1>>},
+    {"tenOn", kStep, QT_TRANSLATE_NOOP("Action", "&Ten samples on"), "Shift+Right", Do::call<stepFar<1>>},
     {"secondBack", kStep, QT_TRANSLATE_NOOP("Action", "One second &back"), "Ctrl+Left",
      Do::call<stepSeconds<-1>>},
     {"secondOn", kStep, QT_TRANSLATE_NOOP("Action", "One &second on"), "Ctrl+Right",
@@ -312,6 +326,9 @@ const ActionInfo kActions[] = {
      Do::callIn<playback, &Playback::setRangeEdge, false>},
     {"rangeOut", kRange, QT_TRANSLATE_NOOP("Action", "&End here"), "O",
      Do::callIn<playback, &Playback::setRangeEdge, true>},
+    {"trimBack", kRange, QT_TRANSLATE_NOOP("Action", "Last edge a sample bac&k"), "",
+     Do::call<trimRange<-1>>},
+    {"trimOn", kRange, QT_TRANSLATE_NOOP("Action", "Last edge a sample &on"), "", Do::call<trimRange<1>>},
     {"rangeTimes", kRange, QT_TRANSLATE_NOOP("Action", "&Times…"), "Ctrl+I", Do::call<editRange>},
     {"rangeClear", kRange, QT_TRANSLATE_NOOP("Action", "&Clear"), "Ctrl+Shift+I", Do::call<useNewest<0>>},
     {"showFile", "&Time", QT_TRANSLATE_NOOP("Action", "Show the &recording"), "Shift+End",

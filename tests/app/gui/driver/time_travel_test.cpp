@@ -190,6 +190,35 @@ TEST_F(TimeTravelTest, ARangeBeginsAndEndsWithTheSampleThatIsShown) {
     EXPECT_EQ(m_driver.commands().session().packetFrom(m_driver.commands().session().range()->from), 0U);
 }
 
+TEST_F(TimeTravelTest, TheEdgeThatWasSetLastIsTrimmedBySamples) {
+    Playback& playback = m_driver.playback();
+    const auto first = [&] {
+        return m_driver.commands().session().packetFrom(m_driver.commands().session().range()->from);
+    };
+    const auto after = [&] {
+        return m_driver.commands().session().packetFrom(m_driver.commands().session().range()->to);
+    };
+    playback.trimRange(key(), 1);
+    EXPECT_FALSE(m_driver.commands().session().range()) << "nothing to trim";
+    playback.showMoment(momentOf(60));
+    playback.setRangeEdge(false);
+    playback.showMoment(momentOf(120));
+    playback.setRangeEdge(true);
+    playback.showMoment(momentOf(10));
+    playback.trimRange(key(), -1);
+    EXPECT_EQ(first(), 60U);
+    EXPECT_EQ(after(), 120U);
+    EXPECT_EQ(packet(), 119U) << "the last sample of the range is shown";
+    playback.trimRange(key(), -100);
+    EXPECT_EQ(first(), 60U);
+    EXPECT_EQ(after(), 120U) << "an end is not moved before the beginning";
+    playback.showMoment(momentOf(61));
+    playback.setRangeEdge(false);
+    playback.trimRange(key(), 2);
+    EXPECT_EQ(first(), 63U);
+    EXPECT_EQ(after(), 120U);
+}
+
 TEST_F(TimeTravelTest, AStepLetsGoOfThePacketThatWasHeld) {
     m_driver.commands().selectPacket(42);
     m_driver.playback().stepSamples(key(), 1);
