@@ -64,7 +64,6 @@ public:
     [[nodiscard]] MarkdownView& view() const { return *m_view; }
     [[nodiscard]] QTreeWidget& contents() const { return *m_contents; }
     [[nodiscard]] QListWidget& hits() const { return *m_hits; }
-    [[nodiscard]] QLineEdit& searchEdit() const { return *m_search; }
 
 protected:
     void keyPressEvent(QKeyEvent* event) override;

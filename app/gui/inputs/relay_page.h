@@ -25,7 +25,6 @@ public:
     void submit();
     void removeSelected(); ///< until it is undone
 
-    [[nodiscard]] QLineEdit& targetEdit() const { return *m_target; }
     [[nodiscard]] const QString& problem() const { return m_problem; }
     [[nodiscard]] RelayModel& model() { return m_model; }
 

@@ -37,7 +37,6 @@ public:
     /// Into the lower left corner of a viewport of that size.
     void place(const QSize& viewport);
     [[nodiscard]] const std::vector<PoseNote>& notes() const { return m_notes; }
-    [[nodiscard]] QToolButton* floorButton() const { return m_floor; }
 
 protected:
     void paintEvent(QPaintEvent* event) override;

@@ -27,7 +27,7 @@ protected:
         window.open("index");
         QTest::qWait(1);
     }
-    void type(const QString& words) { QTest::keyClicks(&window.searchEdit(), words); }
+    void type(const QString& words) { QTest::keyClicks(window.findChild<QLineEdit*>(), words); }
     void key(Qt::Key key, Qt::KeyboardModifiers modifiers = {}) {
         QTest::keyClick(QApplication::focusWidget() != nullptr ? QApplication::focusWidget() : &window, key,
                         modifiers);
@@ -145,30 +145,30 @@ TEST_F(HelpWindowTest, ASearchListsPagesInsteadOfTheContentsAndMarksWhatItFound)
               2 * window.hits().fontMetrics().height())
         << "the excerpt is shown";
     EXPECT_TRUE(window.hits().item(0)->text().startsWith("Inputs and the network on site\n"));
-    QTest::keyClick(&window.searchEdit(), Qt::Key_Return);
+    QTest::keyClick(window.findChild<QLineEdit*>(), Qt::Key_Return);
     EXPECT_EQ(window.place(), "network");
     EXPECT_EQ(window.view().textCursor().selectedText().toLower(), "firewall");
     EXPECT_FALSE(window.view().extraSelections().isEmpty());
     const int first = window.view().textCursor().position();
-    QTest::keyClick(&window.searchEdit(), Qt::Key_Return);
+    QTest::keyClick(window.findChild<QLineEdit*>(), Qt::Key_Return);
     EXPECT_NE(window.view().textCursor().position(), first) << "Enter goes to the next place";
 }
 
 TEST_F(HelpWindowTest, EscapeEndsTheSearchAndThenTheWindow) {
     type("firewall");
-    QTest::keyClick(&window.searchEdit(), Qt::Key_Escape);
-    EXPECT_TRUE(window.searchEdit().text().isEmpty());
+    QTest::keyClick(window.findChild<QLineEdit*>(), Qt::Key_Escape);
+    EXPECT_TRUE(window.findChild<QLineEdit*>()->text().isEmpty());
     EXPECT_TRUE(window.contents().isVisible());
     EXPECT_TRUE(window.isVisible());
     EXPECT_TRUE(window.view().extraSelections().isEmpty());
-    QTest::keyClick(&window.searchEdit(), Qt::Key_Escape);
+    QTest::keyClick(window.findChild<QLineEdit*>(), Qt::Key_Escape);
     EXPECT_FALSE(window.isVisible());
 }
 
 TEST_F(HelpWindowTest, TheKeyboardReachesEverything) {
     window.activateWindow();
     QTest::keyClick(&window.view(), Qt::Key_F, Qt::ControlModifier);
-    EXPECT_TRUE(window.searchEdit().hasFocus());
+    EXPECT_TRUE(window.findChild<QLineEdit*>()->hasFocus());
     window.open("packets");
     QTest::keyClick(&window.view(), Qt::Key_Left, Qt::AltModifier);
     EXPECT_EQ(window.place(), "index");
@@ -184,13 +184,13 @@ TEST_F(HelpWindowTest, TheKeyboardReachesEverything) {
 
 TEST_F(HelpWindowTest, EverythingHasANameForScreenReaders) {
     for (const QToolButton* button : window.findChildren<QToolButton*>()) {
-        if (button->objectName().startsWith("_q") || button->parent() == &window.searchEdit()) {
+        if (button->objectName().startsWith("_q") || button->parent() == window.findChild<QLineEdit*>()) {
             continue; // of the line itself
         }
         EXPECT_GT(button->accessibleName().size(), 2) << button->text().toStdString();
     }
-    for (const QWidget* part : std::initializer_list<const QWidget*>{&window.view(), &window.contents(),
-                                                                     &window.hits(), &window.searchEdit()}) {
+    for (const QWidget* part : std::initializer_list<const QWidget*>{
+             &window.view(), &window.contents(), &window.hits(), window.findChild<QLineEdit*>()}) {
         EXPECT_FALSE(part->accessibleName().isEmpty());
     }
 }

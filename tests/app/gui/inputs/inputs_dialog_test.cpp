@@ -157,7 +157,7 @@ TEST_F(InputsDialogTest, PutsBackWhatWasRemovedWhereItWas) {
 TEST_F(InputsDialogTest, PutsBackARelayTargetWhereItWas) {
     dialog.open(InputsDialog::Page::Relay);
     for (const char* target : {"192.0.2.1:9000", "192.0.2.2:9000"}) {
-        dialog.relay().targetEdit().setText(target);
+        dialog.relay().findChild<QLineEdit*>()->setText(target);
         dialog.relay().submit();
     }
     dialog.relay().model().setData(dialog.relay().model().index(0, 0), Qt::Unchecked, Qt::CheckStateRole);
@@ -344,9 +344,9 @@ TEST_F(InputsDialogTest, RelaysToTargetsAndRefusesThoseThatWouldComeBack) {
     type(input);
     driver.receiving().measure(driver.commands().session().log().timeline().now(clock));
     dialog.open(InputsDialog::Page::Relay);
-    dialog.relay().targetEdit().setText(QStringLiteral("127.0.0.1:%1").arg(away.port));
+    dialog.relay().findChild<QLineEdit*>()->setText(QStringLiteral("127.0.0.1:%1").arg(away.port));
     dialog.relay().submit();
-    dialog.relay().targetEdit().setText(QStringLiteral("127.0.0.1:%1").arg(input.port));
+    dialog.relay().findChild<QLineEdit*>()->setText(QStringLiteral("127.0.0.1:%1").arg(input.port));
     dialog.relay().submit();
     const auto& relays = driver.receiving().relaying().states();
     ASSERT_EQ(relays.size(), 2U);
@@ -367,9 +367,9 @@ TEST_F(InputsDialogTest, RelaysToTargetsAndRefusesThoseThatWouldComeBack) {
 }
 
 TEST_F(InputsDialogTest, RefusesARelayTargetThatIsThereAlready) {
-    dialog.relay().targetEdit().setText("127.0.0.1:9");
+    dialog.relay().findChild<QLineEdit*>()->setText("127.0.0.1:9");
     dialog.relay().submit();
-    dialog.relay().targetEdit().setText("127.0.0.1:9");
+    dialog.relay().findChild<QLineEdit*>()->setText("127.0.0.1:9");
     dialog.relay().submit();
     EXPECT_THAT(dialog.relay().problem().toStdString(), HasSubstr("already"));
     EXPECT_EQ(driver.receiving().relaying().states().size(), 1U);

@@ -79,11 +79,11 @@ TEST_F(PoseBannerTest, PutsBodiesOnTheFloorThatAreBelow) {
     banner.refresh(stage.session);
     ASSERT_EQ(banner.notes().size(), 1U);
     EXPECT_EQ(banner.notes()[0].text, "Character 0: It was sent below the floor");
-    ASSERT_FALSE(banner.floorButton()->isHidden());
-    banner.floorButton()->click();
+    ASSERT_FALSE(banner.findChild<QToolButton*>()->isHidden());
+    banner.findChild<QToolButton*>()->click();
     EXPECT_TRUE(stage.session.roster().isLifted(stage.key()));
     banner.refresh(stage.session);
-    EXPECT_TRUE(banner.floorButton()->isHidden());
+    EXPECT_TRUE(banner.findChild<QToolButton*>()->isHidden());
     EXPECT_EQ(banner.notes()[0].text, "Character 0: Placed on the floor, since it was sent below it");
 }
 
