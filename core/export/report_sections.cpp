@@ -373,10 +373,12 @@ std::string gapSection(const model::SessionView& session, const ReportSteps& ste
 }
 
 std::string eventSection(const model::SessionView& session, const ReportSteps& steps) {
-    std::vector<const model::Incident*> events;
+    std::vector<model::Incident> events;
     for (const model::Incident& event : session.verdicts().incidents().all()) {
-        if (event.lastStamp >= steps.from && event.firstStamp <= steps.to) {
-            events.push_back(&event);
+        const auto its = model::withinRange(session, {event, model::stateOf(session, event)},
+                                            {steps.from, steps.to + log::Duration(1)});
+        if (its) {
+            events.push_back(its->incident);
         }
     }
     if (events.empty()) {
@@ -390,16 +392,15 @@ std::string eventSection(const model::SessionView& session, const ReportSteps& s
                      {"Whose", false, ""},
                      {"Times", true, "how often it happened in this episode"},
                      {"In words", false, ""}});
-    std::for_each(events.begin() + left, events.end(), [&](const model::Incident* event) {
-        const std::string name(severityName(event->severity()));
-        const std::string mark = event->severity() == model::IncidentSeverity::Info
+    std::for_each(events.begin() + left, events.end(), [&](const model::Incident& event) {
+        const std::string name(severityName(event.severity()));
+        const std::string mark = event.severity() == model::IncidentSeverity::Info
                                      ? ""
                                      : "<span class=\"" + name + "\" aria-label=\"" + name + "\">" +
-                                           std::string(severityMark(event->severity())) + "</span> ";
-        table.add({secondsAfter(std::max(event->firstStamp, steps.from), steps),
-                   secondsAfter(std::min(event->lastStamp, steps.to), steps),
-                   mark + escaped(model::nameOf(event->kind)), escaped(whose(session, *event)),
-                   grouped(event->count), escaped(say(event->fact(), words::Form::Sentence))});
+                                           std::string(severityMark(event.severity())) + "</span> ";
+        table.add({secondsAfter(event.firstStamp, steps), secondsAfter(event.lastStamp, steps),
+                   mark + escaped(model::nameOf(event.kind)), escaped(whose(session, event)),
+                   grouped(event.count), escaped(say(event.fact(), words::Form::Sentence))});
     });
     return "<h2>Incidents</h2>\n" + listed("newest", std::min(all, kMostEvents), all, "incident") +
            table.html();

@@ -292,6 +292,65 @@ std::vector<ListedIncident> listedIncidents(const SessionView& session, log::Sta
     return all;
 }
 
+namespace {
+
+/// What a stream lost in a range as a part of an incident, with the evidence of the newest gap.
+void takeLosses(const SessionView& session, const log::StreamKey& stream, const TimeRange& range,
+                Incident& incident, Incident::Part& part) {
+    const LossCause cause = incident.cause.value_or(LossCause::Unknown);
+    const auto take = [&](log::Stamp stamp, std::uint64_t samples) {
+        const bool isMeant = stamp >= range.from && stamp < range.to;
+        part.count += isMeant ? 1 : 0;
+        part.samples += isMeant ? samples : 0;
+        return isMeant;
+    };
+    part.count = part.samples = 0;
+    for (const Gap& gap : session.accounts().attribution().gaps()) {
+        const Gap::Share& share = gap.of(cause);
+        const Incident* its = gap.stream == stream && share.lost != 0
+                                  ? session.verdicts().incidents().find(share.incident)
+                                  : nullptr;
+        if (its != nullptr && its->number == incident.number && take(gap.toStamp, share.lost)) {
+            incident.detail = gap.evidenceFact(cause);
+        }
+    }
+    session.accounts().attribution().forEachPartialLoss(
+        [&](const log::StreamKey& key, log::Stamp stamp, LossCause whose, std::uint64_t /*packet*/) {
+            if (key == stream && whose == cause && incident.kind == IncidentKind::Loss) {
+                take(stamp, 1);
+            }
+        });
+}
+
+/// How much of a part was in a range that it reaches beyond; all of it where that is not known.
+void takeWithin(const SessionView& session, Incident& incident, Incident::Part& part,
+                const TimeRange& range) {
+    constexpr std::array<std::pair<IncidentKind, Figure>, 3> kCounted{
+        {{IncidentKind::Reordered, Figure::Reordered},
+         {IncidentKind::Duplicates, Figure::Duplicates},
+         {IncidentKind::Malformed, Figure::Malformed}}};
+    const auto counted = std::ranges::find(kCounted, incident.kind, &std::pair<IncidentKind, Figure>::first);
+    const Stream* stream = streamOf(session, part);
+    const log::Duration width =
+        stream != nullptr ? stream->accounting.resolution(part.from) : log::Duration(1);
+    const TimeRange its{std::max(range.from, roundedDown(part.from, width)),
+                        std::min(range.to, part.to + log::Duration(1))};
+    if (stream != nullptr && counted != kCounted.end()) {
+        part.count = model::figuresOf(*stream, its).count(counted->second);
+    } else if (stream != nullptr && part.samples != 0) {
+        takeLosses(session, stream->key, range, incident, part);
+    } else if (incident.kind == IncidentKind::Foreign || incident.kind == IncidentKind::Malformed) {
+        const SenderTotals all = session.accounts().eachSender(its)[part.sender];
+        part.count = incident.kind == IncidentKind::Foreign ? all.foreign : all.malformed;
+        for (const Stream& own : session.roster().streams()) { // those of streams have parts of their own
+            const bool isOfIt = own.key.sender == part.sender && incident.kind == IncidentKind::Malformed;
+            part.count -= isOfIt ? std::min(part.count, own.accounting.malformed(its)) : 0;
+        }
+    }
+}
+
+} // namespace
+
 std::optional<ListedIncident> withinRange(const SessionView& session, ListedIncident one,
                                           const TimeRange& range) {
     constexpr log::Duration kPause = std::chrono::seconds(1); // between two losses of one that goes on
@@ -301,9 +360,21 @@ std::optional<ListedIncident> withinRange(const SessionView& session, ListedInci
     std::erase_if(incident.parts, [&](const Incident::Part& part) {
         return part.from >= range.to || (part.to < range.from && !(isOngoing && incident.lasts()));
     });
-    for (Incident::Part& part : incident.parts) {
-        part.from = std::max(part.from, range.from);
-        part.to = std::min(part.to, range.to);
+    const bool isBeyond = incident.firstStamp < range.from || incident.lastStamp >= range.to;
+    if (isBeyond && one.state != State::Provisional) {
+        incident.count = incident.samples = 0;
+        for (Incident::Part& part : incident.parts) {
+            if (part.from < range.from || part.to >= range.to) {
+                takeWithin(session, incident, part, range);
+            }
+            part.from = std::max(part.from, range.from);
+            part.to = std::min(part.to, range.to);
+            incident.count += part.count;
+            incident.samples += part.samples;
+        }
+        if (incident.count == 0) {
+            return std::nullopt;
+        }
     }
     const bool isSilence = incident.kind == IncidentKind::Outage;
     const log::Duration least = isSilence ? IncidentFollower::kSilent : log::Duration::zero();

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/session/accounts.h"
+#include "core/model/session/listed_incidents.h"
 #include "tests/core/model/session/session_fixture.h"
 
+#include <map>
 #include <random>
 
 namespace posewire::model {
@@ -109,7 +111,28 @@ TEST_F(ExactRange, CountsAsASessionThatKnewTheRangeBeforehand) {
         ASSERT_EQ(ours.interArrival(range).count, theirs.interArrival(range).count);
         ASSERT_NEAR(ours.interArrival(range).meanMs, theirs.interArrival(range).meanMs, 1e-6);
         ASSERT_NEAR(ours.interArrival(range).mostMs, theirs.interArrival(range).mostMs, 1e-3);
+        ASSERT_NEAR(ours.clock(range).jitterMs, theirs.clock(range).jitterMs, 1e-3) << round;
         ASSERT_EQ(ours.lossPattern(range).meanBurstSamples, theirs.lossPattern(range).meanBurstSamples);
+    }
+}
+
+TEST_F(ExactRange, IncidentsInItAddUpToItsCounts) {
+    for (int round = 0; round < 50; ++round) {
+        const TimeRange range = randomRange();
+        choose(range);
+        std::map<IncidentKind, std::uint64_t> times;
+        std::uint64_t lost = 0;
+        for (const ListedIncident& listed : listedIncidents(m_session, range.from, range.to)) {
+            if (const auto its = withinRange(m_session, listed, range)) {
+                times[its->incident.kind] += its->incident.count;
+                lost += its->incident.samples;
+            }
+        }
+        const StreamCounts counts = accounting(m_session).counts(range);
+        ASSERT_EQ(lost, counts.lost) << round;
+        ASSERT_EQ(times[IncidentKind::Duplicates], counts.duplicates);
+        ASSERT_EQ(times[IncidentKind::Reordered], counts.reordered);
+        ASSERT_EQ(times[IncidentKind::Malformed], accounting(m_session).malformed(range));
     }
 }
 
