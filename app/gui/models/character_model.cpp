@@ -48,11 +48,13 @@ double characterAge(const model::SessionView& view, log::Stamp newest) {
     return std::max(0.0, log::secondsOf(now - newest));
 }
 
-/// Nothing comes at all where nothing has come for long.
+/// Of all of a recording; nothing comes at all where nothing has come for long.
 double measuredHz(const model::Stream& stream, double ageS, bool isRecording) {
+    if (isRecording) {
+        return model::figuresOf(stream)[model::Figure::RateWhole];
+    }
     const double rateHz = stream.statistics.rateHz();
-    const bool isSilent = !isRecording && ageS > std::max(kStaleAge, patienceAt(rateHz));
-    return isSilent ? 0 : rateHz;
+    return ageS > std::max(kStaleAge, patienceAt(rateHz)) ? 0 : rateHz;
 }
 
 QString hertz(const std::optional<double>& rateHz, bool isNominal) {

@@ -108,7 +108,7 @@ constexpr std::array kRows{
     FigureRow{Step, "step", "Step", kCount, Sum::None, Trouble::None, counted<&Counts::step>,
               "The sender's own spacing of sample counters; 0 where it is irregular, so that nothing can be "
               "counted as lost"},
-    FigureRow{RateWhole, "rateHz", "Hz", kHz, Sum::None, Trouble::None, rate<&Rates::wholeHz>,
+    FigureRow{RateWhole, "rateHz", "Hz", kHz, Sum::None, Trouble::None, rate<&Rates::meanHz>,
               "Complete samples, or datagrams of messages, per second from the first to the last",
               Of::Messages},
     FigureRow{Jitter, "jitterMs", "Jitter ms", kMs, Sum::Most, Trouble::None, jitter,
@@ -199,24 +199,7 @@ static_assert(kRows.size() == kFigures);
 static_assert(std::ranges::adjacent_find(kRows, std::ranges::greater_equal(), &FigureRow::figure) ==
               kRows.end());
 
-/// Between the first and the last, so that a stream that ended long ago keeps its rate.
-double wholeRate(const Stream& stream, const StreamCounts& counts, const std::optional<TimeRange>& range) {
-    const TimeRange part = range.value_or(kAllTime);
-    const log::Stamp from = std::max(stream.accounting.firstStamp(), part.from);
-    const log::Stamp to = std::min(stream.accounting.lastStamp(), part.to);
-    const double seconds = log::secondsOf(to - from);
-    const bool isSampled = countsSamples(stream.key.type);
-    const std::uint64_t count = isSampled ? counts.samples : counts.datagrams;
-    // Messages come seldom and in several datagrams at once: a moment is no measure of how often.
-    const double least = isSampled ? 0 : 1;
-    return count > 1 && seconds > least ? static_cast<double>(count - 1) / seconds : 0;
-}
-
 constexpr std::size_t kMostSpans = 120;
-
-std::uint64_t unitsOf(const StreamCounts& counts) {
-    return counts.samples + counts.incomplete != 0 ? counts.samples + counts.incomplete : counts.datagrams;
-}
 
 /// The part of the range in which the stream was on the air, as the history rounds it.
 TimeRange onAir(const StreamAccounting& stream, const std::optional<TimeRange>& range) {
@@ -235,11 +218,14 @@ void readMean(const StreamAccounting& stream, const TimeRange& air, const Stream
     const double seconds = air.seconds();
     const double cut =
         (air.from == stream.firstStamp() ? 0.5 : 0.0) + (air.to == stream.lastStamp() ? 0.5 : 0.0);
-    const auto units = static_cast<double>(unitsOf(counts));
+    const bool isSampled = counts.samples + counts.incomplete != 0;
+    const auto whole = static_cast<double>(isSampled ? counts.samples : counts.datagrams);
+    const double units = whole + (isSampled ? static_cast<double>(counts.incomplete) : 0);
     if (seconds <= 0 || units <= 1) {
         return;
     }
-    rate.meanHz = (units - cut) / seconds;
+    // Messages come seldom and in several datagrams at once: a moment is no measure of how often.
+    rate.meanHz = whole > 1 && seconds > (isSampled ? 0 : 1) ? (whole - cut) / seconds : 0;
     const double share = (units - cut) / units;
     rate.datagramsPerSecond = static_cast<double>(counts.datagrams) * share / seconds;
     rate.bytesPerSecond = static_cast<double>(counts.bytes) * share / seconds;
@@ -352,7 +338,6 @@ void StreamFigures::add(const StreamFigures& other) {
 StreamFigures figuresOf(const Stream& stream, const std::optional<TimeRange>& range) {
     RangeFigures read = figuresOf(stream.accounting, range);
     read.rate.nowHz = range ? read.rate.meanHz : stream.statistics.rateHz();
-    read.rate.wholeHz = wholeRate(stream, read.counts, range);
     if (range) {
         read.lostByCause[static_cast<std::size_t>(LossCause::Unknown)] =
             read.counts.lost + read.counts.incomplete;

@@ -17,9 +17,8 @@ namespace posewire::model {
 
 /// Samples per second; of types without samples, datagrams per second. 0 before there are two.
 struct RateFigures {
-    double nowHz = 0;   ///< over the newest 2 s; in a range the mean
-    double wholeHz = 0; ///< of samples that arrived whole
-    double meanHz = 0;
+    double nowHz = 0;  ///< over the newest 2 s; in a range the mean
+    double meanHz = 0; ///< of samples that arrived whole
     /// Of parts of the range, each at least a second long and on the air from its beginning to its end;
     /// without such a part all are as the mean, and the deviation 0.
     double leastHz = 0;
@@ -44,7 +43,7 @@ struct RangeFigures {
 /// cost does not depend on the range.
 [[nodiscard]] RangeFigures countedFigures(const StreamAccounting& stream,
                                           const std::optional<TimeRange>& range);
-/// With all rates but those of now and of whole samples.
+/// With all rates but that of now.
 [[nodiscard]] RangeFigures figuresOf(const StreamAccounting& stream, const std::optional<TimeRange>& range);
 
 struct RangePart {

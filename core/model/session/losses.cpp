@@ -20,7 +20,8 @@ void addLosses(LossesByCause& sums, const LossesByCause& more) {
     std::ranges::transform(sums, more, sums.begin(), std::plus());
 }
 
-Losses::Losses(const SessionView& session, const std::optional<TimeRange>& range) : m_range(range) {
+Losses::Losses(const SessionView& session, const std::optional<TimeRange>& range)
+    : m_range(range), m_isRecording(session.isRecording()) {
     session.accounts().attribution().forEachPending([&](const PendingLoss& loss) {
         if (!range || (loss.to >= range->from && loss.to < range->to)) {
             Pending& pending = m_pending[loss.stream];
@@ -102,6 +103,9 @@ LossesByCause Losses::causesOf(const Stream& stream) const {
 
 StreamFigures Losses::figuresOf(const Stream& stream) const {
     StreamFigures figures = model::figuresOf(stream, m_range);
+    if (m_isRecording) { // its end is not now
+        figures.set(Figure::Rate, figures[Figure::RateWhole]);
+    }
     const StreamLosses losses = of(stream);
     for (std::size_t cause = 0; cause < kFigureOfCause.size(); ++cause) {
         figures.set(kFigureOfCause[cause], static_cast<double>(losses.byCause[cause]));
