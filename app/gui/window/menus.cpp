@@ -182,17 +182,23 @@ QString setRange(Window& window, const QString& text) {
     }
     std::array<log::Stamp, 2> stamps{};
     for (std::size_t i = 0; i < stamps.size(); ++i) {
-        const auto number = packetTarget(session, ends[static_cast<qsizetype>(i)]);
+        const QString end = ends[static_cast<qsizetype>(i)].simplified();
+        const auto number = packetTarget(session, end);
         if (!number) {
             return number.error();
         }
         const auto packet = session.packet(*number);
-        stamps[i] = packet ? packet->stamp : stamps[i];
+        stamps[i] = end.endsWith(QLatin1Char('s'))
+                        ? session.firstStamp() + log::durationOf(end.chopped(1).toDouble())
+                    : packet ? packet->stamp
+                             : stamps[i];
     }
     if (stamps[1] < stamps[0]) {
         return tr("The second time is before the first one.");
     }
-    commands(window).selectRange({.fixed = model::TimeRange{stamps[0], stamps[1] + log::Duration(1)}});
+    static const QRegularExpression ofTimes(QStringLiteral("[:s]")); // a packet is the last of its range
+    const log::Duration last(ends.back().contains(ofTimes) ? 0 : 1);
+    commands(window).selectRange({.fixed = model::TimeRange{stamps[0], stamps[1] + last}});
     return {};
 }
 
@@ -234,11 +240,6 @@ constexpr const char* kStep = QT_TRANSLATE_NOOP("Action", "&Time/&Step");
 template <int percent>
 constexpr ActionInfo speed(const char* id, const char* text) {
     return {id, kSpeed, text, "", Do::call<setSpeed<percent>>, Do::is<hasSpeed<percent>>};
-}
-
-template <int steps>
-constexpr ActionInfo step(const char* id, const char* text, const char* shortcut) {
-    return {id, kStep, text, shortcut, Do::call<stepSamples<steps>>};
 }
 
 constexpr const char* kRange = QT_TRANSLATE_NOOP("Action", "&Time/Ran&ge");
@@ -309,8 +310,8 @@ const ActionInfo kActions[] = {
     speed<1600>("speed16", "1&6 ×"),
     {"loop", "&Time", QT_TRANSLATE_NOOP("Action", "L&oop"), "Ctrl+Alt+L", Do::call<toggleLoop>,
      Do::isIn<playback, &Playback::isLooping>},
-    step<-1>("sampleBack", QT_TRANSLATE_NOOP("Action", "Previous sa&mple"), "Left"),
-    step<1>("sampleOn", QT_TRANSLATE_NOOP("Action", "&Next sample"), "Right"),
+    {"sampleBack", kStep, QT_TRANSLATE_NOOP("Action", "Previous sa&mple"), "Left", Do::call<stepSamples<-1>>},
+    {"sampleOn", kStep, QT_TRANSLATE_NOOP("Action", "&Next sample"), "Right", Do::call<stepSamples<1>>},
     {"tenBack", kStep, QT_TRANSLATE_NOOP("Action", "Ten samples bac&k"), "Shift+Left", Do::call<stepFar<-1>>},
     {"tenOn", kStep, QT_TRANSLATE_NOOP("Action", "&Ten samples on"), "Shift+Right", Do::call<stepFar<1>>},
     {"secondBack", kStep, QT_TRANSLATE_NOOP("Action", "One second &back"), "Ctrl+Left",
