@@ -56,10 +56,8 @@ void showFigure(QLabel& label, Health level, const QString& text) {
 }
 
 QString leftOut(std::size_t all, std::size_t fitting) {
-    if (fitting != 0) {
-        return HealthBar::tr("+ %1 more").arg(grouped(all - fitting));
-    }
-    return HealthBar::tr("%1 characters", nullptr, static_cast<int>(all)).arg(grouped(all));
+    return fitting != 0 ? HealthBar::tr("+ %1 more").arg(grouped(all - fitting))
+                        : HealthBar::tr("%1 characters", nullptr, static_cast<int>(all)).arg(grouped(all));
 }
 
 } // namespace
@@ -118,7 +116,7 @@ void HealthBar::showSession(model::SessionView& session) {
     delete m_list;
     delete m_popup;
     m_session = &session;
-    m_nameWidth = m_stateWidth = m_whatWidth = 0;
+    m_nameWidth = m_stateWidth = 0;
     for (QLabel* figure : {m_rate, m_history, m_dropped}) {
         figure->setMinimumWidth(0);
     }
@@ -171,19 +169,15 @@ void HealthBar::measure(const QFontMetrics& metrics) {
     const auto grow = [&widthOf](int& width, const QString& text, const QString& most) {
         width = std::clamp(widthOf(text), width, std::max(width, widthOf(most)));
     };
-    grow(m_stateWidth, tr("99 lost, network"), tr("10.0 % lost, network, over"));
-    grow(m_whatWidth, tr("10.0 % lost"), tr("10.0 % lost, over"));
+    grow(m_stateWidth, tr("10.0 % lost"), tr("10.0 % lost, over"));
     for (const model::CharacterKey& key : std::span(m_shown).first(std::min(m_shown.size(), kMostEntries))) {
-        const model::TakeVerdict& verdict = m_session->verdicts().of(key);
-        grow(m_stateWidth, gui::said(verdict.said, words::Form::Brief), tr("10.0 % lost, network, over"));
-        grow(m_whatWidth, whatOf(verdict), tr("10.0 % lost, over"));
+        grow(m_stateWidth, whatOf(m_session->verdicts().of(key)), tr("10.0 % lost, over"));
         grow(m_nameWidth, nameApart(*m_session, key), QStringLiteral("Performer with a name"));
     }
 }
 
-/// Shows as many entries as have room, and says how many have none; whose loss it is is left out before
-/// anybody is. All are of one width, whatever they say, so that no word moves its neighbour; names have what
-/// is left of the room.
+/// Shows as many entries as have room, and says how many have none. All are of one width, whatever they say,
+/// so that no word moves its neighbour; names have what is left of the room.
 void HealthBar::fitEntries() {
     const QFontMetrics metrics = m_more->fontMetrics();
     measure(metrics);
@@ -194,26 +188,17 @@ void HealthBar::fitEntries() {
     const int reserve = metrics.horizontalAdvance(QStringLiteral("■ + 00 more")) + 2 * spacing;
     const auto all = m_shown.size();
     const auto most = std::min(all, kMostEntries);
-    const auto widthOf = [&](int name, int state) { return beside + name + state + spacing; };
-    const auto fittingWith = [&](int least) {
-        return static_cast<int>(all) * least <= room
-                   ? most
-                   : std::min<std::size_t>(most, std::max(0, (room - reserve) / least));
-    };
-    const std::size_t fitting = fittingWith(widthOf(leastName, m_whatWidth));
-    const bool isBrief = fittingWith(widthOf(m_nameWidth, m_stateWidth)) < fitting;
-    const int stateWidth = isBrief ? m_whatWidth : m_stateWidth;
-    const int least = widthOf(leastName, stateWidth);
+    const int least = beside + leastName + m_stateWidth + spacing;
+    const auto fitting = static_cast<int>(all) * least <= room
+                             ? most
+                             : std::min<std::size_t>(most, std::max(0, (room - reserve) / least));
     const int left = fitting == all ? room : room - reserve;
     const int spare = left / std::max(1, static_cast<int>(fitting)) - least;
     const int nameWidth = std::clamp(leastName + spare, leastName, std::max(leastName, m_nameWidth));
-    const int needed = beside + nameWidth + stateWidth;
-    const int whole = std::max(needed, beside + m_nameWidth + m_stateWidth);
-    const int width = std::clamp(least + spare - spacing, needed, whole);
     for (std::size_t i = 0; i < m_entries.size(); ++i) {
         m_entries[i]->setVisible(i < fitting);
         if (i < fitting) {
-            showEntry(i, {nameWidth, width - beside, width, isBrief});
+            showEntry(i, nameWidth, beside + nameWidth + m_stateWidth);
         }
     }
     m_more->setVisible(fitting < all);
@@ -223,19 +208,17 @@ void HealthBar::fitEntries() {
     m_more->setContent(worst == Health::Good ? Health::Unknown : worst, leftOut(all, fitting));
 }
 
-void HealthBar::showEntry(std::size_t index, const EntryRoom& room) {
+void HealthBar::showEntry(std::size_t index, int nameWidth, int width) {
     const model::TakeVerdict& verdict = m_session->verdicts().of(m_shown[index]);
     const PropertyValue state = verdictState(verdict);
-    const QString name = nameApart(*m_session, m_shown[index]);
     ColourText* entry = m_entries[index];
     const QFontMetrics metrics = entry->fontMetrics();
-    const auto besides = [&](const QString& words) { return room.text - metrics.horizontalAdvance(words); };
-    const bool isWhole = !room.isBrief || metrics.horizontalAdvance(name) <= besides(state.text);
-    const QString said = isWhole ? state.text : whatOf(verdict);
-    entry->setFixedWidth(room.all);
-    const int forName = std::max(room.name, besides(said));
+    const QString what = whatOf(verdict);
+    const int room = std::max(nameWidth, nameWidth + m_stateWidth - metrics.horizontalAdvance(what));
+    entry->setFixedWidth(width);
     entry->setContent(state.health,
-                      metrics.elidedText(name, Qt::ElideRight, forName) + QLatin1Char(' ') + said);
+                      metrics.elidedText(nameApart(*m_session, m_shown[index]), Qt::ElideRight, room) +
+                          QLatin1Char(' ') + what);
     entry->setToolTip(toolTipText(state.toolTip));
 }
 

@@ -45,13 +45,8 @@ private:
     void refreshCharacters();
     void fitEntries();
     void measure(const QFontMetrics& metrics);
-    struct EntryRoom {
-        int name; ///< pixels, at least
-        int text; ///< without the symbol
-        int all;
-        bool isBrief; ///< without whose loss it is
-    };
-    void showEntry(std::size_t index, const EntryRoom& room);
+    /// Pixels; the name has at least its own.
+    void showEntry(std::size_t index, int nameWidth, int width);
 
     model::SessionView* m_session;
     Commands& m_commands;
@@ -60,7 +55,6 @@ private:
     std::vector<ColourText*> m_entries;       ///< as many as there ever were characters to show
     int m_nameWidth = 0;                      ///< pixels, of what was said so far
     int m_stateWidth = 0;                     ///< likewise
-    int m_whatWidth = 0;                      ///< likewise, without whose loss it is
     std::vector<model::CharacterKey> m_shown; ///< all, the worst first; the first entries show them
     ColourText* m_more;                       ///< how many there is no room for
     QPointer<HealthList> m_list;              ///< while it is open

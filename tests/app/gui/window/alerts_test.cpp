@@ -237,7 +237,7 @@ TEST_F(HealthBarTest, ShowsTheWorstFirstAndAllInAList) {
     const int wider = m_bar.firstEntry()->width();
     EXPECT_GE(wider, width);
     perform(420, 480); // and shorter ones again
-    EXPECT_EQ(m_bar.firstEntry()->width(), wider);
+    EXPECT_GE(m_bar.firstEntry()->width(), wider);
 }
 
 TEST_F(HealthBarTest, AMessageHasAllTheRoomWhileThereIsNobodyToShow) {
