@@ -58,10 +58,14 @@ void addFolder(QFormLayout& rows, RecordingChoice& choice) {
         choice.folder = folder == recordingFolder({}) ? QString() : folder;
     });
     QObject::connect(choose, &QPushButton::clicked, line, [line] {
-        const QString before = line->text();
-        const QString chosen = QFileDialog::getExistingDirectory(line, tr("Folder of recordings"), before);
-        line->setText(chosen.isEmpty() ? before : chosen);
-        emit line->editingFinished();
+        auto* dialog = new QFileDialog(line, tr("Folder of recordings"), line->text());
+        dialog->setFileMode(QFileDialog::Directory);
+        dialog->setAttribute(Qt::WA_DeleteOnClose);
+        QObject::connect(dialog, &QFileDialog::fileSelected, line, [line](const QString& folder) {
+            line->setText(folder);
+            emit line->editingFinished();
+        });
+        dialog->open();
     });
 }
 
@@ -156,10 +160,6 @@ constexpr std::chrono::milliseconds kLook{100};
 constexpr int kPath = Qt::UserRole;
 constexpr int kSize = 3; // column
 
-QString day(log::WallTime time) {
-    return QLocale().toString(dateTimeOf(time).date(), QLocale::ShortFormat);
-}
-
 constexpr std::chrono::milliseconds kReplayLook{200};
 constexpr int kOverTcp = 1; // of the transports
 
@@ -206,8 +206,9 @@ void RecoveryDialog::fill() {
     m_list->clear();
     for (const log::LostHistory& one : m_history.lost()) {
         const log::WallTime begin = log::beginOf(one.path).value_or(one.end);
-        auto* item = new QTreeWidgetItem(
-            m_list, {day(begin), timeOfDay(begin), timeOfDay(one.end), megabytes(one.bytes)});
+        const QString day = QLocale().toString(dateTimeOf(begin).date(), QLocale::ShortFormat);
+        auto* item =
+            new QTreeWidgetItem(m_list, {day, timeOfDay(begin), timeOfDay(one.end), megabytes(one.bytes)});
         item->setTextAlignment(kSize, Qt::AlignRight | Qt::AlignVCenter);
         item->setData(0, kPath, QFile::decodeName(one.path.c_str()));
         m_list->setCurrentItem(item);
