@@ -81,14 +81,10 @@ bool isNamed(const FieldInfo& field, std::string_view name) {
             name.starts_with(field.qualifier) && name[qualifier] == '.' && name.ends_with(field.name));
 }
 
-/// Computed fields were never sent.
-bool isOfWire(const FieldInfo& field) {
-    return field.isOfItems() || !field.qualifier.empty();
-}
-
 void collect(std::string_view name, std::optional<std::string_view> component, FieldMatch& match) {
     for (const FieldInfo& field : fieldTable()) {
-        if (!isNamed(field, name) || (match.isAsSent && !isOfWire(field))) {
+        const bool isComputed = !field.isOfItems() && field.qualifier.empty(); // it was never sent
+        if (!isNamed(field, name) || (match.isAsSent && isComputed)) {
             continue;
         }
         if (!component) {

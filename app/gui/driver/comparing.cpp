@@ -33,10 +33,6 @@ Table tableOf(const Table& known, const feed::PoseSource& source, const exportin
 constexpr log::Duration kPause = std::chrono::milliseconds(500);
 constexpr int kRest = 9;
 
-exporting::SampleMoment momentOf(const model::CharacterPose& pose) {
-    return {pose.sample, pose.timeCode, pose.stamp, pose.packet};
-}
-
 } // namespace
 
 ComparisonOutcome compared(const ComparisonOrder& order, const exporting::ExportProgress& progress) {
@@ -335,7 +331,9 @@ void Comparing::followCursor(model::SessionView& shown) {
     m_state.alignment = m_partners->alignment();
     m_state.step = exporting::stepOf(m_state.alignment->by, m_partners->second());
     const model::CharacterPose* first = shown.messages().pose(m_state.pair->first);
-    const auto place = first != nullptr ? m_partners->of(momentOf(*first)) : std::nullopt;
+    const auto place = first != nullptr
+                           ? m_partners->of({first->sample, first->timeCode, first->stamp, first->packet})
+                           : std::nullopt;
     if (!place) {
         return;
     }

@@ -29,10 +29,6 @@ QString plainOf(const QString& markdown) {
     return text;
 }
 
-QString titleOf(const QString& markdown) {
-    return markdown.section(u'\n', 0, 0).mid(2).trimmed();
-}
-
 /// Words that begin so, whatever their case.
 QRegularExpression beginning(const QString& word) {
     return QRegularExpression(QStringLiteral("(?<![\\w])") + QRegularExpression::escape(word),
@@ -85,7 +81,8 @@ HelpPages::HelpPages(const QMap<QString, QString>& made) {
         for (auto part = made.begin(); part != made.end(); ++part) {
             markdown.replace(u'{' + part.key() + u'}', part.value());
         }
-        m_pages.push_back({file.chopped(kSuffix.size()), titleOf(markdown), markdown, plainOf(markdown)});
+        const QString title = markdown.section(u'\n', 0, 0).mid(2).trimmed();
+        m_pages.push_back({file.chopped(kSuffix.size()), title, markdown, plainOf(markdown)});
     }
     readChapters();
 }

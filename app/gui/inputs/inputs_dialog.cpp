@@ -106,9 +106,6 @@ public:
         }
     }
 
-    /// All that is shown, as lines.
-    [[nodiscard]] const QString& text() const { return m_shown; }
-
 private:
     QTextBrowser* m_findings = new QTextBrowser(this);
     std::vector<InputAddress> m_offers; ///< one for each advice
@@ -172,10 +169,6 @@ void InputsDialog::refresh() {
         m_help->refresh(m_receiving.state());
         return;
     }
-}
-
-QString InputsDialog::helpText() const {
-    return m_help->text();
 }
 
 } // namespace posewire::gui

@@ -28,8 +28,6 @@ public:
 
     [[nodiscard]] InputsPage& inputs() const { return *m_inputs; }
     [[nodiscard]] RelayPage& relay() const { return *m_relay; }
-    /// All that the connection help shows, as lines.
-    [[nodiscard]] QString helpText() const;
 
 signals:
     /// Receiving::choices() has been changed by the operator.

@@ -291,15 +291,6 @@ std::pair<double, double> TimePlot::valueRange(int chart) const {
     return {range.lower, range.upper};
 }
 
-int TimePlot::valueLabels(int chart) const {
-    const QCPAxis* axis = Parts::values(m_parts->charts[static_cast<std::size_t>(chart)]);
-    return axis->tickLabels() ? static_cast<int>(axis->tickVector().size()) : 0;
-}
-
-int TimePlot::chartHeight(int chart) const {
-    return m_parts->charts[static_cast<std::size_t>(chart)].axes->height();
-}
-
 void TimePlot::applyColours() {
     const Theme& colours = theme();
     m_parts->plot->setBackground(colours.panel);

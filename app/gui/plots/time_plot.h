@@ -57,10 +57,6 @@ public:
     /// The values that the axis of a chart spans, as of the last replot().
     [[nodiscard]] std::pair<double, double> valueRange(int chart) const;
 
-    /// As of the last replot().
-    [[nodiscard]] int valueLabels(int chart) const;
-    [[nodiscard]] int chartHeight(int chart) const;
-
     [[nodiscard]] QSize minimumSizeHint() const override {
         return {fontMetrics().height() * 8, fontMetrics().height() * 9};
     }

@@ -72,10 +72,6 @@ void toggle(QAbstractItemView& view, const QModelIndex& box) {
     view.model()->setData(box, isOn ? Qt::Unchecked : Qt::Checked, Qt::CheckStateRole);
 }
 
-bool isSideways(const QKeyEvent& event) {
-    return event.key() == Qt::Key_Left || event.key() == Qt::Key_Right;
-}
-
 /// Arrows to the sides step through time, or with Alt go back, where they mean nothing else.
 bool wantsArrows(QObject& watched, Qt::KeyboardModifiers modifiers) {
     const auto* tree = qobject_cast<QTreeView*>(&watched);
@@ -134,8 +130,8 @@ bool PressingKeys::eventFilter(QObject* watched, QEvent* event) {
         return false;
     }
     auto* key = static_cast<QKeyEvent*>(event);
-    if (isSideways(*key) && event->type() == QEvent::ShortcutOverride &&
-        wantsArrows(*watched, key->modifiers())) {
+    const bool isSideways = key->key() == Qt::Key_Left || key->key() == Qt::Key_Right;
+    if (isSideways && event->type() == QEvent::ShortcutOverride && wantsArrows(*watched, key->modifiers())) {
         event->accept();
         return true;
     }
