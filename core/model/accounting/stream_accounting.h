@@ -108,6 +108,7 @@ public:
     /// How much is remembered. What has been counted stays counted.
     void setDepth(const AccountingDepth& depth);
     [[nodiscard]] const AccountingDepth& depth() const { return m_depth; }
+    [[nodiscard]] bool isSampled() const { return m_countsSamples; }
     /// See CountHistory.
     void setEdges(const TimeRange& range) { m_history.setEdges(range); }
     void cutAt(log::Stamp edge, StreamAccounting& exact, const TimeRange& read) {

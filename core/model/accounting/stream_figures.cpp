@@ -218,7 +218,7 @@ void readMean(const StreamAccounting& stream, const TimeRange& air, const Stream
     const double seconds = air.seconds();
     const double cut =
         (air.from == stream.firstStamp() ? 0.5 : 0.0) + (air.to == stream.lastStamp() ? 0.5 : 0.0);
-    const bool isSampled = counts.samples + counts.incomplete != 0;
+    const bool isSampled = stream.isSampled();
     const auto whole = static_cast<double>(isSampled ? counts.samples : counts.datagrams);
     const double units = whole + (isSampled ? static_cast<double>(counts.incomplete) : 0);
     if (seconds <= 0 || units <= 1) {

@@ -62,7 +62,23 @@ TEST(StreamFigures, AreReadFromTheAccounting) {
     EXPECT_EQ(figuresOf(stream, second).count(Figure::Lost), 2U);
     const TimeRange open{kBegin + 5s, kAllTime.to};
     EXPECT_EQ(figuresOf(stream, open).count(Figure::Lost), 10U);
-    EXPECT_DOUBLE_EQ(figuresOf(stream, open)[Figure::Rate], figuresOf(stream, open)[Figure::RateMean]);
+    for (const TimeRange& range : {second, open}) {
+        const StreamFigures inRange = figuresOf(stream, range);
+        EXPECT_DOUBLE_EQ(inRange[Figure::Rate], inRange[Figure::RateMean]);
+        EXPECT_DOUBLE_EQ(inRange[Figure::RateWhole], inRange[Figure::RateMean]);
+    }
+}
+
+TEST(StreamFigures, TheRateOfMessagesIsOfTheirDatagramsWhateverIsMissing) {
+    Stream stream({log::SenderId{}, 0, 13});
+    for (std::uint32_t i = 0; i < 11; ++i) { // the second of two parts never comes
+        wire::Header part;
+        part.datagramCounter = 0;
+        addTo(stream.accounting, kBegin + i * 1s, 760, part);
+    }
+    const StreamFigures figures = figuresOf(stream);
+    EXPECT_GT(figures.count(Figure::Incomplete), 0U);
+    EXPECT_NEAR(figures[Figure::RateWhole], 1, 1e-9);
 }
 
 TEST(StreamFigures, AreTheSameInEveryYearThatAFileMayBeOf) {
