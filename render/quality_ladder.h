@@ -32,7 +32,7 @@ RenderQuality simplified(RenderQuality quality, Simplification step);
 class QualityLadder {
 public:
     /// Seconds; of a display's 60 pictures a second every other is drawn then, with room for all else.
-    static constexpr double kBudget = 0.018;
+    static constexpr double kBudget = 0.013;
 
     explicit QualityLadder(double budget = kBudget) : m_budget(budget) {}
 
