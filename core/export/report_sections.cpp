@@ -377,7 +377,7 @@ std::string eventSection(const model::SessionView& session, const ReportSteps& s
     for (const model::Incident& event : session.verdicts().incidents().all()) {
         const auto its = model::withinRange(session, {event, model::stateOf(session, event)},
                                             {steps.from, steps.to + log::Duration(1)});
-        if (its) {
+        if (its && its->incident.count != 0) {
             events.push_back(its->incident);
         }
     }

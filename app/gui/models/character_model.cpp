@@ -50,11 +50,9 @@ double characterAge(const model::SessionView& view, log::Stamp newest) {
 
 /// Of all of a recording; nothing comes at all where nothing has come for long.
 double measuredHz(const model::Stream& stream, double ageS, bool isRecording) {
-    if (isRecording) {
-        return model::figuresOf(stream)[model::Figure::RateWhole];
-    }
-    const double rateHz = stream.statistics.rateHz();
-    return ageS > std::max(kStaleAge, patienceAt(rateHz)) ? 0 : rateHz;
+    const double rateHz =
+        isRecording ? model::figuresOf(stream)[model::Figure::RateWhole] : stream.statistics.rateHz();
+    return !isRecording && ageS > std::max(kStaleAge, patienceAt(rateHz)) ? 0 : rateHz;
 }
 
 QString hertz(const std::optional<double>& rateHz, bool isNominal) {

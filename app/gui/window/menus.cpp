@@ -142,8 +142,7 @@ void trimRange(Window& window) {
 /// By ten samples; the edge of a range, where one is selected, by one.
 template <int way>
 void stepFar(Window& window) {
-    const bool hasRange = commands(window).session().choices().range.fixed.has_value();
-    hasRange ? trimRange<way>(window) : stepSamples<10 * way>(window);
+    commands(window).session().choices().range.fixed ? trimRange<way>(window) : stepSamples<10 * way>(window);
 }
 
 template <int seconds>

@@ -297,6 +297,10 @@ namespace {
 /// What a stream lost in a range as a part of an incident, with the evidence of the newest gap.
 void takeLosses(const SessionView& session, const log::StreamKey& stream, const TimeRange& range,
                 Incident& incident, Incident::Part& part) {
+    const auto& gaps = session.accounts().attribution().gaps();
+    if (gaps.size() >= Attribution::kMostGaps && gaps.front().toStamp >= range.from) {
+        return; // some of the range are forgotten
+    }
     const LossCause cause = incident.cause.value_or(LossCause::Unknown);
     const auto take = [&](log::Stamp stamp, std::uint64_t samples) {
         const bool isMeant = stamp >= range.from && stamp < range.to;
@@ -305,7 +309,7 @@ void takeLosses(const SessionView& session, const log::StreamKey& stream, const 
         return isMeant;
     };
     part.count = part.samples = 0;
-    for (const Gap& gap : session.accounts().attribution().gaps()) {
+    for (const Gap& gap : gaps) {
         const Gap::Share& share = gap.of(cause);
         const Incident* its = gap.stream == stream && share.lost != 0
                                   ? session.verdicts().incidents().find(share.incident)
@@ -362,6 +366,7 @@ std::optional<ListedIncident> withinRange(const SessionView& session, ListedInci
     });
     const bool isBeyond = incident.firstStamp < range.from || incident.lastStamp >= range.to;
     if (isBeyond && one.state != State::Provisional) {
+        const bool isLoss = incident.samples != 0; // then what is counted in the range decides
         incident.count = incident.samples = 0;
         for (Incident::Part& part : incident.parts) {
             if (part.from < range.from || part.to >= range.to) {
@@ -372,7 +377,7 @@ std::optional<ListedIncident> withinRange(const SessionView& session, ListedInci
             incident.count += part.count;
             incident.samples += part.samples;
         }
-        if (incident.count == 0) {
+        if (incident.count == 0 && !isLoss) {
             return std::nullopt;
         }
     }
