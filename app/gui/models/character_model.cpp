@@ -48,7 +48,7 @@ double characterAge(const model::SessionView& view, log::Stamp newest) {
     return std::max(0.0, log::secondsOf(now - newest));
 }
 
-/// Of all of a recording; nothing comes at all where nothing has come for long.
+/// The rate of a whole recording; on the wire that of now, which is 0 once nothing has come for long.
 double measuredHz(const model::Stream& stream, double ageS, bool isRecording) {
     const double rateHz =
         isRecording ? model::figuresOf(stream)[model::Figure::RateWhole] : stream.statistics.rateHz();

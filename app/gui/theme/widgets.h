@@ -161,8 +161,8 @@ public:
     void warn(const QString& problem);
 };
 
-/// One line in the painter's colour; where it begins with the symbol of a health, only that: a colour marks,
-/// words are `words`.
+/// Draws one line in the painter's colour. If it begins with the symbol of a health, only the symbol has that
+/// colour; the rest is drawn in `words`.
 void paintMarked(QPainter& painter, QRect rect, const QString& text, const QColor& words);
 
 /// A button of one short line after the symbol of its health, as in the bar at the bottom.

@@ -139,7 +139,7 @@ void trimRange(Window& window) {
     }
 }
 
-/// By ten samples; the edge of a range, where one is selected, by one.
+/// Moves the edge of a selected range by one sample; without a range, the display by ten.
 template <int way>
 void stepFar(Window& window) {
     commands(window).session().choices().range.fixed ? trimRange<way>(window) : stepSamples<10 * way>(window);
@@ -195,7 +195,7 @@ QString setRange(Window& window, const QString& text) {
     if (stamps[1] < stamps[0]) {
         return tr("The second time is before the first one.");
     }
-    static const QRegularExpression ofTimes(QStringLiteral("[:s]")); // a packet is the last of its range
+    static const QRegularExpression ofTimes(QStringLiteral("[:s]")); // a packet at the end is included
     const log::Duration last(ends.back().contains(ofTimes) ? 0 : 1);
     commands(window).selectRange({.fixed = model::TimeRange{stamps[0], stamps[1] + last}});
     return {};

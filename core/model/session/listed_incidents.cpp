@@ -294,12 +294,12 @@ std::vector<ListedIncident> listedIncidents(const SessionView& session, log::Sta
 
 namespace {
 
-/// What a stream lost in a range as a part of an incident, with the evidence of the newest gap.
+/// Counts what a stream lost in a range as part of an incident, and keeps the evidence of the newest gap.
 void takeLosses(const SessionView& session, const log::StreamKey& stream, const TimeRange& range,
                 Incident& incident, Incident::Part& part) {
     const auto& gaps = session.accounts().attribution().gaps();
     if (gaps.size() >= Attribution::kMostGaps && gaps.front().toStamp >= range.from) {
-        return; // some of the range are forgotten
+        return; // some gaps of the range are forgotten
     }
     const LossCause cause = incident.cause.value_or(LossCause::Unknown);
     const auto take = [&](log::Stamp stamp, std::uint64_t samples) {
@@ -326,7 +326,7 @@ void takeLosses(const SessionView& session, const log::StreamKey& stream, const 
         });
 }
 
-/// How much of a part was in a range that it reaches beyond; all of it where that is not known.
+/// Counts how much of a part was in a range that it reaches beyond. A part that cannot be split stays whole.
 void takeWithin(const SessionView& session, Incident& incident, Incident::Part& part,
                 const TimeRange& range) {
     constexpr std::array<std::pair<IncidentKind, Figure>, 3> kCounted{
@@ -366,7 +366,7 @@ std::optional<ListedIncident> withinRange(const SessionView& session, ListedInci
     });
     const bool isBeyond = incident.firstStamp < range.from || incident.lastStamp >= range.to;
     if (isBeyond && one.state != State::Provisional) {
-        const bool isLoss = incident.samples != 0; // then what is counted in the range decides
+        const bool isLoss = incident.samples != 0; // verdicts look at the samples lost in the range
         incident.count = incident.samples = 0;
         for (Incident::Part& part : incident.parts) {
             if (part.from < range.from || part.to >= range.to) {

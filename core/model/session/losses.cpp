@@ -103,7 +103,7 @@ LossesByCause Losses::causesOf(const Stream& stream) const {
 
 StreamFigures Losses::figuresOf(const Stream& stream) const {
     StreamFigures figures = model::figuresOf(stream, m_range);
-    if (m_isRecording) { // its end is not now
+    if (m_isRecording) { // the end of a recording is not now
         figures.set(Figure::Rate, figures[Figure::RateWhole]);
     }
     const StreamLosses losses = of(stream);

@@ -35,10 +35,9 @@ bool Session::forget(log::SenderId sender) {
 }
 
 void Session::sharpenRange() {
-    constexpr log::Duration kBefore =
-        std::chrono::seconds(8); // enough to learn each stream, with a pause in it
-    constexpr log::Duration kAfter = std::chrono::seconds(2); // datagrams that are late have come
-    constexpr std::uint64_t kMost = 200'000;                  // packets
+    constexpr log::Duration kBefore = std::chrono::seconds(8); // enough to learn each stream despite a pause
+    constexpr log::Duration kAfter = std::chrono::seconds(2);  // datagrams that are late have come
+    constexpr std::uint64_t kMost = 200'000;                   // packets
     const std::optional<TimeRange>& range = m_choices.range.fixed;
     if (range != m_edges) {
         m_edges = range;
