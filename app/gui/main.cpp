@@ -247,15 +247,12 @@ int main(int argc, char** argv) {
         }
     });
     const system::Interruption interruption;
-    QTimer ending;
-    QObject::connect(&ending, &QTimer::timeout, &window, [&] {
-        if (system::Interruption::hasCome()) {
-            ending.stop();
+    QObject::connect(&driver, &SessionDriver::tableTick, &window, [&, isEnding = false]() mutable {
+        if (system::Interruption::hasCome() && !std::exchange(isEnding, true)) {
             window.close(); // settings and layout are saved
             QCoreApplication::quit();
         }
     });
-    ending.start(std::chrono::milliseconds(100));
     window.show();
     if (!problem.isEmpty()) {
         window.say(problem, HelpTopic::SettingsUnusable);

@@ -23,6 +23,7 @@ struct ReceiveContext {
     PacketQueue& queue;
     CommandQueue& commands;
     ReceiveCounters& counters;
+    const std::atomic<log::Duration>& nap; ///< the longest that is asked for now
     ReceiverOptions options;
 };
 

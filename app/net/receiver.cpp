@@ -24,9 +24,10 @@ void add(InputCounters& counters, ReceiveTotals& totals) {
 Receiver::Receiver(log::PacketLog& log, const log::Clock& clock, const ReceiverOptions& options)
     : m_log(log),
       m_clock(clock),
+      m_nap(options.nap),
       m_queue([this] { m_loop->wake(); }),
       m_commands([this] { m_loop->wake(); }),
-      m_loop(makeReceiveLoop({log, clock, m_queue, m_commands, m_counters, options})),
+      m_loop(makeReceiveLoop({log, clock, m_queue, m_commands, m_counters, m_nap, options})),
       m_kernelBefore(readKernelCounters()) {
     m_thread = std::thread([this] { m_loop->run(); });
 }

@@ -94,6 +94,9 @@ public:
     /// closed. A connection that we make ourselves names its host already and is not asked.
     void listenTo(const AllowList& allowed);
 
+    /// Instead of ReceiverOptions::nap from now on, as far as the sockets' buffers allow.
+    void setNap(log::Duration nap) { m_nap.store(nap, std::memory_order_relaxed); }
+
     /// Reads what has already arrived there, then closes. False if there is no such input.
     bool remove(InputId id);
 
@@ -134,6 +137,7 @@ private:
 
     log::PacketLog& m_log;
     const log::Clock& m_clock;
+    std::atomic<log::Duration> m_nap;
     PacketQueue m_queue;
     CommandQueue m_commands;
     ReceiveCounters m_counters;

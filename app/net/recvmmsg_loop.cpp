@@ -313,7 +313,7 @@ private:
         std::this_thread::sleep_for(m_nap);
         const log::Moment now = m_context.clock.monotonic();
         const log::Duration delay = now - std::exchange(m_looked, now);
-        m_isDelayed = delay > 2 * m_context.options.nap;
+        m_isDelayed = delay > 2 * longestNap();
         if (delay > m_context.counters.longestDelay.load(std::memory_order_relaxed)) {
             m_context.counters.longestDelay.store(delay, std::memory_order_relaxed);
         }
@@ -323,10 +323,20 @@ private:
     /// buffer.
     void adaptNap(std::size_t received) {
         if (received * kBufferPerDatagram > m_smallestBuffer / 8) {
-            m_nap = std::max(m_nap / 2, std::min(kShortestNap, m_context.options.nap));
+            m_nap = std::max(m_nap / 2, std::min(kShortestNap, longestNap()));
         } else {
-            m_nap = std::min(m_nap + m_nap / 4, m_context.options.nap);
+            m_nap = std::min(m_nap + m_nap / 4, longestNap());
         }
+    }
+
+    /// Of those that were asked for later, one in which a sudden flood fills no more than half of the
+    /// smallest buffer.
+    log::Duration longestNap() const {
+        constexpr log::Duration kFloodPause = std::chrono::microseconds(100); // between two datagrams
+        constexpr std::size_t kMost = 1'000;
+        const std::size_t room = std::min(m_smallestBuffer / (2 * kBufferPerDatagram), kMost);
+        return std::min(m_context.nap.load(std::memory_order_relaxed),
+                        std::max(m_context.options.nap, static_cast<int>(room) * kFloodPause));
     }
 
     void waitForSomething() {

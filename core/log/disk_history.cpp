@@ -16,7 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::chrono::milliseconds kHistoryPause{50};
+constexpr std::chrono::milliseconds kHistoryPause{100};
+constexpr std::chrono::milliseconds kIdlePause{500}; // after nothing came
 constexpr std::uint64_t kLeastFile = std::uint64_t{1} << 20;
 
 // "history-<process>-<file>.pcapng": the process is for whoever looks into the folder, no more. Its number
@@ -80,6 +81,7 @@ std::optional<FileError> DiskHistory::failure() const {
 }
 
 void DiskHistory::run(const std::stop_token& stop) {
+    std::uint64_t end = 0;
     while (!stop.stop_requested()) {
         const Result followed = follow(stop).or_else([this](const FileError& why) { return makeRoom(why); });
         note(followed);
@@ -87,7 +89,8 @@ void DiskHistory::run(const std::stop_token& stop) {
             return;
         }
         std::unique_lock lock(m_mutex);
-        m_changed.wait_for(lock, stop, kHistoryPause, [] { return false; });
+        const bool isIdle = std::exchange(end, m_figures.end) == m_figures.end;
+        m_changed.wait_for(lock, stop, isIdle ? kIdlePause : kHistoryPause, [] { return false; });
     }
 }
 

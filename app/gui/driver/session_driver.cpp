@@ -63,7 +63,8 @@ constexpr std::chrono::milliseconds kTick(16);
 constexpr std::chrono::milliseconds kSlowestTick(200);
 constexpr log::Duration kTableTick = std::chrono::milliseconds(100);
 // While no window is in sight, or nothing has come for a while: ages are all that changes.
-constexpr std::chrono::milliseconds kRestingTick(100);
+constexpr std::chrono::milliseconds kRestingTick(200);
+constexpr log::Duration kUnseenNap = std::chrono::milliseconds(20);
 constexpr log::Duration kSlowTableTick = std::chrono::seconds(1);
 constexpr log::Duration kQuiet = std::chrono::seconds(2);
 constexpr log::Duration kRetry = std::chrono::seconds(2);
@@ -232,6 +233,7 @@ void SessionDriver::tick() {
     m_isChanged = m_playback.follow() || m_isChanged;
     m_isChanged = m_files.follow(kFollowTime) || m_isChanged;
     m_isInSight = isAnyWindowInSight();
+    m_receiving.receiver().setNap(m_isInSight ? net::ReceiverOptions().nap : kUnseenNap);
     m_changed = hasNew || m_isChanged || m_files.isOpening() ? now : m_changed;
     const bool isWaiting = live.end() == 0 && m_files.file() == nullptr; // help looks for why nothing comes
     m_isQuiet = !isWaiting && now - m_changed > kQuiet;

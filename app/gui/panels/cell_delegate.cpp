@@ -146,6 +146,24 @@ int paintShare(QPainter& painter, const QRect& rect, const QString& number, cons
     return rect.right() - (isRoom ? reserved : 0);
 }
 
+/// Of a number.
+bool lacksRoom(const QTreeView& view, const QModelIndex& index, const QString& text) {
+    const QFontMetrics metrics(tabularFont());
+    return CellDelegate::isNumber(index) &&
+           metrics.horizontalAdvance(text) + 2 * CellDelegate::margin(metrics) >
+               view.visualRect(index).width();
+}
+
+/// What a cell is painted from; its text comes first.
+QVariantList contentOf(const QModelIndex& index) {
+    constexpr std::array<int, 10> kRoles{Qt::DisplayRole, Qt::ForegroundRole, Qt::CheckStateRole, kDotRole,
+                                         kSwatchRole,     kSuffixRole,        kShortTextRole,     kSpanRole,
+                                         kSeriesRole,     kMarksRole};
+    QVariantList content;
+    std::ranges::transform(kRoles, std::back_inserter(content), [&](int role) { return index.data(role); });
+    return content;
+}
+
 QRectF squareBefore(const QRect& rect, int side) {
     return {static_cast<qreal>(rect.left()), rect.center().y() - side / 2.0 + 0.5, static_cast<qreal>(side),
             static_cast<qreal>(side)};
@@ -244,6 +262,11 @@ QSize CellDelegate::sizeHint(const QStyleOptionViewItem& option, const QModelInd
 
 void CellDelegate::paint(QPainter* painter, const QStyleOptionViewItem& given,
                          const QModelIndex& index) const {
+    constexpr qsizetype kMostCells = 10'000; // those that went are among them
+    if (m_painted.size() >= kMostCells) {
+        m_painted.clear();
+    }
+    m_painted[index] = contentOf(index);
     QStyleOptionViewItem option = given;
     initStyleOption(&option, index);
     const QStyle* style = option.widget != nullptr ? option.widget->style() : QApplication::style();
@@ -298,6 +321,43 @@ void CellDelegate::paint(QPainter* painter, const QStyleOptionViewItem& given,
         }
     }
     painter->restore();
+}
+
+QRegion CellDelegate::takeStale(const QTreeView& view) {
+    QRegion region;
+    const QRect sight = view.viewport()->rect();
+    for (QModelIndex row = view.indexAt({0, 0}); row.isValid(); row = view.indexBelow(row)) {
+        const QRect whole = view.visualRect(row);
+        if (whole.top() > sight.bottom()) {
+            break;
+        }
+        for (QModelIndex cell = row; cell.isValid(); cell = shownBeside(view, cell, 1)) {
+            const QVariantList now = contentOf(cell);
+            const QVariantList before = std::exchange(m_painted[cell], now);
+            QRect rect = view.visualRect(cell);
+            if (before == now) {
+                continue;
+            }
+            if (isEmpty(cell) || before.value(0).toString().isEmpty() || !rect.intersects(sight)) {
+                region += QRect(sight.left(), whole.top(), sight.width(), whole.height());
+                continue;
+            }
+            // Words run on over empty cells, a number over what words before it leave of their room.
+            QModelIndex beside = shownBeside(view, cell, 1);
+            for (; beside.isValid() && isEmpty(beside); beside = shownBeside(view, beside, 1)) {
+                rect |= view.visualRect(beside);
+            }
+            if (beside.data(kSpanRole).toBool() || lacksRoom(view, beside, beside.data().toString())) {
+                rect |= view.visualRect(beside);
+            }
+            if (lacksRoom(view, cell, before[0].toString()) ||
+                lacksRoom(view, cell, cell.data().toString())) {
+                rect |= view.visualRect(shownBeside(view, cell, -1));
+            }
+            region += rect;
+        }
+    }
+    return region;
 }
 
 } // namespace posewire::gui

@@ -3,7 +3,10 @@
 
 #include "app/gui/theme/character_mark.h"
 
+#include <QHash>
 #include <QStyledItemDelegate>
+
+class QTreeView;
 
 namespace posewire::gui {
 
@@ -18,6 +21,9 @@ public:
     void paint(QPainter* painter, const QStyleOptionViewItem& given, const QModelIndex& index) const override;
     [[nodiscard]] QSize sizeHint(const QStyleOptionViewItem& option, const QModelIndex& index) const override;
 
+    /// What of `view`, which this paints, no longer shows what its model says; the caller has it painted.
+    [[nodiscard]] QRegion takeStale(const QTreeView& view);
+
     /// Room at the left and the right of a cell's text.
     [[nodiscard]] static int margin(const QFontMetrics& metrics);
     [[nodiscard]] static int rowHeight(const QFontMetrics& metrics);
@@ -25,6 +31,9 @@ public:
     // Paint a mark or a square of `side` pixels before a text, and return its width with the space after it.
     static int paintBefore(QPainter& painter, const QRect& rect, int side, const CharacterMark& mark);
     static int paintBefore(QPainter& painter, const QRect& rect, int side, const QColor& swatch);
+
+private:
+    mutable QHash<QModelIndex, QVariantList> m_painted; ///< what each cell is painted from
 };
 
 } // namespace posewire::gui

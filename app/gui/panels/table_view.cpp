@@ -116,9 +116,11 @@ int TableView::heightForRows(int rows) const {
 
 void TableView::dataChanged(const QModelIndex& topLeft, const QModelIndex& bottomRight,
                             const QList<int>& roles) {
-    QTreeView::dataChanged(topLeft, bottomRight, roles);
+    if (topLeft == bottomRight) {
+        QTreeView::dataChanged(topLeft, bottomRight, roles);
+    }
     m_columns->keepWhole();
-    viewport()->update();
+    viewport()->update(static_cast<CellDelegate*>(itemDelegate())->takeStale(*this));
 }
 
 void TableView::paintEvent(QPaintEvent* event) {

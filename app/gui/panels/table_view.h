@@ -48,7 +48,8 @@ signals:
 
 protected:
     void paintEvent(QPaintEvent* event) override;
-    /// Models announce one change a tick, by the rows of the first level; those below have changed as well.
+    /// Models announce one change a tick, by the rows of the first level; those below may have changed as
+    /// well. Only cells that did are painted.
     void dataChanged(const QModelIndex& topLeft, const QModelIndex& bottomRight,
                      const QList<int>& roles = {}) override;
     void contextMenuEvent(QContextMenuEvent* event) override;

@@ -40,31 +40,36 @@ void ClockWidget::setClock(const QString& text, const QString& caption, Run run)
     if (text == m_text && caption == m_caption && run == m_run) {
         return;
     }
+    // How old it is changes more often than what it says, which costs much more to paint.
+    const bool isCaption = text == m_text && run == m_run && caption.isEmpty() == m_caption.isEmpty();
     m_text = text;
     m_caption = caption;
     m_run = run;
     setAccessibleDescription(m_text + QLatin1Char(' ') + m_caption);
-    update();
+    update(isCaption ? captionPlace() : rect());
 }
 
-void ClockWidget::paintEvent(QPaintEvent*) {
+QRect ClockWidget::captionPlace() const {
+    const int space = fontMetrics().height() / 2;
+    const int height = m_caption.isEmpty() ? 0 : fontMetrics().height();
+    return {space, rect().bottom() + 1 - space / 2 - height, width() - 2 * space, height};
+}
+
+void ClockWidget::paintEvent(QPaintEvent* event) {
     QPainter painter(this);
     painter.fillRect(rect(), theme().panel);
-    const int space = fontMetrics().height() / 2;
-    const QFont small = font();
-    const int captionHeight = m_caption.isEmpty() ? 0 : QFontMetrics(small).height();
-    QRect figures = rect().adjusted(space, space / 2, -space, -space / 2 - captionHeight);
-
-    QFont large = monospaceFont();
-    large.setPixelSize(fittingPixelSize(large, m_text, figures.size()));
-    painter.setFont(large);
-    painter.setPen(m_run == Run::Running ? theme().text : theme().dim);
-    painter.drawText(figures, Qt::AlignCenter, m_text);
-    painter.setFont(small);
+    const QRect below = captionPlace();
     painter.setPen(m_run == Run::Stale ? theme().error : theme().dim);
-    const QRect below(space, figures.bottom() + 1, width() - 2 * space, captionHeight);
     painter.drawText(below, Qt::AlignCenter,
-                     QFontMetrics(small).elidedText(m_caption, Qt::ElideRight, below.width()));
+                     fontMetrics().elidedText(m_caption, Qt::ElideRight, below.width()));
+    if (const QRect figures(below.left(), below.left() / 2, below.width(), below.top() - below.left() / 2);
+        event->rect().intersects(figures)) {
+        QFont large = monospaceFont();
+        large.setPixelSize(fittingPixelSize(large, m_text, figures.size()));
+        painter.setFont(large);
+        painter.setPen(m_run == Run::Running ? theme().text : theme().dim);
+        painter.drawText(figures, Qt::AlignCenter, m_text);
+    }
     if (hasFocus() && !isWindow()) {
         painter.setPen(theme().accent);
         painter.setBrush(Qt::NoBrush);

@@ -42,6 +42,8 @@ protected:
     void keyPressEvent(QKeyEvent* event) override;
 
 private:
+    [[nodiscard]] QRect captionPlace() const;
+
     QString m_text;
     QString m_caption;
     Run m_run = Run::None;
