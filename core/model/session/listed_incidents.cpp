@@ -342,7 +342,7 @@ void takeWithin(const SessionView& session, Incident& incident, Incident::Part& 
     if (stream != nullptr && counted != kCounted.end()) {
         part.count = model::figuresOf(*stream, its).count(counted->second);
     } else if (stream != nullptr && part.samples != 0) {
-        takeLosses(session, stream->key, range, incident, part);
+        takeLosses(session, stream->key, its, incident, part);
     } else if (incident.kind == IncidentKind::Foreign || incident.kind == IncidentKind::Malformed) {
         const SenderTotals all = session.accounts().eachSender(its)[part.sender];
         part.count = incident.kind == IncidentKind::Foreign ? all.foreign : all.malformed;
