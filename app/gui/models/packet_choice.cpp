@@ -56,20 +56,6 @@ Target atStamp(model::SessionView& view, log::Stamp stamp, const QString& text) 
     return number;
 }
 
-Target atTimeOfDay(model::SessionView& view, const QString& text) {
-    for (const char* format : {"H:m:s.z", "H:m:s", "H:m"}) {
-        const QTime time = QTime::fromString(text, QLatin1String(format));
-        if (time.isValid()) {
-            const auto newest = view.packet(view.end() - 1);
-            const log::Stamp stamp = newest ? newest->stamp : view.now();
-            const QDate day = dateTimeOf(view.wallOf(stamp)).date();
-            const log::WallTime wanted(milliseconds(QDateTime(day, time).toMSecsSinceEpoch()));
-            return atStamp(view, view.log().timeline().stampOf(wanted), text);
-        }
-    }
-    return tl::unexpected(tr("%1 is not a time of day such as 10:42:17.508.").arg(text));
-}
-
 Target bounded(model::SessionView& view, std::uint64_t number) {
     if (number < view.begin() || number >= view.end()) {
         return tl::unexpected(
@@ -250,6 +236,28 @@ std::optional<std::uint64_t> comparableBefore(model::SessionView& view, std::uin
     return std::nullopt;
 }
 
+std::optional<log::Stamp> timeTarget(model::SessionView& view, const QString& text) {
+    static const QRegularExpression spaces(QStringLiteral("\\s"));
+    const QString compact = QString(text).remove(spaces);
+    for (const char* format : {"H:m:s.z", "H:m:s", "H:m"}) {
+        if (const QTime time = QTime::fromString(compact, QLatin1String(format)); time.isValid()) {
+            const auto newest = view.packet(view.end() - 1);
+            const log::Stamp stamp = newest ? newest->stamp : view.now();
+            const QDate day = dateTimeOf(view.wallOf(stamp)).date();
+            const log::WallTime wanted(milliseconds(QDateTime(day, time).toMSecsSinceEpoch()));
+            return view.log().timeline().stampOf(wanted);
+        }
+    }
+    if (!compact.endsWith(QLatin1Char('s'))) {
+        return std::nullopt;
+    }
+    bool isNumber = false;
+    const double seconds = compact.chopped(1).toDouble(&isNumber);
+    return isNumber && std::abs(seconds) < kMostSeconds
+               ? std::optional(view.firstStamp() + log::durationOf(seconds))
+               : std::nullopt;
+}
+
 tl::expected<std::uint64_t, QString> packetTarget(model::SessionView& view, const QString& text) {
     static const QRegularExpression spaces(QStringLiteral("\\s"));
     const QString trimmed = text.trimmed();
@@ -258,20 +266,17 @@ tl::expected<std::uint64_t, QString> packetTarget(model::SessionView& view, cons
     if (view.begin() == view.end()) {
         return tl::unexpected(tr("There are no packets."));
     }
-    if (compact.contains(QLatin1Char(':'))) {
-        return atTimeOfDay(view, compact);
-    }
     if (compact.startsWith(QLatin1Char('+')) || compact.startsWith(QLatin1Char('-')) ||
         compact.startsWith(QChar(0x2212))) {
         return relative(view, compact.mid(1), compact.startsWith(QLatin1Char('+')));
     }
-    bool isNumber = false;
-    if (compact.endsWith(QLatin1Char('s'))) {
-        const double seconds = compact.chopped(1).toDouble(&isNumber);
-        if (isNumber && std::abs(seconds) < kMostSeconds) {
-            return atStamp(view, view.firstStamp() + log::durationOf(seconds), trimmed);
-        }
+    if (const auto time = timeTarget(view, text)) {
+        return atStamp(view, *time, trimmed);
     }
+    if (compact.contains(QLatin1Char(':'))) {
+        return tl::unexpected(tr("%1 is not a time of day such as 10:42:17.508.").arg(compact));
+    }
+    bool isNumber = false;
     const std::uint64_t number = compact.toULongLong(&isNumber);
     if (!isNumber) {
         return tl::unexpected(tr("Write a number, +n or -n, a time since the first packet such as 12.5 s, "

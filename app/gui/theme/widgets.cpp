@@ -274,9 +274,12 @@ ColourText::ColourText(Look look, QWidget* parent) : QAbstractButton(parent), m_
 void ColourText::setContent(Health level, const QString& text) {
     const QString line = level == Health::Unknown ? text : healthSymbol(level) + QLatin1Char(' ') + text;
     if (line != this->text()) {
+        const QSize before = sizeHint();
         setText(line);
         setAccessibleName(text);
-        updateGeometry();
+        if (sizeHint() != before) {
+            updateGeometry();
+        }
     }
     if (level != m_level) {
         m_level = level;

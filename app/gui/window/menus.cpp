@@ -180,23 +180,21 @@ QString setRange(Window& window, const QString& text) {
         return tr("Write two times with \"to\" between them.");
     }
     std::array<log::Stamp, 2> stamps{};
+    log::Duration last{};
     for (std::size_t i = 0; i < stamps.size(); ++i) {
         const QString end = ends[static_cast<qsizetype>(i)].simplified();
         const auto number = packetTarget(session, end);
-        if (!number) {
+        const auto time = timeTarget(session, end);
+        if (!number && (i == 0 || !time)) { // it may end after the newest packet
             return number.error();
         }
-        const auto packet = session.packet(*number);
-        stamps[i] = end.endsWith(QLatin1Char('s'))
-                        ? session.firstStamp() + log::durationOf(end.chopped(1).toDouble())
-                    : packet ? packet->stamp
-                             : stamps[i];
+        const auto packet = time ? std::nullopt : session.packet(*number);
+        stamps[i] = packet ? packet->stamp : time.value_or(stamps[i]);
+        last = log::Duration(packet ? 1 : 0); // a packet at the end is included
     }
     if (stamps[1] < stamps[0]) {
         return tr("The second time is before the first one.");
     }
-    static const QRegularExpression ofTimes(QStringLiteral("[:s]")); // a packet at the end is included
-    const log::Duration last(ends.back().contains(ofTimes) ? 0 : 1);
     commands(window).selectRange({.fixed = model::TimeRange{stamps[0], stamps[1] + last}});
     return {};
 }

@@ -96,6 +96,16 @@ TEST_F(PacketTextTest, GoesToNumbersDistancesAndTimes) {
     EXPECT_FALSE(packetTarget(m_stage.session, "").has_value());
 }
 
+TEST_F(PacketTextTest, ReadsTimesBetweenPackets) {
+    const log::Stamp first = m_stage.session.firstStamp();
+    EXPECT_EQ(timeTarget(m_stage.session, " 0.255 s"), first + 255ms);
+    EXPECT_EQ(timeTarget(m_stage.session, "30 s"), first + 30s);
+    EXPECT_EQ(timeTarget(m_stage.session, "22:13:20.255"), first + 255ms);
+    for (const char* text : {"42", "+5", "noon", "22:61", "s", ""}) {
+        EXPECT_FALSE(timeTarget(m_stage.session, text).has_value()) << text;
+    }
+}
+
 TEST_F(PacketTextTest, FindsTextAndBytesInBothDirectionsAndAround) {
     const auto find = [&](const QString& text, bool isHexadecimal, std::uint64_t from, bool isForward) {
         return PacketSearch(m_stage.log, {*parsePattern(text, isHexadecimal), from, isForward, {}}).wait();
