@@ -109,14 +109,10 @@ MetadataColumn sentColumn(model::SessionView& view) {
                    : tr("Last sent at %1, changed or not. Earlier values are below the tag.")
                          .arg(timeOfDay(view.wallOf(lastSent(view, row))));
     };
-    const auto span = [](const MetadataRow& row, int role) {
-        return role == kSpanRole && row.fact != nullptr ? QVariant(true) : QVariant();
-    };
     return MetadataColumn::numbers(tr("Sent"), {}, text)
         .in({.usual = QStringLiteral("99 min"), .order = 1})
         .dimmed()
-        .withToolTip(toolTip)
-        .withMore(span);
+        .withToolTip(toolTip);
 }
 
 std::vector<MetadataColumn> metadataColumns(model::SessionView& view) {

@@ -24,13 +24,8 @@ constexpr float kLeastSpread = 0.2F;
 /// Values of a curve that fill its cell.
 constexpr double kPlaces = 120;
 
-int widthOf(const QStyleOptionViewItem& option, int column) {
-    const auto* view = qobject_cast<const QTreeView*>(option.widget);
-    return view == nullptr ? 0 : view->header()->sectionSize(column);
-}
-
 bool isEmpty(const QModelIndex& index) {
-    constexpr std::array kRoles{kSeriesRole, kSwatchRole, kDotRole, kSpanRole, int{Qt::CheckStateRole}};
+    constexpr std::array kRoles{kSeriesRole, kSwatchRole, kDotRole, int{Qt::CheckStateRole}};
     return index.data().toString().isEmpty() &&
            std::ranges::none_of(kRoles, [&](int role) { return index.data(role).isValid(); });
 }
@@ -156,9 +151,9 @@ bool lacksRoom(const QTreeView& view, const QModelIndex& index, const QString& t
 
 /// What a cell is painted from; its text comes first.
 QVariantList contentOf(const QModelIndex& index) {
-    constexpr std::array<int, 10> kRoles{Qt::DisplayRole, Qt::ForegroundRole, Qt::CheckStateRole, kDotRole,
-                                         kSwatchRole,     kSuffixRole,        kShortTextRole,     kSpanRole,
-                                         kSeriesRole,     kMarksRole};
+    constexpr std::array<int, 9> kRoles{Qt::DisplayRole, Qt::ForegroundRole, Qt::CheckStateRole,
+                                        kDotRole,        kSwatchRole,        kSuffixRole,
+                                        kShortTextRole,  kSeriesRole,        kMarksRole};
     QVariantList content;
     std::ranges::transform(kRoles, std::back_inserter(content), [&](int role) { return index.data(role); });
     return content;
@@ -299,13 +294,7 @@ void CellDelegate::paint(QPainter* painter, const QStyleOptionViewItem& given,
         const QRectF place(rect.adjusted(0, inset, 0, -inset));
         paintSeries(*painter, place, series.value<QList<float>>());
         paintMarks(*painter, place, index.data(kMarksRole).value<QList<float>>());
-    } else if (index.data(kSpanRole).toBool()) {
-        const QModelIndex before = index.siblingAtColumn(index.column() - 1);
-        rect.setLeft(rect.left() - widthOf(option, before.column()));
-        option.text = before.data().toString();
-        painter->setClipRect(rect);
-        paintText(*painter, rect, option, before);
-    } else if (!index.siblingAtColumn(index.column() + 1).data(kSpanRole).toBool()) {
+    } else {
         const auto* view = qobject_cast<const QTreeView*>(option.widget);
         const RunningWords words = view != nullptr ? runningWords(*view, index, space) : RunningWords{};
         if (words.index.isValid()) {
@@ -347,7 +336,7 @@ QRegion CellDelegate::takeStale(const QTreeView& view) {
             for (; beside.isValid() && isEmpty(beside); beside = shownBeside(view, beside, 1)) {
                 rect |= view.visualRect(beside);
             }
-            if (beside.data(kSpanRole).toBool() || lacksRoom(view, beside, beside.data().toString())) {
+            if (lacksRoom(view, beside, beside.data().toString())) {
                 rect |= view.visualRect(beside);
             }
             if (lacksRoom(view, cell, before[0].toString()) ||
