@@ -94,7 +94,8 @@ public:
     /// closed. A connection that we make ourselves names its host already and is not asked.
     void listenTo(const AllowList& allowed);
 
-    /// Instead of ReceiverOptions::nap from now on, as far as the sockets' buffers allow.
+    /// Naps at most this long from now on, instead of ReceiverOptions::nap; longer than that only as far as
+    /// the buffers of the sockets have room.
     void setNap(log::Duration nap) { m_nap.store(nap, std::memory_order_relaxed); }
 
     /// Reads what has already arrived there, then closes. False if there is no such input.

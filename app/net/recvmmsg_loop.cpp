@@ -329,8 +329,8 @@ private:
         }
     }
 
-    /// Of those that were asked for later, one in which a sudden flood fills no more than half of the
-    /// smallest buffer.
+    /// As long as is asked for, and longer than usual only if a sudden flood then fills no more than half of
+    /// the smallest buffer.
     log::Duration longestNap() const {
         constexpr log::Duration kFloodPause = std::chrono::microseconds(100); // between two datagrams
         constexpr std::size_t kMost = 1'000;

@@ -21,7 +21,7 @@ inline constexpr int kDotRole = Qt::UserRole + 1;       ///< CharacterMark befor
 inline constexpr int kSwatchRole = Qt::UserRole + 2;    ///< QColor: a square before the text
 inline constexpr int kSuffixRole = Qt::UserRole + 3;    ///< QString: dim text after the text
 inline constexpr int kShortTextRole = Qt::UserRole + 8; ///< QString: instead of a text without room
-inline constexpr int kSeriesRole = Qt::UserRole + 4; ///< QList<float>: a small curve; NaN breaks it
+inline constexpr int kSeriesRole = Qt::UserRole + 4;    ///< QList<float>: a small curve; NaN breaks it
 /// QList<float>: where the curve is to be marked, as many as it has values; 0 for no mark.
 inline constexpr int kMarksRole = Qt::UserRole + 6;
 /// ColumnRoom of a horizontal header.

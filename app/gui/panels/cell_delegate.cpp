@@ -141,7 +141,7 @@ int paintShare(QPainter& painter, const QRect& rect, const QString& number, cons
     return rect.right() - (isRoom ? reserved : 0);
 }
 
-/// Of a number.
+/// True of a number that is wider than its cell.
 bool lacksRoom(const QTreeView& view, const QModelIndex& index, const QString& text) {
     const QFontMetrics metrics(tabularFont());
     return CellDelegate::isNumber(index) &&
@@ -257,7 +257,7 @@ QSize CellDelegate::sizeHint(const QStyleOptionViewItem& option, const QModelInd
 
 void CellDelegate::paint(QPainter* painter, const QStyleOptionViewItem& given,
                          const QModelIndex& index) const {
-    constexpr qsizetype kMostCells = 10'000; // those that went are among them
+    constexpr qsizetype kMostCells = 10'000; // with those of rows that are gone
     if (m_painted.size() >= kMostCells) {
         m_painted.clear();
     }

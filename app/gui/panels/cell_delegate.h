@@ -21,7 +21,7 @@ public:
     void paint(QPainter* painter, const QStyleOptionViewItem& given, const QModelIndex& index) const override;
     [[nodiscard]] QSize sizeHint(const QStyleOptionViewItem& option, const QModelIndex& index) const override;
 
-    /// What of `view`, which this paints, no longer shows what its model says; the caller has it painted.
+    /// The parts of `view` that no longer show what its model says; the caller has them painted again.
     [[nodiscard]] QRegion takeStale(const QTreeView& view);
 
     /// Room at the left and the right of a cell's text.

@@ -40,7 +40,7 @@ void ClockWidget::setClock(const QString& text, const QString& caption, Run run)
     if (text == m_text && caption == m_caption && run == m_run) {
         return;
     }
-    // How old it is changes more often than what it says, which costs much more to paint.
+    // The caption, an age, changes more often than the figures, which cost much more to paint.
     const bool isCaption = text == m_text && run == m_run && caption.isEmpty() == m_caption.isEmpty();
     m_text = text;
     m_caption = caption;
