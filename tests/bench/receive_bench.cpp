@@ -51,10 +51,11 @@ struct Bench {
     net::PacketQueue queue;
     net::CommandQueue commands;
     net::ReceiveCounters counters;
+    std::atomic<log::Duration> nap = net::ReceiverOptions().nap;
     std::shared_ptr<net::Input> input; ///< of the loop opened last
 
     std::unique_ptr<net::ReceiveLoop> open(std::uint16_t& port) {
-        auto loop = net::makeReceiveLoop({log, clock, queue, commands, counters, {}});
+        auto loop = net::makeReceiveLoop({log, clock, queue, commands, counters, nap, {}});
         input =
             std::make_shared<net::Input>(net::InputId{}, net::InputKind::Udp, net::Endpoint{"127.0.0.1", 0});
         if (const auto added = loop->add(input); !added) {

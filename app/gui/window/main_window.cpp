@@ -2,6 +2,7 @@
 #include "app/gui/window/main_window.h"
 
 #include "app/gui/base/dock_layout.h"
+#include "app/gui/base/sight.h"
 #include "app/gui/inputs/inputs_page.h"
 #include "app/gui/models/comparison_text.h"
 #include "app/gui/models/text.h"
@@ -355,9 +356,11 @@ void MainWindow::showSession() {
 
 void MainWindow::showReceiving() {
     const ReceivingState& state = m_driver.receiving().state();
-    m_transport->setReceiving(state);
-    m_health->refresh(state);
-    m_viewport->setReceiving(state);
+    if (isAnyWindowInSight()) {
+        m_transport->setReceiving(state);
+        m_health->refresh(state);
+        m_viewport->setReceiving(state);
+    }
     showVerdict();
     if (m_inputs != nullptr) {
         m_inputs->refresh();
