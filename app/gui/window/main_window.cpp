@@ -356,8 +356,8 @@ void MainWindow::showSession() {
 
 void MainWindow::showReceiving() {
     const ReceivingState& state = m_driver.receiving().state();
+    m_transport->setReceiving(state);
     if (isAnyWindowInSight()) {
-        m_transport->setReceiving(state);
         m_health->refresh(state);
         m_viewport->setReceiving(state);
     }
