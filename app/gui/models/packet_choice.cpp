@@ -56,6 +56,11 @@ Target atStamp(model::SessionView& view, log::Stamp stamp, const QString& text) 
     return number;
 }
 
+QString withoutSpaces(QString text) {
+    static const QRegularExpression spaces(QStringLiteral("\\s"));
+    return text.remove(spaces);
+}
+
 Target bounded(model::SessionView& view, std::uint64_t number) {
     if (number < view.begin() || number >= view.end()) {
         return tl::unexpected(
@@ -237,8 +242,7 @@ std::optional<std::uint64_t> comparableBefore(model::SessionView& view, std::uin
 }
 
 std::optional<log::Stamp> timeTarget(model::SessionView& view, const QString& text) {
-    static const QRegularExpression spaces(QStringLiteral("\\s"));
-    const QString compact = QString(text).remove(spaces);
+    const QString compact = withoutSpaces(text);
     for (const char* format : {"H:m:s.z", "H:m:s", "H:m"}) {
         if (const QTime time = QTime::fromString(compact, QLatin1String(format)); time.isValid()) {
             const auto newest = view.packet(view.end() - 1);
@@ -259,10 +263,7 @@ std::optional<log::Stamp> timeTarget(model::SessionView& view, const QString& te
 }
 
 tl::expected<std::uint64_t, QString> packetTarget(model::SessionView& view, const QString& text) {
-    static const QRegularExpression spaces(QStringLiteral("\\s"));
-    const QString trimmed = text.trimmed();
-    QString compact = trimmed;
-    compact.remove(spaces);
+    const QString compact = withoutSpaces(text);
     if (view.begin() == view.end()) {
         return tl::unexpected(tr("There are no packets."));
     }
@@ -271,7 +272,7 @@ tl::expected<std::uint64_t, QString> packetTarget(model::SessionView& view, cons
         return relative(view, compact.mid(1), compact.startsWith(QLatin1Char('+')));
     }
     if (const auto time = timeTarget(view, text)) {
-        return atStamp(view, *time, trimmed);
+        return atStamp(view, *time, text.trimmed());
     }
     if (compact.contains(QLatin1Char(':'))) {
         return tl::unexpected(tr("%1 is not a time of day such as 10:42:17.508.").arg(compact));

@@ -52,13 +52,13 @@ nearestListed(model::SessionView& view, const PacketModel& list, Landmark landma
 /// packets as a sample can have.
 [[nodiscard]] std::optional<std::uint64_t> comparableBefore(model::SessionView& view, std::uint64_t packet);
 
-/// The time that an operator means by "12.5 s" (after the first packet) or "10:42:17.508" (on the day of the
-/// newest one); nothing where the text is no time.
+/// Reads "12.5 s" as a time after the first packet and "10:42:17.508" as a time on the day of the newest one.
+/// Returns nothing if the text is not a time.
 [[nodiscard]] std::optional<log::Stamp> timeTarget(model::SessionView& view, const QString& text);
 
 /// The packet that an operator means: "1204112" or "1 204 112" is a number, "+100" and "-100" count from the
-/// selected packet (none: the newest one), a time is the first packet from then on. The error says what may
-/// be written, or what there is.
+/// selected packet (none: the newest one), a time means the first packet from then on. The error says what
+/// may be written, or what there is.
 [[nodiscard]] tl::expected<std::uint64_t, QString> packetTarget(model::SessionView& view,
                                                                 const QString& text);
 
