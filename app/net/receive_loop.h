@@ -23,7 +23,7 @@ struct ReceiveContext {
     PacketQueue& queue;
     CommandQueue& commands;
     ReceiveCounters& counters;
-    const std::atomic<log::Duration>& nap; ///< the longest that is asked for now
+    const std::atomic<log::Duration>& nap; ///< the longest one, as set last
     ReceiverOptions options;
 };
 

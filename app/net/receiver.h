@@ -94,8 +94,7 @@ public:
     /// closed. A connection that we make ourselves names its host already and is not asked.
     void listenTo(const AllowList& allowed);
 
-    /// Naps at most this long from now on, instead of ReceiverOptions::nap; longer than that only as far as
-    /// the buffers of the sockets have room.
+    /// Replaces ReceiverOptions::nap. The thread naps for less if the buffers of the sockets are too small.
     void setNap(log::Duration nap) { m_nap.store(nap, std::memory_order_relaxed); }
 
     /// Reads what has already arrived there, then closes. False if there is no such input.

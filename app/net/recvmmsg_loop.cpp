@@ -329,8 +329,8 @@ private:
         }
     }
 
-    /// As long as is asked for, and longer than usual only if a sudden flood then fills no more than half of
-    /// the smallest buffer.
+    /// Returns the nap that was asked for, cut to what keeps the smallest buffer half empty in a sudden
+    /// flood, but never below the usual nap for that reason.
     log::Duration longestNap() const {
         constexpr log::Duration kFloodPause = std::chrono::microseconds(100); // between two datagrams
         constexpr std::size_t kMost = 1'000;

@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::chrono::milliseconds kHistoryPause{100};
-constexpr std::chrono::milliseconds kIdlePause{500}; // after nothing came
+constexpr std::chrono::milliseconds kIdlePause{500}; // while no packet arrives
 constexpr std::uint64_t kLeastFile = std::uint64_t{1} << 20;
 
 // "history-<process>-<file>.pcapng": the process is for whoever looks into the folder, no more. Its number

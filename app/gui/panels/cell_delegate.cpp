@@ -141,7 +141,7 @@ int paintShare(QPainter& painter, const QRect& rect, const QString& number, cons
     return rect.right() - (isRoom ? reserved : 0);
 }
 
-/// True of a number that is wider than its cell.
+/// Returns whether a cell holds a number and `text` would be wider than the cell.
 bool lacksRoom(const QTreeView& view, const QModelIndex& index, const QString& text) {
     const QFontMetrics metrics(tabularFont());
     return CellDelegate::isNumber(index) &&
@@ -149,7 +149,7 @@ bool lacksRoom(const QTreeView& view, const QModelIndex& index, const QString& t
                view.visualRect(index).width();
 }
 
-/// What a cell is painted from; its text comes first.
+/// Returns the data that a cell is painted from, its text first.
 QVariantList contentOf(const QModelIndex& index) {
     constexpr std::array<int, 9> kRoles{Qt::DisplayRole, Qt::ForegroundRole, Qt::CheckStateRole,
                                         kDotRole,        kSwatchRole,        kSuffixRole,
@@ -257,7 +257,7 @@ QSize CellDelegate::sizeHint(const QStyleOptionViewItem& option, const QModelInd
 
 void CellDelegate::paint(QPainter* painter, const QStyleOptionViewItem& given,
                          const QModelIndex& index) const {
-    constexpr qsizetype kMostCells = 10'000; // with those of rows that are gone
+    constexpr qsizetype kMostCells = 10'000; // includes cells of removed rows
     if (m_painted.size() >= kMostCells) {
         m_painted.clear();
     }
@@ -331,7 +331,7 @@ QRegion CellDelegate::takeStale(const QTreeView& view) {
                 region += QRect(sight.left(), whole.top(), sight.width(), whole.height());
                 continue;
             }
-            // Words run on over empty cells, a number over what words before it leave of their room.
+            // Words continue over empty cells; a wide number uses the room that the words before it leave.
             QModelIndex beside = shownBeside(view, cell, 1);
             for (; beside.isValid() && isEmpty(beside); beside = shownBeside(view, beside, 1)) {
                 rect |= view.visualRect(beside);
@@ -339,8 +339,7 @@ QRegion CellDelegate::takeStale(const QTreeView& view) {
             if (lacksRoom(view, beside, beside.data().toString())) {
                 rect |= view.visualRect(beside);
             }
-            if (lacksRoom(view, cell, before[0].toString()) ||
-                lacksRoom(view, cell, cell.data().toString())) {
+            if (lacksRoom(view, cell, before[0].toString()) || lacksRoom(view, cell, now[0].toString())) {
                 rect |= view.visualRect(shownBeside(view, cell, -1));
             }
             region += rect;

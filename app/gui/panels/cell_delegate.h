@@ -21,7 +21,7 @@ public:
     void paint(QPainter* painter, const QStyleOptionViewItem& given, const QModelIndex& index) const override;
     [[nodiscard]] QSize sizeHint(const QStyleOptionViewItem& option, const QModelIndex& index) const override;
 
-    /// The parts of `view` that no longer show what its model says; the caller has them painted again.
+    /// Returns the parts of `view` whose data changed since they were painted; the caller repaints them.
     [[nodiscard]] QRegion takeStale(const QTreeView& view);
 
     /// Room at the left and the right of a cell's text.
@@ -33,7 +33,7 @@ public:
     static int paintBefore(QPainter& painter, const QRect& rect, int side, const QColor& swatch);
 
 private:
-    mutable QHash<QModelIndex, QVariantList> m_painted; ///< what each cell is painted from
+    mutable QHash<QModelIndex, QVariantList> m_painted; ///< data that each cell was painted from
 };
 
 } // namespace posewire::gui

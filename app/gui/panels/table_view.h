@@ -48,8 +48,8 @@ signals:
 
 protected:
     void paintEvent(QPaintEvent* event) override;
-    /// Models announce one change a tick, by the rows of the first level; those below may have changed as
-    /// well. Only cells that did are painted.
+    /// Repaints the cells that changed. Models announce one change a tick, for the rows of the first level;
+    /// rows below them may have changed as well.
     void dataChanged(const QModelIndex& topLeft, const QModelIndex& bottomRight,
                      const QList<int>& roles = {}) override;
     void contextMenuEvent(QContextMenuEvent* event) override;
