@@ -90,7 +90,7 @@ constexpr std::array kRows{
               kGaps, "Packets after a gap"},
     FigureRow{Duplicates, "duplicates", "Duplicates", kCount, Sum::Sum, Trouble::Odd,
               counted<&Counts::duplicates>,
-              "Datagrams whose sample and datagram counter had been received before", Of::Samples, "Dupl.",
+              "Datagrams whose sample and datagram counter had been received before", Of::Messages, "Dupl.",
               "duplicate", "Duplicates"},
     FigureRow{Reordered, "reordered", "Reordered", kCount, Sum::Sum, Trouble::Odd,
               counted<&Counts::reordered>,

@@ -127,6 +127,30 @@ std::vector<Faulty> kinds() {
     return all;
 }
 
+/// What three tables say of a stream, by the titles of their columns.
+std::map<std::string, std::string> tellingsOf(const std::string& html, const Json& stream) {
+    const auto type = static_cast<std::uint8_t>(std::stoi(stream["type"].get<std::string>()));
+    std::map<std::string, std::string> tellings;
+    std::size_t at = html.find("character " + stream["character"].dump() + "</span></h3>");
+    for (const char* first : {"What arrived", "Whose loss", "When it arrived"}) {
+        std::size_t end = at;
+        const auto table = between(html, end, "<table>", "</table>");
+        if (!table || table->find(first) == std::string::npos) {
+            continue; // none of its streams has such figures
+        }
+        at = end;
+        const std::vector<std::string> titles = textsOf(*table, "th");
+        std::size_t row = 0;
+        while (const auto cells = between(*table, row, "<tr>", "</tr>")) {
+            const std::vector<std::string> texts = textsOf(*cells, "td");
+            for (std::size_t i = 0; i < texts.size() && texts[0] == wire::typeTitle(type); ++i) {
+                tellings[titles.at(i)] = texts[i];
+            }
+        }
+    }
+    return tellings;
+}
+
 class Reports : public testing::TestWithParam<Faulty> {
 protected:
     /// Each kind is performed once for all tests.
@@ -232,35 +256,29 @@ TEST_P(Reports, TellInIncidentsWhatStreamsLostByCause) {
     EXPECT_EQ(told, lost);
 }
 
+TEST_P(Reports, TellInIncidentsWhatStreamsHadTwice) {
+    std::uint64_t twice = 0;
+    for (const Json& stream : streams()) {
+        twice += stream["duplicates"].get<std::uint64_t>();
+        const auto tellings = tellingsOf(monitored.html, stream);
+        EXPECT_EQ(numberOf(tellings.at("Duplicates")), stream["duplicates"]) << stream;
+    }
+    std::uint64_t told = 0;
+    for (const Json& incident : monitored.report["incidents"]) {
+        told += incident["kind"] == "duplicates" ? incident["count"].get<std::uint64_t>() : 0;
+    }
+    EXPECT_EQ(told, twice);
+    if (twice != 0) {
+        const std::string words = " datagrams came more than once.</span>";
+        EXPECT_THAT(monitored.html, testing::HasSubstr(">" + std::to_string(twice) + words));
+    }
+}
+
 TEST_P(Reports, GiveTheSameVerdictInHtml) {
     const std::string text = monitored.report["verdict"]["text"];
     EXPECT_THAT(monitored.html, testing::HasSubstr("<span>" + text + ".</span>"));
     const bool isGood = monitored.report["verdict"]["state"] == "good";
     EXPECT_EQ(isGood, GetParam().name == "None") << text;
-}
-
-/// What three tables say of a stream, by the titles of their columns.
-std::map<std::string, std::string> tellingsOf(const std::string& html, const Json& stream) {
-    const auto type = static_cast<std::uint8_t>(std::stoi(stream["type"].get<std::string>()));
-    std::map<std::string, std::string> tellings;
-    std::size_t at = html.find("character " + stream["character"].dump() + "</span></h3>");
-    for (const char* first : {"What arrived", "Whose loss", "When it arrived"}) {
-        std::size_t end = at;
-        const auto table = between(html, end, "<table>", "</table>");
-        if (!table || table->find(first) == std::string::npos) {
-            continue; // none of its streams has such figures
-        }
-        at = end;
-        const std::vector<std::string> titles = textsOf(*table, "th");
-        std::size_t row = 0;
-        while (const auto cells = between(*table, row, "<tr>", "</tr>")) {
-            const std::vector<std::string> texts = textsOf(*cells, "td");
-            for (std::size_t i = 0; i < texts.size() && texts[0] == wire::typeTitle(type); ++i) {
-                tellings[titles.at(i)] = texts[i];
-            }
-        }
-    }
-    return tellings;
 }
 
 TEST_P(Reports, GiveTheSameFiguresInHtml) {
