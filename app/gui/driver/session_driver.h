@@ -160,6 +160,8 @@ public:
     [[nodiscard]] Replaying& replaying() { return m_replaying; }
     [[nodiscard]] Demo& demo() { return m_demo; }
     [[nodiscard]] HealthMeter& health() { return m_health; }
+    /// Returns whether any window could be seen at the last tick.
+    [[nodiscard]] bool isInSight() const { return m_isInSight; }
 
     void start() { m_timer.start(0); }
     /// One display tick: what the timer calls.

@@ -2,7 +2,6 @@
 #include "app/gui/window/docks.h"
 
 #include "app/gui/base/dock_layout.h"
-#include "app/gui/base/sight.h"
 #include "app/gui/driver/session_driver.h"
 #include "app/gui/theme/event_watch.h"
 #include "app/gui/theme/help_link.h"
@@ -297,12 +296,6 @@ void Docks::showSession() {
 void Docks::forgetFile() {
     for (Dock& dock : m_docks) {
         delete std::exchange(dock.file, {}).scroll;
-    }
-}
-
-void Docks::refreshInSight() {
-    if (isAnyWindowInSight()) {
-        refresh();
     }
 }
 

@@ -41,8 +41,6 @@ public:
     /// The session of the file is about to go.
     void forgetFile();
     void refresh();
-    /// Calls refresh() if any window can be seen.
-    void refreshInSight();
 
     /// Brings a dock to the front, by its object name.
     void show(const QString& name);

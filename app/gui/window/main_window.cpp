@@ -2,7 +2,6 @@
 #include "app/gui/window/main_window.h"
 
 #include "app/gui/base/dock_layout.h"
-#include "app/gui/base/sight.h"
 #include "app/gui/inputs/inputs_page.h"
 #include "app/gui/models/comparison_text.h"
 #include "app/gui/models/text.h"
@@ -242,8 +241,11 @@ void MainWindow::connectDriver() {
     connect(&m_viewport->pictures(), &PictureLoop::due, &m_driver, &SessionDriver::tick);
     connect(&m_driver, &SessionDriver::moved, m_transport, &TransportBar::refresh);
     // Once the changes of the tick are painted: both in a row would delay mouse and keyboard.
-    connect(&m_driver, &SessionDriver::tableTick, m_docks,
-            [this] { QTimer::singleShot(kAfterTick, m_docks, &Docks::refreshInSight); });
+    connect(&m_driver, &SessionDriver::tableTick, m_docks, [this] {
+        if (m_driver.isInSight()) {
+            QTimer::singleShot(kAfterTick, m_docks, &Docks::refresh);
+        }
+    });
     connect(&m_driver, &SessionDriver::tableTick, this, [this, showTake] {
         showReceiving();
         if (m_sounds.isDue(m_driver.commands().live().verdicts().incidents(), m_settings.alerts)) {
@@ -357,7 +359,7 @@ void MainWindow::showSession() {
 void MainWindow::showReceiving() {
     const ReceivingState& state = m_driver.receiving().state();
     m_transport->setReceiving(state);
-    if (isAnyWindowInSight()) {
+    if (m_driver.isInSight()) {
         m_health->refresh(state);
         m_viewport->setReceiving(state);
     }
