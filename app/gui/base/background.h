@@ -34,8 +34,6 @@ public:
     }
     /// Waits until the work has seen that it is to end.
     ~Background() { cancel(); }
-    Background(const Background&) = delete;
-    Background& operator=(const Background&) = delete;
 
     [[nodiscard]] double share() const { return m_state->share; }
     void cancel() { m_state->isCancelled = true; }

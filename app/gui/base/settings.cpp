@@ -171,18 +171,14 @@ QString nextTakePath(const RecordingChoice& choice, const QDateTime& begin) {
     };
     const bool isNumbered = pattern.contains(QLatin1String("{take}"));
     const int take = isNumbered ? newestTakeIn(folder, pattern) + 1 : 1;
-    const QString path = folder.filePath(named(QStringLiteral("%1").arg(take, 3, 10, QLatin1Char('0')),
-                                               begin.toString(QStringLiteral("yyyy-MM-dd")),
-                                               begin.toString(QStringLiteral("HH-mm-ss"))));
-    if (!QFileInfo::exists(path)) {
-        return path;
-    }
-    int copy = 2;
+    QString path = folder.filePath(named(QStringLiteral("%1").arg(take, 3, 10, QLatin1Char('0')),
+                                         begin.toString(QStringLiteral("yyyy-MM-dd")),
+                                         begin.toString(QStringLiteral("HH-mm-ss"))));
     const QString stem = path.chopped(7);
-    while (QFileInfo::exists(QStringLiteral("%1 (%2).pcapng").arg(stem).arg(copy))) {
-        ++copy;
+    for (int copy = 2; QFileInfo::exists(path); ++copy) {
+        path = QStringLiteral("%1 (%2).pcapng").arg(stem).arg(copy);
     }
-    return QStringLiteral("%1 (%2).pcapng").arg(stem).arg(copy);
+    return path;
 }
 
 QString patternProblem(const QString& pattern) {

@@ -253,8 +253,8 @@ bool OpenedFile::follow(log::Duration most) {
     if (isAtEnd) {
         showEnd();
     }
-    takeComments();
     if (m_import != nullptr) {
+        takeComments();
         m_import->follow(m_session.end());
         if (const auto result = m_import->result()) {
             finish(*result);
@@ -279,20 +279,15 @@ void OpenedFile::stop() {
 }
 
 void OpenedFile::takeComments() {
-    if (m_import != nullptr) {
-        for (FileImport::Comment& one : m_import->takeComments()) {
-            m_session.setComment(one.packet, std::move(one.text));
-            if (one.isMarked) {
-                m_session.setMarked(one.packet, true);
-            }
+    for (FileImport::Comment& one : m_import->takeComments()) {
+        m_session.setComment(one.packet, std::move(one.text));
+        if (one.isMarked) {
+            m_session.setMarked(one.packet, true);
         }
     }
 }
 
 void OpenedFile::takeMarks() {
-    if (m_import == nullptr) {
-        return;
-    }
     for (log::RecordedMark& mark : m_import->marks()) {
         m_session.setMarked(mark.packet, true);
         if (!mark.comment.empty()) {

@@ -55,12 +55,6 @@ public:
 
     /// The log outlives this.
     FileImport(log::PacketLog& log, QString path, log::Stamp end);
-    /// Reads no further.
-    ~FileImport() = default;
-    FileImport(const FileImport&) = delete;
-    FileImport& operator=(const FileImport&) = delete;
-
-    [[nodiscard]] const QString& path() const { return m_path; }
     /// The follower has looked at all packets below one.
     void follow(std::uint64_t position);
     /// From 0 to 1.

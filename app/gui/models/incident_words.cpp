@@ -13,11 +13,6 @@ namespace {
 
 using model::IncidentKind;
 
-/// The heading of that name.
-QString causePlace(std::string_view name) {
-    return QStringLiteral("causes#") + fromUtf8(name).replace(u' ', u'-');
-}
-
 } // namespace
 
 Health healthOf(model::IncidentSeverity severity) {
@@ -56,16 +51,9 @@ QString whoseWords(model::SessionView& view, const model::Incident::Part& part) 
 }
 
 QString helpPlaceOf(const model::Incident& incident) {
-    return incident.kind == IncidentKind::Loss && incident.cause ? helpPlaceOf(*incident.cause)
-                                                                 : helpPlaceOf(incident.kind);
-}
-
-QString helpPlaceOf(model::IncidentKind kind) {
-    return causePlace(model::nameOf(kind));
-}
-
-QString helpPlaceOf(model::LossCause cause) {
-    return causePlace(model::nameOf(cause));
+    const bool isLoss = incident.kind == IncidentKind::Loss && incident.cause;
+    const std::string_view heading = isLoss ? model::nameOf(*incident.cause) : model::nameOf(incident.kind);
+    return QStringLiteral("causes#") + fromUtf8(heading).replace(u' ', u'-');
 }
 
 std::optional<std::uint64_t> incidentPacket(model::SessionView& view, const model::Incident& incident) {
@@ -92,10 +80,6 @@ PacketsBehind packetsBehind(model::SessionView& view, const model::Incident& inc
         behind.packet = incidentPacket(view, own);
     }
     return behind;
-}
-
-bool showPacketsOf(model::SessionView& view, Commands& commands, const model::Incident& incident) {
-    return showPackets(view, commands, packetsBehind(view, incident), PacketLook::InContext);
 }
 
 } // namespace posewire::gui

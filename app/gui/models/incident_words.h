@@ -20,8 +20,6 @@ namespace posewire::gui {
 
 /// Where the guide says what it means and what to do about it: its cause where it is a loss, else its kind.
 [[nodiscard]] QString helpPlaceOf(const model::Incident& incident);
-[[nodiscard]] QString helpPlaceOf(model::IncidentKind kind);
-[[nodiscard]] QString helpPlaceOf(model::LossCause cause);
 
 /// The packet where the newest of it is to be seen: its own, or the last one before where it has none.
 /// Nothing if the log has dropped it.
@@ -30,8 +28,5 @@ namespace posewire::gui {
 
 [[nodiscard]] PacketsBehind packetsBehind(model::SessionView& view, const model::Incident& incident,
                                           const model::Incident::Part* part = nullptr);
-
-/// Goes to that packet in its context; see showPackets().
-bool showPacketsOf(model::SessionView& view, Commands& commands, const model::Incident& incident);
 
 } // namespace posewire::gui

@@ -36,11 +36,6 @@ PropertyValue ageState(double age, double rateHz) {
     return {};
 }
 
-/// Another sender has taken over: nothing is wrong, and nothing more will come.
-PropertyValue ended() {
-    return {tr("ended")};
-}
-
 } // namespace
 
 std::optional<model::CharacterKey> shownCharacter(model::SessionView& view) {
@@ -55,10 +50,11 @@ std::optional<model::CharacterKey> shownCharacter(model::SessionView& view) {
     return first == characters.end() ? std::nullopt : std::optional((*first)->key);
 }
 
-model::Selection selectionOf(model::SessionView& view, const model::CharacterKey& key) {
+model::Selection selectionOf(model::SessionView& view, const model::CharacterKey& key,
+                             std::optional<int> segment) {
     model::Selection selection = view.choices().selection;
-    if (selection.character != key) {
-        selection.segment = -1;
+    if (segment || selection.character != key) {
+        selection.segment = segment.value_or(-1);
     }
     selection.sender = key.sender;
     selection.character = key;
@@ -158,7 +154,7 @@ PropertyValue verdictState(const model::TakeVerdict& verdict) {
 PropertyValue streamState(model::SessionView& view, const model::Losses& losses,
                           const model::Stream& stream) {
     if (view.roster().isSuperseded({stream.key.sender, stream.key.character})) {
-        return ended();
+        return {tr("ended")}; // another sender has taken over: nothing is wrong, and nothing more will come
     }
     if (wire::isSampled(stream.key.type)) {
         const double age = std::max(0.0, log::secondsOf(view.cursorStamp() - stream.accounting.lastStamp()));
@@ -177,7 +173,7 @@ PropertyValue streamState(model::SessionView& view, const model::Losses& losses,
 
 PropertyValue characterState(model::SessionView& view, const model::Character& character) {
     if (view.roster().isSuperseded(character.key)) {
-        return ended();
+        return {tr("ended")};
     }
     return verdictState(view.verdicts().of(character.key));
 }

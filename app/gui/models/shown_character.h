@@ -17,8 +17,9 @@ namespace posewire::gui {
 /// selected sender, where a sender is selected). Nothing where there is none.
 [[nodiscard]] std::optional<model::CharacterKey> shownCharacter(model::SessionView& view);
 
-/// The selection with another character; the segment goes with the character.
-[[nodiscard]] model::Selection selectionOf(model::SessionView& view, const model::CharacterKey& key);
+/// The selection with another character; the segment goes with the character, or is the one given.
+[[nodiscard]] model::Selection selectionOf(model::SessionView& view, const model::CharacterKey& key,
+                                           std::optional<int> segment = {});
 
 [[nodiscard]] QString characterName(model::SessionView& view, const model::CharacterKey& key);
 /// Its name, and what tells it from others of now that have the same: its ID, "Mira · 2", or where they share

@@ -5,6 +5,7 @@
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
 #include "app/gui/panels/cell_delegate.h"
+#include "app/gui/theme/event_watch.h"
 #include "app/gui/theme/theme.h"
 #include "core/model/session/accounts.h"
 #include "core/model/session/roster.h"
@@ -171,7 +172,7 @@ CharactersPanel::CharactersPanel(model::SessionView& view, Commands& commands,
     m_table->setObjectName(QStringLiteral("board"));
     m_table->setModel(&m_model);
     m_table->setItemDelegate(m_rows);
-    m_table->viewport()->installEventFilter(this);
+    new EventWatch(m_table->viewport(), QEvent::Resize, [this] { fitRows(); });
     column->addWidget(m_table, 1);
 
     auto* detail = tightColumn(m_detail);
@@ -300,13 +301,6 @@ void CharactersPanel::fitRows() {
     if (m_rows->setHeight(std::clamp(m_table->viewport()->height() / rows, least, usual))) {
         m_table->doItemsLayout();
     }
-}
-
-bool CharactersPanel::eventFilter(QObject* watched, QEvent* event) {
-    if (event->type() == QEvent::Resize && watched == m_table->viewport()) {
-        fitRows();
-    }
-    return Panel::eventFilter(watched, event);
 }
 
 /// Rows may have changed places: the current one is that of the selection, wherever it is now.

@@ -49,9 +49,6 @@ public:
 
     [[nodiscard]] EndedSenders& ended() const { return *m_ended; }
 
-protected:
-    bool eventFilter(QObject* watched, QEvent* event) override;
-
 private:
     void addActions(QMenu& menu, const QModelIndex& index);
     void showEmptyState();

@@ -367,9 +367,7 @@ void ComparePanel::select(const QModelIndex& index) {
     }
     const auto& now = m_differences.rows()[static_cast<std::size_t>(index.row())].now;
     if (now) {
-        model::Selection selection = selectionOf(m_view, comparison().pair->first);
-        selection.segment = now->first;
-        m_commands.select(selection);
+        m_commands.select(selectionOf(m_view, comparison().pair->first, now->first));
     }
     plot();
 }

@@ -232,9 +232,7 @@ void NullPosePanel::selectPlace(int place) {
         return;
     }
     m_point = -1;
-    model::Selection selection = selectionOf(m_view, *key);
-    selection.segment = m_reading.segmentAt(place);
-    m_commands.select(selection);
+    m_commands.select(selectionOf(m_view, *key, m_reading.segmentAt(place)));
     m_figure->mark(place, -1);
 }
 
@@ -244,9 +242,8 @@ void NullPosePanel::selectPoint(int point) {
         return;
     }
     m_point = point;
-    model::Selection selection = selectionOf(m_view, *key);
-    selection.segment = m_reading.pose()->points[static_cast<std::size_t>(point)].segment - 1;
-    m_commands.select(selection);
+    const auto& points = m_reading.pose()->points;
+    m_commands.select(selectionOf(m_view, *key, points[static_cast<std::size_t>(point)].segment - 1));
     m_tabs->setCurrentWidget(m_pointTable);
     m_isFollowing = true;
     setCurrentRow(*m_pointTable, point);

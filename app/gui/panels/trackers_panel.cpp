@@ -121,9 +121,8 @@ void TrackersPanel::select(const QModelIndex& index) {
     if (m_isFollowing || !index.isValid() || !key) {
         return;
     }
-    model::Selection selection = selectionOf(m_view, *key);
-    selection.segment = static_cast<int>(m_trackers.tracker(index.row()).id) - 1;
-    m_commands.select(selection);
+    const int segment = static_cast<int>(m_trackers.tracker(index.row()).id) - 1;
+    m_commands.select(selectionOf(m_view, *key, segment));
 }
 
 QString TrackersPanel::summary() const {

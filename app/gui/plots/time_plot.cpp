@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/plots/time_plot.h"
 
-#include <QVBoxLayout>
+#include "app/gui/theme/widgets.h"
+
 #include <qcustomplot.h>
 
 #include <algorithm>
@@ -68,9 +69,7 @@ TimePlot::TimePlot(const QString& name, double secondsShown, QWidget* parent)
       m_parts(new Parts{secondsShown, new QCustomPlot(this), nullptr, {}, {}, nullptr, {}, {}, {}, {}}) {
     setAccessibleName(name);
     QCustomPlot* plot = m_parts->plot;
-    auto* layout = new QVBoxLayout(this);
-    layout->setContentsMargins({});
-    layout->addWidget(plot);
+    tightColumn(this)->addWidget(plot);
     plot->setMinimumSize(fontMetrics().height() * 4, fontMetrics().height() * 4);
     plot->plotLayout()->clear();
     plot->plotLayout()->setRowSpacing(0);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/theme/widgets.h"
 
+#include "app/gui/theme/event_watch.h"
+
 #include <QCoreApplication>
 #include <QDialog>
 #include <QDialogButtonBox>
@@ -93,6 +95,14 @@ qreal balancedWidth(const QFontMetricsF& metrics, const QString& text, qreal mos
 
 void Line::paintEvent(QPaintEvent* /*event*/) {
     QPainter(this).fillRect(rect(), theme().line);
+}
+
+void paintAsBar(QWidget* bar) {
+    new EventWatch(bar, QEvent::Paint, [bar] {
+        QPainter painter(bar);
+        painter.fillRect(bar->rect(), theme().window);
+        painter.fillRect(QRect(0, bar->height() - 1, bar->width(), 1), theme().line);
+    });
 }
 
 void ComboBox::paintEvent(QPaintEvent* event) {

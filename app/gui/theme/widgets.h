@@ -55,6 +55,9 @@ protected:
     void paintEvent(QPaintEvent* event) override;
 };
 
+/// Gives a bar of the window its background and a line below.
+void paintAsBar(QWidget* bar);
+
 /// A combo box with the same ▾ as buttons that open a menu.
 class ComboBox : public QComboBox {
     Q_OBJECT

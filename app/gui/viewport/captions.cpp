@@ -144,11 +144,9 @@ EmptyState waiting(const ReceivingState& receiving) {
 EmptyState withoutPose(model::SessionView& session, const QString& file) {
     QStringList types;
     for (const model::Stream& stream : session.roster().streams()) {
-        const QString type = QStringLiteral("%1").arg(stream.key.type, 2, 10, QLatin1Char('0'));
-        if (!types.contains(type)) {
-            types += type;
-        }
+        types += QStringLiteral("%1").arg(stream.key.type, 2, 10, QLatin1Char('0'));
     }
+    types.removeDuplicates();
     if (!file.isEmpty()) {
         return {Health::Warning,
                 tr("No pose in %1").arg(file),

@@ -181,12 +181,10 @@ void drawTrackers(const OverlaySubject& subject, SceneFrame& frame) {
         }
         const model::SegmentPose& body = subject.pose.segments[segment];
         const Eigen::Vector3d out = body.orientation * Eigen::Vector3d(kOut, 0, 0);
-        const glm::vec3 at = pointOf(body.position + out);
-        frame.axes.push_back({at,
-                              turnOf(model::normalizedOrIdentity(model::toQuaternion(tracker.orientation))),
-                              0.06F, subject.strength});
-        frame.points.push_back({at, inkOf(theme().text, subject.strength), 5.0F});
         const Eigen::Quaterniond turn = model::normalizedOrIdentity(model::toQuaternion(tracker.orientation));
+        const glm::vec3 at = pointOf(body.position + out);
+        frame.axes.push_back({at, turnOf(turn), 0.06F, subject.strength});
+        frame.points.push_back({at, inkOf(theme().text, subject.strength), 5.0F});
         const Eigen::Vector3d push = kAcceleration * model::toVector(tracker.freeAcceleration);
         const Eigen::Vector3d field = kField * (turn * model::toVector(tracker.magneticField));
         if (push.allFinite() && push.norm() > 0.003) {

@@ -146,11 +146,7 @@ void OwnCharacters::dress(const QString& name, std::shared_ptr<const CharacterFi
     }
     forget(name);
     m_kept[name] = jsonOf(*file, choice);
-    if (name.isEmpty()) {
-        m_wardrobe.forAll = std::move(body);
-    } else {
-        m_wardrobe.byName[name] = std::move(body);
-    }
+    (name.isEmpty() ? m_wardrobe.forAll : m_wardrobe.byName[name]) = std::move(body);
     emit changed();
 }
 

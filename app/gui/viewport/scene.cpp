@@ -28,11 +28,6 @@ constexpr float kLongestAxes = 0.25F;
 constexpr float kUnselectedAxesAlpha = 0.85F;
 constexpr float kLabelHeight = 0.24F;
 
-glm::vec3 vectorOf(const QColor& colour) {
-    return {static_cast<float>(colour.redF()), static_cast<float>(colour.greenF()),
-            static_cast<float>(colour.blueF())};
-}
-
 /// That a body's place is assumed is not to be seen on its pelvis.
 render::Provenance provenanceOf(const model::CharacterPose& pose, std::size_t segment) {
     const model::SegmentSource& source = pose.sources[segment];
@@ -120,10 +115,10 @@ std::string propName(const model::SessionView& session, const model::CharacterKe
 render::SceneColours themedSceneColours() {
     const Theme& colours = theme();
     render::SceneColours scene = colours.isDark ? render::darkSceneColours() : render::lightSceneColours();
-    scene.axisX = vectorOf(colours.axisX);
-    scene.axisY = vectorOf(colours.axisY);
-    scene.axisZ = vectorOf(colours.axisZ);
-    scene.selection = vectorOf(colours.accent);
+    scene.axisX = inkOf(colours.axisX);
+    scene.axisY = inkOf(colours.axisY);
+    scene.axisZ = inkOf(colours.axisZ);
+    scene.selection = inkOf(colours.accent);
     return scene;
 }
 

@@ -18,12 +18,8 @@ constexpr int kEdge = 12;
 constexpr int kMargin = 10;
 
 QString spoken(const SegmentFact& fact) {
-    QStringList values;
-    for (const QString& value : fact.values) {
-        if (!value.isEmpty()) {
-            values += value;
-        }
-    }
+    QStringList values(fact.values.begin(), fact.values.end());
+    values.removeAll(QString());
     return QStringLiteral("%1 %2 %3").arg(fact.name, values.join(QLatin1Char(' ')), fact.unit).trimmed();
 }
 

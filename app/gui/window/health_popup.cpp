@@ -203,7 +203,8 @@ private:
 
     void showPackets(std::uint64_t number) {
         const model::Incident* event = m_session.verdicts().incidents().find(number);
-        if (event == nullptr || !showPacketsOf(m_session, m_commands, *event)) {
+        if (event == nullptr || !gui::showPackets(m_session, m_commands, packetsBehind(m_session, *event),
+                                                  PacketLook::InContext)) {
             m_commands.showDock(QStringLiteral("events"));
         }
         close();

@@ -115,14 +115,12 @@ QToolBar* fixedBar(const QString& title, const QString& name, QWidget* content) 
 class PressingKeys final : public QObject {
 public:
     /// From now on, as long as the parent lives.
-    explicit PressingKeys(QObject* parent);
+    explicit PressingKeys(QObject* parent) : QObject(parent) {
+        QCoreApplication::instance()->installEventFilter(this);
+    }
 
     bool eventFilter(QObject* watched, QEvent* event) override;
 };
-
-PressingKeys::PressingKeys(QObject* parent) : QObject(parent) {
-    QCoreApplication::instance()->installEventFilter(this);
-}
 
 /// A shortcut takes a key before the widget that has the focus gets it, unless that says that it wants it.
 bool PressingKeys::eventFilter(QObject* watched, QEvent* event) {

@@ -12,7 +12,6 @@
 
 #include <QAction>
 #include <QMenu>
-#include <QPainter>
 #include <QStyle>
 #include <QToolButton>
 
@@ -131,6 +130,7 @@ TransportBar::TransportBar(model::SessionView& session, const Actions& actions, 
     row->addWidget(m_add);
     m_relay->setVisible(false);
     connect(m_relay, &QAbstractButton::clicked, actions.relay, &QAction::trigger);
+    paintAsBar(this);
     new EventWatch(this, QEvent::PaletteChange, [this] { restyle(); });
     new EventWatch(this, QEvent::Resize,
                    [this] { m_detail->setVisible(width() > 100 * fontMetrics().averageCharWidth()); });
@@ -317,12 +317,6 @@ void TransportBar::showRelays(const std::vector<RelayState>& relays) {
     m_relay->setVisible(wanted > 0);
     m_relay->setContent(level, wanted == 1 ? tr("⇉ Relay") : tr("⇉ Relay to %1").arg(wanted));
     m_relay->setToolTip(toolTipText(lines.join(QLatin1Char('\n'))));
-}
-
-void TransportBar::paintEvent(QPaintEvent* /*event*/) {
-    QPainter painter(this);
-    painter.fillRect(rect(), theme().window);
-    painter.fillRect(QRect(0, height() - 1, width(), 1), theme().line);
 }
 
 } // namespace posewire::gui

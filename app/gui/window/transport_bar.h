@@ -52,9 +52,6 @@ signals:
     /// More is wanted about an input.
     void inputRequested(const InputAddress& input);
 
-protected:
-    void paintEvent(QPaintEvent* event) override;
-
 private:
     /// Waiting: it would follow, but nothing arrives. Idle: and nothing can, for there is no input.
     enum class Mode { Live, Waiting, Idle, Paused, Playing };

@@ -166,6 +166,7 @@ VerdictBar::VerdictBar(model::SessionView& live, const Actions& actions, QWidget
     column->addLayout(row);
     column->addWidget(m_strip);
     m_strip->hide();
+    paintAsBar(this);
     new EventWatch(m_strip, QEvent::Paint, [this] {
         QPainter painter(m_strip);
         painter.fillRect(m_strip->rect(), tinted(theme().accent));
@@ -233,12 +234,6 @@ void VerdictBar::showStrip(const ShownFile& file, bool hasInputs) {
     m_goLive->setVisible(file.isShown && hasInputs);
     m_goLive->setText(tr("Back to live (%1)").arg(liveText(m_live, m_verdict)));
     m_closeFile->setVisible(file.isShown);
-}
-
-void VerdictBar::paintEvent(QPaintEvent* /*event*/) {
-    QPainter painter(this);
-    painter.fillRect(rect(), theme().window);
-    painter.fillRect(QRect(0, height() - 1, width(), 1), theme().line);
 }
 
 } // namespace posewire::gui

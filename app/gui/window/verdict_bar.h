@@ -80,9 +80,6 @@ signals:
     /// `incident` is what the verdict rests on, where it rests on one.
     void evidenceRequested(std::optional<std::uint64_t> incident);
 
-protected:
-    void paintEvent(QPaintEvent* event) override;
-
 private:
     void showVerdict(bool isBehindFile, const QString& blocked);
     void showStrip(const ShownFile& file, bool hasInputs);

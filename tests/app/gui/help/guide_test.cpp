@@ -90,10 +90,10 @@ TEST(Guide, EveryTopicLeadsToAHeading) {
 
 TEST(Guide, ExplainsEveryKindOfIncidentAndEveryCause) {
     for (const model::IncidentKindFacts& kind : model::kIncidentKindTable) {
-        EXPECT_TRUE(exists(helpPlaceOf(kind.kind))) << kind.name;
+        EXPECT_TRUE(exists(helpPlaceOf({.kind = kind.kind}))) << kind.name;
     }
     for (std::size_t i = 0; i < model::kLossCauses; ++i) {
-        EXPECT_TRUE(exists(helpPlaceOf(static_cast<model::LossCause>(i))));
+        EXPECT_TRUE(exists(helpPlaceOf({.kind = model::IncidentKind::Loss, .cause = model::LossCause(i)})));
     }
 }
 
