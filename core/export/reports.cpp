@@ -135,7 +135,7 @@ JsonValue incidentJson(const model::SessionView& session, const model::ListedInc
     const words::Fact fact = factOf(session, listed);
     JsonValue object{
         {"id", incident.number},
-        {"kind", model::wordOf(incident.kind)},
+        {"kind", model::factsOf(incident.kind).word},
         {"cause", causeJson(incident.cause)},
         {"state", model::nameOf(listed.state)},
         {"beginNs", timeJson(session, incident.firstStamp)},

@@ -45,17 +45,6 @@ std::string_view nameOf(model::IncidentGroup group) {
     return kNames[static_cast<std::size_t>(group)];
 }
 
-/// Seconds since 1970 with nine decimals; "-0.500000000" before that.
-std::string secondsText(log::WallTime wall) {
-    constexpr std::uint64_t kSecond = 1'000'000'000;
-    const std::int64_t time = log::nanosecondsOf(wall);
-    const auto sizeOfTime =
-        time < 0 ? std::uint64_t{0} - static_cast<std::uint64_t>(time) : static_cast<std::uint64_t>(time);
-    const std::string decimals = std::to_string(sizeOfTime % kSecond);
-    return (time < 0 ? "-" : "") + std::to_string(sizeOfTime / kSecond) + '.' +
-           std::string(9 - decimals.size(), '0') + decimals;
-}
-
 /// "1 2 4".
 template <class Value, class ToText>
 std::string joined(const std::vector<Value>& values, ToText&& toText) {
@@ -182,8 +171,8 @@ std::string eventsCsv(const EventSheet& sheet) {
             joined(event->characters(),
                    [](const model::CharacterKey& one) { return std::to_string(one.character); }),
             joined(event->types(), wire::typeDigits),
-            secondsText(sheet.session.wallOf(event->firstStamp)),
-            secondsText(sheet.session.wallOf(event->lastStamp)),
+            log::secondsText(sheet.session.wallOf(event->firstStamp).time_since_epoch()),
+            log::secondsText(sheet.session.wallOf(event->lastStamp).time_since_epoch()),
             std::to_string(event->firstPacket),
             std::to_string(event->lastPacket),
             std::to_string(event->count),

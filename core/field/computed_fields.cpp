@@ -165,28 +165,23 @@ const wire::Header* Subject::header() {
     return m_header ? &*m_header : nullptr;
 }
 
-std::vector<FieldInfo> computedFields() {
-    std::vector<FieldInfo> fields;
-    for (const Row& row : kRows) {
-        FieldInfo info;
-        info.name = row.name;
-        info.kind = row.kind;
-        info.unit = row.unit;
-        info.read = row.kind == Kind::Number ? findUnit(row.unit) : nullptr;
-        info.dimension = info.read != nullptr ? info.read->dimension : Dimension::None;
-        info.text = row.text;
-        info.readPacket = row.read;
-        info.words = wordsOf(row);
-        info.isTrueByValue = row.isTrueByValue;
-        info.isJudged = row.isJudged;
-        fields.push_back(std::move(info));
-    }
-    return fields;
-}
-
 const std::vector<FieldInfo>& fieldTable() {
     static const auto table = [] {
-        auto fields = computedFields();
+        std::vector<FieldInfo> fields;
+        for (const Row& row : kRows) {
+            FieldInfo info;
+            info.name = row.name;
+            info.kind = row.kind;
+            info.unit = row.unit;
+            info.read = row.kind == Kind::Number ? findUnit(row.unit) : nullptr;
+            info.dimension = info.read != nullptr ? info.read->dimension : Dimension::None;
+            info.text = row.text;
+            info.readPacket = row.read;
+            info.words = wordsOf(row);
+            info.isTrueByValue = row.isTrueByValue;
+            info.isJudged = row.isJudged;
+            fields.push_back(std::move(info));
+        }
         for (FieldInfo& field : wireFields()) {
             fields.push_back(std::move(field));
         }

@@ -153,8 +153,6 @@ inline constexpr std::string_view kAsSent = "wire.";
 /// All fields: the computed ones, those of the header, those of the messages.
 [[nodiscard]] const std::vector<FieldInfo>& fieldTable();
 
-/// Those of the computed fields, for packets rather than the wire.
-[[nodiscard]] std::vector<FieldInfo> computedFields();
 /// Those that the layouts of core/wire declare, found by walking them.
 [[nodiscard]] std::vector<FieldInfo> wireFields();
 

@@ -91,21 +91,6 @@ Symbol symbolAt(std::string_view text) {
     return {isUnseen(character) ? codeOf(character) : std::string(sequence), sequence.size()};
 }
 
-std::string clipped(std::string_view bytes) {
-    std::string shown;
-    std::size_t end = 0; // up to where there is room for the ellipsis
-    while (!bytes.empty()) {
-        const Symbol symbol = symbolAt(bytes);
-        if (shown.size() + symbol.text.size() > ForeignText::kMostBytes) {
-            return shown.substr(0, end).append(kEllipsis);
-        }
-        shown += symbol.text;
-        end = shown.size() + kEllipsis.size() <= ForeignText::kMostBytes ? shown.size() : end;
-        bytes.remove_prefix(symbol.length);
-    }
-    return shown;
-}
-
 /// Names that Windows keeps for devices, with whatever suffix.
 bool isDevice(std::string_view name) {
     const std::string stem = wire::lowered(name.substr(0, name.find('.')));
@@ -122,15 +107,26 @@ std::uint64_t hashOf(std::string_view bytes) {
 
 } // namespace
 
-ForeignText::ForeignText(std::string_view bytes, std::nullptr_t) : m_shown(clipped(bytes)) {
+std::string shownText(std::string_view bytes) {
+    std::string shown;
+    std::size_t end = 0; // up to where there is room for the ellipsis
+    while (!bytes.empty()) {
+        const Symbol symbol = symbolAt(bytes);
+        if (shown.size() + symbol.text.size() > ForeignText::kMostBytes) {
+            return shown.substr(0, end).append(kEllipsis);
+        }
+        shown += symbol.text;
+        end = shown.size() + kEllipsis.size() <= ForeignText::kMostBytes ? shown.size() : end;
+        bytes.remove_prefix(symbol.length);
+    }
+    return shown;
+}
+
+ForeignText::ForeignText(std::string_view bytes, std::nullptr_t) : m_shown(shownText(bytes)) {
     if (m_shown != bytes) {
         m_exact = std::make_shared<const std::string>(bytes);
         m_hash = hashOf(bytes);
     }
-}
-
-std::string ForeignText::csv() const {
-    return csvText(m_shown);
 }
 
 std::string ForeignText::fileName(std::string_view otherwise) const {
@@ -155,16 +151,12 @@ std::string ForeignText::fileName(std::string_view otherwise) const {
 bool ForeignText::isOf(std::string_view bytes) const {
     return m_exact != nullptr ? *m_exact == bytes
            : m_hash == 0      ? m_shown == bytes
-                              : m_hash == hashOf(bytes) && m_shown == clipped(bytes);
+                              : m_hash == hashOf(bytes) && m_shown == shownText(bytes);
 }
 
 std::size_t ForeignText::memoryBytes() const {
     const std::size_t own = m_shown.capacity() > std::string().capacity() ? m_shown.capacity() : 0;
     return own + (m_exact != nullptr ? sizeof(std::string) + 2 * sizeof(void*) + m_exact->capacity() : 0);
-}
-
-std::string shownText(std::string_view bytes) {
-    return clipped(bytes);
 }
 
 std::string visibleText(std::string_view text) {

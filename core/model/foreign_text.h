@@ -12,6 +12,9 @@ namespace posewire::model {
 
 /// Text with the entities of HTML for & < > " and '.
 [[nodiscard]] std::string htmlText(std::string_view text);
+/// A text that a spreadsheet takes for no formula: after an apostrophe where it begins with = + - @, a tab or
+/// a carriage return.
+[[nodiscard]] std::string csvText(std::string_view text);
 
 /// What a sender or a file wrote: names, tags, addresses, comments. It may hold anything, so nothing shows it
 /// as it came: who shows it asks for the form that its place needs. All forms but exact() are made of what is
@@ -35,7 +38,7 @@ public:
     /// For HTML, in text and in quoted attributes.
     [[nodiscard]] std::string html() const { return htmlText(m_shown); }
     /// For a cell of a table, before it is quoted: see csvText().
-    [[nodiscard]] std::string csv() const;
+    [[nodiscard]] std::string csv() const { return csvText(m_shown); }
     /// Names one file in the folder it is put into, whatever was written: no separators, no leading dot or
     /// blank, no name that Windows keeps for a device; `otherwise` where nothing is left.
     [[nodiscard]] std::string fileName(std::string_view otherwise) const;
@@ -71,9 +74,5 @@ private:
 
 /// The same symbols without a clip, for texts of ours that quote foreign ones; line breaks and tabs stay.
 [[nodiscard]] std::string visibleText(std::string_view text);
-
-/// A text that a spreadsheet takes for no formula: after an apostrophe where it begins with = + - @, a tab or
-/// a carriage return.
-[[nodiscard]] std::string csvText(std::string_view text);
 
 } // namespace posewire::model

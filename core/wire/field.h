@@ -121,18 +121,13 @@ enum class TextKind : std::uint8_t {
     ToEnd,          ///< revision E: the rest of the datagram
 };
 
-/// Bytes around the characters of a text: its length, or the zero that ends it.
-constexpr std::size_t frameSize(TextKind kind) {
-    constexpr std::array<std::size_t, 3> kSizes{4, 1, 0};
-    return kSizes[static_cast<std::size_t>(kind)];
-}
-
 /// A string.
 template <auto Member, TextKind Kind>
 struct Text {
     static constexpr TextKind kKind = Kind;
     static constexpr bool kIsValue = false;
-    static constexpr std::size_t kLeastSize = frameSize(Kind);
+    /// Its length, or the zero that ends it.
+    static constexpr std::size_t kLeastSize = std::array{4U, 1U, 0U}[static_cast<std::size_t>(Kind)];
     static constexpr auto kMember = Member;
     About about;
 };

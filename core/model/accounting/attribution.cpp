@@ -384,10 +384,8 @@ std::uint64_t Attribution::firstPending(log::Stamp after) const {
 /// Samples from before the step was known: in hindsight they are lost, or are not, and no gap was seen.
 void Attribution::attributeRest(Stream& stream) {
     const StreamCounts counts = stream.accounting.counts();
-    std::uint64_t told = 0;
-    for (const std::uint64_t samples : stream.attributed) {
-        told += samples;
-    }
+    std::uint64_t told =
+        std::accumulate(stream.attributed.begin(), stream.attributed.end(), std::uint64_t{0});
     forEachWaiting([&](const Gap& gap) { told += gap.stream == stream.key ? gap.lost : 0; });
     for (const Partial& partial : m_partials) {
         told += partial.stream == &stream && stream.accounting.isIncomplete(partial.sample) ? 1 : 0;

@@ -51,10 +51,6 @@ void BodyMeasure::addBone(std::size_t segment, const Vector3d& bone) {
     ++m_bones[segment].count;
 }
 
-void BodyMeasure::addLength(std::size_t segment, double length) {
-    addBone(segment, referenceBone(segment).normalized() * length);
-}
-
 void BodyMeasure::addWhole(const wire::Datagram& datagram, LengthUnit unit) {
     CharacterPose pose;
     if (!poseFromMessage(datagram, referenceOrigins(), unit, pose) || pose.isObjects ||
@@ -100,7 +96,7 @@ void BodyMeasure::addPositions(const wire::Header& header, const wire::LinearKin
         return;
     }
     for (std::size_t i = 1; i < kBodySegments; ++i) {
-        addLength(i, (*places[i] - *places[parentOf(i)]).norm());
+        addBone(i, referenceBone(i).normalized() * (*places[i] - *places[parentOf(i)]).norm());
     }
     ++m_poses;
 }
@@ -108,11 +104,7 @@ void BodyMeasure::addPositions(const wire::Header& header, const wire::LinearKin
 /// Of each pair of neighbouring markers of a segment, how far apart they are against the reference body; the
 /// median, since some may be lost or exchanged.
 void BodyMeasure::addMarkers(const wire::PointPositions& message, LengthUnit unit) {
-    std::vector<std::uint32_t> ids;
-    for (const wire::Point& point : message.points) {
-        ids.push_back(point.id);
-    }
-    const PointIdCoding coding = detectPointIdCoding(ids);
+    const PointIdCoding coding = detectPointIdCoding(idsOf(message.points));
     std::vector<double> scales;
     const AnatomicalPoint* before = nullptr;
     Vector3d placeBefore = Vector3d::Zero();

@@ -33,7 +33,6 @@ private:
         int count = 0;
     };
     void addBone(std::size_t segment, const Eigen::Vector3d& bone);
-    void addLength(std::size_t segment, double length);
     void addWhole(const wire::Datagram& datagram, LengthUnit unit);
     void addUnity(const wire::PoseUnity& message, LengthUnit unit);
     void addPositions(const wire::Header& header, const wire::LinearKinematics& message, LengthUnit unit);

@@ -39,16 +39,6 @@ void prepare(CharacterPose& pose, const wire::Header& header, const SegmentLayou
     pose.moved.setZero();
 }
 
-template <class Items>
-std::vector<std::uint32_t> idsOf(const Items& items) {
-    std::vector<std::uint32_t> ids;
-    ids.reserve(items.size());
-    for (const auto& item : items) {
-        ids.push_back(item.id);
-    }
-    return ids;
-}
-
 /// Where the items of a whole message are in the pose.
 struct Placement {
     SegmentLayout layout;

@@ -67,6 +67,17 @@ struct ItemPlaces {
 /// than a body, numbered without a gap, and up to 8 of them where its header has no counts.
 [[nodiscard]] bool isOfObjects(const wire::Header& header, std::span<const std::uint32_t> ids);
 
+/// The ids of the items of a message, in its order.
+template <class Items>
+std::vector<std::uint32_t> idsOf(const Items& items) {
+    std::vector<std::uint32_t> ids;
+    ids.reserve(items.size());
+    for (const auto& item : items) {
+        ids.push_back(item.id);
+    }
+    return ids;
+}
+
 /// Pose from a message of type 01, 02 or 05, as sent; false for any other body. Items of the body are placed
 /// by their IDs, the first of those that have the same; for type 05 by the Unity3D order, chained from the
 /// pelvis over `nullPose` (23 segment origins, metres), since wire positions of that type are relative and

@@ -13,17 +13,10 @@ bool losesSamples(IncidentKind kind) {
     return kind == IncidentKind::Loss || kind == IncidentKind::Local || kind == IncidentKind::Outage;
 }
 
-words::Fact missingOf(const Incident& incident) {
-    const bool isOfMessages = incident.isOfMessages();
-    return {isOfMessages ? words::Kind::Incomplete : words::Kind::Lost,
-            {{"n", words::counted(isOfMessages ? words::Kind::Messages : words::Kind::Samples,
-                                  incident.samples)}}};
-}
-
 void addLosses(const Incident& incident, words::Fact& fact) {
     if (incident.samples != 0 || incident.kind == IncidentKind::Loss) {
-        fact.values.push_back({"missing", missingOf(incident)});
-        fact.values.push_back({"amount", missingOf(incident)});
+        fact.values.push_back({"missing", lostFact(incident, incident.samples, 0)});
+        fact.values.push_back({"amount", lostFact(incident, incident.samples, 0)});
     }
     if (!incident.isOfMessages() && incident.count != 0) {
         fact.values.push_back({"gaps", words::counted(words::Kind::Gaps, incident.count)});
@@ -112,8 +105,16 @@ std::string_view nameOf(IncidentKind kind) {
     return factsOf(kind).name;
 }
 
-std::string_view wordOf(IncidentKind kind) {
-    return factsOf(kind).word;
+words::Fact lostFact(const Incident& incident, std::uint64_t samples, std::uint64_t expected) {
+    constexpr std::uint64_t kFew = 10;
+    const bool isOfMessages = incident.isOfMessages();
+    const double percent =
+        100.0 * static_cast<double>(samples) / static_cast<double>(std::max<std::uint64_t>(1, expected));
+    const bool isShare = samples > kFew && expected > 10 * kFew && percent <= 100 && !isOfMessages;
+    words::Fact amount =
+        isShare ? words::Fact{words::Kind::Share, {{"n", words::Number{percent, percent < 10 ? 1 : 0}}}}
+                : words::counted(isOfMessages ? words::Kind::Messages : words::Kind::Samples, samples);
+    return {isOfMessages ? words::Kind::Incomplete : words::Kind::Lost, {{"n", std::move(amount)}}};
 }
 
 words::Fact causeFact(LossCause cause) {

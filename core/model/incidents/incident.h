@@ -54,8 +54,6 @@ enum class IncidentGroup : std::uint8_t { Sender, Loss, Content, Limit };
 
 /// "source up", "loss" and so on, as people read it.
 [[nodiscard]] std::string_view nameOf(IncidentKind kind);
-/// Of the contract for scripts: "loss", "outage", "local" …; empty for a note, which is no incident there.
-[[nodiscard]] std::string_view wordOf(IncidentKind kind);
 
 [[nodiscard]] words::Fact causeFact(LossCause cause);
 
@@ -167,12 +165,15 @@ struct Incident {
     [[nodiscard]] words::Fact fact(const Part& part) const;
 };
 
+/// "37 samples lost", or "2.3 % lost" of the samples expected if that says more; 0 expected: not known.
+[[nodiscard]] words::Fact lostFact(const Incident& incident, std::uint64_t samples, std::uint64_t expected);
+
 /// A kind of incident: a row of the table below.
 struct IncidentKindFacts {
     IncidentKind kind;
     std::string_view name;
-    std::string_view word;
-    words::Kind says; ///< Nothing if its detail says it
+    std::string_view word; ///< of the contract for scripts; empty for a note, which is no incident there
+    words::Kind says;      ///< Nothing if its detail says it
     IncidentSeverity severity;
     IncidentGroup group;
     bool lasts = false;         ///< until it is ended, else until it has been quiet

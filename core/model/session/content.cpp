@@ -181,7 +181,9 @@ void Content::lookForContradictions(log::Stamp stamp) {
             lookForFragments(sender, stamp);
             const auto found = m_roll.hasEnded(sender) ? std::vector<words::Fact>() : sender.contradictions();
             Occurrence one = Occurrence::at(IncidentKind::Scale, sender.id, stamp);
-            one.detail = found.empty() ? words::Fact() : found.front();
+            if (!found.empty()) {
+                one.detail = {words::Kind::Contradiction, {{"what", found.front()}}};
+            }
             m_incidents.takeCondition(std::move(one));
         }
     }

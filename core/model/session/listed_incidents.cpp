@@ -237,18 +237,6 @@ words::Value whoOf(const SessionView& session, std::span<const CharacterKey> cha
     return namesOrCount(std::move(names));
 }
 
-words::Fact lostFact(const Incident& incident, std::uint64_t samples, std::uint64_t expected) {
-    constexpr std::uint64_t kFew = 10;
-    const bool isOfMessages = incident.isOfMessages();
-    const double percent =
-        100.0 * static_cast<double>(samples) / static_cast<double>(std::max<std::uint64_t>(1, expected));
-    const bool isShare = samples > kFew && expected > 10 * kFew && percent <= 100 && !isOfMessages;
-    words::Fact amount =
-        isShare ? words::Fact{words::Kind::Share, {{"n", words::Number{percent, percent < 10 ? 1 : 0}}}}
-                : words::counted(isOfMessages ? words::Kind::Messages : words::Kind::Samples, samples);
-    return {isOfMessages ? words::Kind::Incomplete : words::Kind::Lost, {{"n", std::move(amount)}}};
-}
-
 const Stream* streamOf(const SessionView& session, const Incident::Part& part) {
     return part.character && part.type
                ? session.roster().find(log::StreamKey{part.sender, *part.character, *part.type})
@@ -261,7 +249,7 @@ std::string_view nameOf(ListedIncident::State state) {
 }
 
 bool isNote(const Incident& incident) {
-    return wordOf(incident.kind).empty();
+    return factsOf(incident.kind).word.empty();
 }
 
 ListedIncident::State stateOf(const SessionView& session, const Incident& incident) {

@@ -53,9 +53,6 @@ struct ListedIncident {
 /// "Jonas", "Jonas and Mira", "4 characters".
 [[nodiscard]] words::Value whoOf(const SessionView& session, std::span<const CharacterKey> characters);
 
-/// "37 samples lost", or "2.3 % lost" of the samples expected if that says more; 0 expected: not known.
-[[nodiscard]] words::Fact lostFact(const Incident& incident, std::uint64_t samples, std::uint64_t expected);
-
 /// Of its senders, each once; "this computer" if it is of none.
 [[nodiscard]] std::vector<ForeignText> addressesOf(const SessionView& session, const Incident& incident);
 

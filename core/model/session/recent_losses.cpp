@@ -24,9 +24,8 @@ std::optional<words::Fact> RecentLosses::amountOf(const ListedIncident& one) {
     if (!isLoss || !isOlder || one.state == ListedIncident::State::Provisional || !incident.cause) {
         return {};
     }
-    const FaultCounts sum = sumOf(incident);
-    const std::uint64_t samples = sum.lost[causeOf(incident)];
-    return samples == 0 ? std::nullopt : std::optional(lostFact(incident, samples, sum.expected));
+    const LossShare sum = shareOf(incident);
+    return sum.lost == 0 ? std::nullopt : std::optional(lostFact(incident, sum.lost, sum.expected));
 }
 
 bool RecentLosses::isAboveLimit(const Incident& incident) {
@@ -35,29 +34,22 @@ bool RecentLosses::isAboveLimit(const Incident& incident) {
     if (isUntilNow && log::secondsOf(m_session.now() - m_range->from) >= window) {
         return std::ranges::any_of(incident.parts, &Incident::Part::isAbove);
     }
-    const std::vector<double> shares = judgedShares(incident, [&](const Incident::Part& part) {
-        const FaultCounts counts = countsOf(part);
-        return LossShare{counts.lost[causeOf(incident)], counts.expected};
-    });
+    const std::vector<double> shares =
+        judgedShares(incident, [&](const Incident::Part& part) { return shareOf(part, causeOf(incident)); });
     const double limit =
         m_session.isRecording() ? incident.limit : m_session.verdicts().thresholds().lossPercent;
     return limit > 0 && std::ranges::any_of(shares, [&](double share) { return 100 * share > limit; });
 }
 
 LossShare RecentLosses::shareOf(const Incident& incident) {
-    const FaultCounts sum = sumOf(incident);
-    return {sum.lost[causeOf(incident)], sum.expected};
-}
-
-FaultCounts RecentLosses::sumOf(const Incident& incident) {
-    FaultCounts sum;
+    LossShare sum;
     for (const Incident::Part& part : incident.parts) {
-        sum += countsOf(part);
+        sum += shareOf(part, causeOf(incident));
     }
     return sum;
 }
 
-FaultCounts RecentLosses::countsOf(const Incident::Part& part) {
+LossShare RecentLosses::shareOf(const Incident::Part& part, std::size_t cause) {
     const Stream* stream = streamOf(m_session, part);
     if (stream == nullptr) {
         return {};
@@ -67,12 +59,9 @@ FaultCounts RecentLosses::countsOf(const Incident::Part& part) {
         m_silent = lossesInSilences(m_session.verdicts().incidents(), m_range);
     }
     const StreamLosses losses = m_losses->of(*stream);
-    FaultCounts counts{losses.byCause, 0, losses.expected};
-    if (const auto silent = m_silent.find(stream->key); silent != m_silent.end()) {
-        std::ranges::transform(counts.lost, silent->second, counts.lost.begin(),
-                               [](std::uint64_t all, std::uint64_t its) { return all - std::min(all, its); });
-    }
-    return counts;
+    const auto silent = m_silent.find(stream->key);
+    const std::uint64_t its = silent != m_silent.end() ? silent->second[cause] : 0;
+    return {losses.byCause[cause] - std::min(losses.byCause[cause], its), losses.expected};
 }
 
 } // namespace posewire::model

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/model/incidents/thresholds.h"
-#include "core/model/session/fault_matrix.h"
 #include "core/model/session/listed_incidents.h"
+#include "core/model/session/losses.h"
 
 #include <optional>
 #include <unordered_map>
@@ -27,8 +27,7 @@ public:
     [[nodiscard]] LossShare shareOf(const Incident& incident);
 
 private:
-    [[nodiscard]] FaultCounts countsOf(const Incident::Part& part);
-    [[nodiscard]] FaultCounts sumOf(const Incident& incident);
+    [[nodiscard]] LossShare shareOf(const Incident::Part& part, std::size_t cause);
 
     const SessionView& m_session;
     std::optional<TimeRange> m_range;

@@ -87,19 +87,9 @@ public:
         }
     }
     /// Through restarts of its sender.
-    void setHidden(const CharacterKey& key, bool isHidden) {
-        for (const Character* one : roster().lineage(atNow().roster().current(key))) {
-            setIn(m_choices.hidden, one->key, false);
-        }
-        setIn(m_choices.hidden, key, isHidden);
-    }
+    void setHidden(const CharacterKey& key, bool isHidden) { choose(m_choices.hidden, key, isHidden); }
     /// Puts a character on the floor that is sent below it, through restarts of its sender.
-    void setLifted(const CharacterKey& key, bool isLifted) {
-        for (const Character* one : roster().lineage(atNow().roster().current(key))) {
-            setIn(m_choices.lifted, one->key, false);
-        }
-        setIn(m_choices.lifted, key, isLifted);
-    }
+    void setLifted(const CharacterKey& key, bool isLifted) { choose(m_choices.lifted, key, isLifted); }
     /// Takes a sender out of all lists that has ended, or has been silent for a second: its sums stay, and
     /// what its characters were goes to those that took over. False, and nothing happens, where it sends.
     bool forget(log::SenderId sender);
@@ -117,6 +107,12 @@ private:
     std::optional<TimeRange> m_edges; ///< of the range that is chosen, as it was
     std::array<bool, 2> m_isExact{};  ///< from its beginning on, up to its end
 
+    void choose(std::set<CharacterKey>& chosen, const CharacterKey& key, bool isIn) {
+        for (const Character* one : roster().lineage(atNow().roster().current(key))) {
+            setIn(chosen, one->key, false);
+        }
+        setIn(chosen, key, isIn);
+    }
     template <class Value>
     static void setIn(std::set<Value>& set, const Value& value, bool isIn) {
         if (isIn) {

@@ -19,7 +19,7 @@ protected:
         std::optional<std::uint32_t> held;
         for (std::uint32_t sample = 0; sample < 60 * kLength / 1s; ++sample) {
             const log::Stamp stamp = at(1000s + log::Duration(static_cast<std::int64_t>(frame * sample)));
-            const std::uint32_t fate = m_random() % 200;
+            const auto fate = static_cast<std::uint32_t>(m_random() % 200);
             const bool isPause = sample % 4000 > 3900;
             if (fate < 6 || isPause) {
                 continue;

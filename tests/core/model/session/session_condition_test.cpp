@@ -200,8 +200,9 @@ TEST_F(ConditionTest, WarnsWhereASenderContradictsItself) {
     m_session.setOverride(sender(), {.revision = Revision::E});
     const TakeVerdict verdict = verdictAfter(0ms);
     EXPECT_EQ(verdict.state, State::Warning);
-    EXPECT_EQ(partOf(verdict.said, "reason").kind, words::Kind::SendsCounts) << verdict.said;
-    EXPECT_EQ(namesIn(partOf(verdict.said, "reason"), "declared"), std::vector<std::string>{"E"});
+    const words::Fact what = partOf(partOf(verdict.said, "reason"), "what");
+    EXPECT_EQ(what.kind, words::Kind::SendsCounts) << verdict.said;
+    EXPECT_EQ(namesIn(what, "declared"), std::vector<std::string>{"E"});
     m_session.setOverride(sender(), {.revision = Revision::N});
     EXPECT_EQ(partOf(verdictAfter(0ms).said, "lasts").kind, words::Kind::Over);
 }
@@ -233,8 +234,9 @@ TEST_F(ConditionTest, WarnsOfASenderThatChangesItsHeaders) {
     poses(51, 50, wire::HeaderEra::Reserved);
     const TakeVerdict verdict = verdictAfter(0ms);
     EXPECT_EQ(verdict.state, State::Warning);
-    EXPECT_EQ(partOf(verdict.said, "reason").kind, words::Kind::CountsComeAndGo) << verdict.said;
-    EXPECT_EQ(namesIn(partOf(verdict.said, "reason"), "type"), std::vector<std::string>{"02"});
+    const words::Fact what = partOf(partOf(verdict.said, "reason"), "what");
+    EXPECT_EQ(what.kind, words::Kind::CountsComeAndGo) << verdict.said;
+    EXPECT_EQ(namesIn(what, "type"), std::vector<std::string>{"02"});
 }
 
 TEST_F(ConditionTest, OfAnUnknownCharacterIsNone) {
