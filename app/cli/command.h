@@ -59,6 +59,7 @@ void addOutputs(usage::Arguments arguments, bool& replaces);
 Command addDecodeCommand(CommandLine& program);
 Command addEncodeCommand(CommandLine& program);
 Command addExportCommand(CommandLine& program);
+Command addFollowCommand(CommandLine& program);
 Command addMonitorCommand(CommandLine& program);
 Command addReferenceCommand(CommandLine& program);
 Command addReportCommand(CommandLine& program);

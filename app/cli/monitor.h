@@ -51,6 +51,7 @@ struct MonitorOptions {
     double intervalSeconds = 1;
     std::string record; ///< empty: not; "-" for standard output
     std::string report; ///< empty: none; "-" for standard output
+    std::string follow; ///< where poses go: empty: nowhere; "-": standard output; else see net::LineServer
     bool replaces = false;
     bool asJson = false;
     bool asJsonLines = false;

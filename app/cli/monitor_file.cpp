@@ -200,15 +200,22 @@ DeclaredOption addPlace(Arguments arguments, const std::string& name, std::vecto
     return arguments.add(name, texts, what + "; may be given several times").group("Where from");
 }
 
-void addPlaces(Arguments arguments, MonitorOptions& options) {
-    const std::array<DeclaredOption, 4> places{
-        addPlace(arguments, "--udp [ADDRESS:]PORT", options.udp,
-                 "listen there (default 9763); ADDRESS is one of this computer's, where it has several "
-                 "networks and only one is meant: broadcasts and multicast may then not arrive"),
-        addPlace(arguments, "--multicast GROUP", options.multicast, "join it at the UDP ports"),
-        addPlace(arguments, "--tcp-listen [ADDRESS:]PORT", options.tcpListen,
-                 "wait there for MVN to connect"),
-        addPlace(arguments, "--tcp HOST:PORT", options.tcp, "connect there, again and again")};
+/// Where to receive from. The last one is `--from`.
+std::array<DeclaredOption, 5> addPlaces(Arguments arguments, MonitorOptions& options) {
+    return {addPlace(arguments, "--udp [ADDRESS:]PORT", options.udp,
+                     "listen there (default 9763); ADDRESS is one of this computer's, where it has several "
+                     "networks and only one is meant: broadcasts and multicast may then not arrive"),
+            addPlace(arguments, "--multicast GROUP", options.multicast, "join it at the UDP ports"),
+            addPlace(arguments, "--tcp-listen [ADDRESS:]PORT", options.tcpListen,
+                     "wait there for MVN to connect"),
+            addPlace(arguments, "--tcp HOST:PORT", options.tcp, "connect there, again and again"),
+            addPlace(arguments, "--from HOST|NET", options.allowed,
+                     "listen only to this address, net (such as 192.168.1.0/24) or host; others are not "
+                     "recorded, only counted")};
+}
+
+void addPlacesOrFile(Arguments arguments, MonitorOptions& options) {
+    const auto places = addPlaces(arguments, options);
     DeclaredOption file =
         arguments.add("FILE", options.file,
                       "a recording instead of the network, as fast as it goes, with its own "
@@ -216,9 +223,6 @@ void addPlaces(Arguments arguments, MonitorOptions& options) {
     for (const DeclaredOption place : places) {
         file.excludes(place);
     }
-    file.excludes(addPlace(arguments, "--from HOST|NET", options.allowed,
-                           "listen only to this address, net (such as 192.168.1.0/24) or host; others are "
-                           "not recorded, only counted"));
 }
 
 void addLimits(Arguments arguments, Limits& limits) {
@@ -238,7 +242,7 @@ Command addMonitorCommand(CommandLine& program) {
     auto options = std::make_shared<MonitorOptions>();
     Arguments arguments = program.addCommand(
         "monitor", "Watch streams: rate, loss, duplicates, order, jitter, gaps; record them; keep limits");
-    addPlaces(arguments, *options);
+    addPlacesOrFile(arguments, *options);
     arguments
         .add("--duration SECONDS", options->durationSeconds,
              "stop after this many seconds; 0: when interrupted, or at the end of FILE")
@@ -267,6 +271,24 @@ Command addMonitorCommand(CommandLine& program) {
                 return options->file.empty() ? monitorNetwork(*options, console)
                                              : monitorFile(*options, console);
             }};
+}
+
+Command addFollowCommand(CommandLine& program) {
+    auto options = std::make_shared<MonitorOptions>();
+    options->isQuiet = true;
+    options->follow = "-";
+    Arguments arguments = program.addCommand(
+        "follow", "Poses of all characters as they are received, for other programs: JSON, one on each line");
+    arguments.add("--to PLACE", options->follow,
+                  "to all who connect there instead of standard output: PORT of this computer alone, "
+                  "ADDRESS:PORT, or unix:PATH");
+    addPlaces(arguments, *options);
+    arguments.add("--duration SECONDS", options->durationSeconds, "stop after this many seconds; 0: never")
+        .seconds()
+        .showDefault();
+    addUp(arguments, options->up);
+    arguments.verbose(options->isVerbose, "where it listens and each new sender");
+    return {"follow", [options](Console& console) { return monitorNetwork(*options, console); }};
 }
 
 Command addReportCommand(CommandLine& program) {

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <unordered_map>
+#include <utility>
 
 namespace posewire::feed {
 namespace {
@@ -27,11 +28,21 @@ static_assert(kPoseTypes[kMarkerPlace] == wire::PointPositions::kType);
 class CharacterFeed {
 public:
     CharacterFeed(const PoseSource& source, std::size_t place, PoseContent content, log::Duration wait)
-        : m_character(source.characters[place]),
+        : m_source(source),
           m_place(place),
           m_content(content),
           m_order(wait,
-                  [this](HeldSample&& sample, bool beginsRun) { release(std::move(sample), beginsRun); }) {}
+                  [this](HeldSample&& sample, bool beginsRun) { release(std::move(sample), beginsRun); }),
+          m_key(source.characters[place].parts.front().key) {}
+
+    /// The source was updated: the character is at this place of it now.
+    void moveTo(std::size_t place) {
+        m_place = place;
+        const auto found = std::ranges::find(character().parts, m_key, &PoseCharacter::Part::key);
+        m_part = found == character().parts.end()
+                     ? 0
+                     : static_cast<std::size_t>(found - character().parts.begin());
+    }
 
     void take(const log::Packet& packet, const wire::Header& header, std::size_t part, const TakePose& to) {
         const auto found = std::ranges::find(kPoseTypes, header.type());
@@ -45,16 +56,17 @@ public:
         if (part != m_part) {
             m_order.flush();
             m_part = part;
+            m_key = character().parts[part].key;
             m_newestWhole = {};
         }
         if (m_content == PoseContent::Segments && isBetterSent(place, packet.stamp)) {
             return;
         }
         if (wire::decodeInto(packet.bytes, m_datagram)) {
-            if (m_character.parts[part].isUnframed[place]) {
+            if (character().parts[part].isUnframed[place]) {
                 m_datagram.header.markLast();
             }
-            if (m_character.parts[part].up == model::UpAxis::Y) {
+            if (character().parts[part].up == model::UpAxis::Y) {
                 model::turnBodyTo(model::UpAxis::Z, m_datagram.body);
             }
             m_order.add(place, m_datagram, packet);
@@ -98,7 +110,8 @@ private:
         }
     }
 
-    [[nodiscard]] const PoseCharacter::Part& part() const { return m_character.parts[m_part]; }
+    [[nodiscard]] const PoseCharacter::Part& part() const { return character().parts[m_part]; }
+    [[nodiscard]] const PoseCharacter& character() const { return m_source.characters[m_place]; }
 
     bool readMarkers() {
         const model::Message* message = m_recent.back().message(kMarkerPlace);
@@ -137,10 +150,10 @@ private:
             });
         const model::Message* last = model::newestOf(chosen);
         return last != nullptr && last->datagram.header.sampleCounter == m_recent.back().number() &&
-               model::assemble(chosen, part().units, m_character.bodyAt(last->packet), m_sample.pose);
+               model::assemble(chosen, part().units, character().bodyAt(last->packet), m_sample.pose);
     }
 
-    const PoseCharacter& m_character;
+    const PoseSource& m_source;
     std::size_t m_place;
     PoseContent m_content;
     SampleOrder m_order;
@@ -149,6 +162,7 @@ private:
     PoseSample m_sample;
     wire::Datagram m_datagram;
     std::size_t m_part = 0;
+    model::CharacterKey m_key; ///< of the part
     /// When the newest of each of the whole types came.
     std::array<std::optional<log::Stamp>, model::kWholePoseTypes.size()> m_newestWhole{};
 };
@@ -209,14 +223,31 @@ struct PoseFeed::Parts {
         std::size_t part;
     };
 
-    Parts(const PoseSource& from, PoseContent content, log::Duration wait)
-        : source(from), follower(*from.log, from.firstPacket) {
+    Parts(PoseSource from, PoseContent what, log::Duration most)
+        : content(what), wait(most), source(std::move(from)), follower(*source.log, source.firstPacket) {
+        setCharacters(std::exchange(source.characters, {}));
+    }
+
+    /// Those that were there go on with what they hold.
+    void setCharacters(std::vector<PoseCharacter> characters) {
+        auto before = std::exchange(feeds, {});
+        const auto placesBefore = std::exchange(places, {});
+        source.characters = std::move(characters);
         for (std::size_t i = 0; i < source.characters.size(); ++i) {
-            const PoseCharacter& character = source.characters[i];
-            for (std::size_t part = 0; part < character.parts.size(); ++part) {
-                places.emplace(character.parts[part].key, Place{i, part});
+            std::unique_ptr<CharacterFeed> one;
+            const std::vector<PoseCharacter::Part>& parts = source.characters[i].parts;
+            for (std::size_t part = 0; part < parts.size(); ++part) {
+                const auto found = placesBefore.find(parts[part].key);
+                if (found != placesBefore.end() && one == nullptr) {
+                    one = std::move(before[found->second.character]);
+                }
+                places.emplace(parts[part].key, Place{i, part});
             }
-            feeds.push_back(std::make_unique<CharacterFeed>(source, i, content, wait));
+            if (one == nullptr) {
+                one = std::make_unique<CharacterFeed>(source, i, content, wait);
+            }
+            one->moveTo(i);
+            feeds.push_back(std::move(one));
         }
     }
 
@@ -231,17 +262,29 @@ struct PoseFeed::Parts {
         }
     }
 
-    const PoseSource& source;
+    PoseContent content;
+    log::Duration wait;
+    PoseSource source;
+    std::uint64_t known = UINT64_MAX; ///< where the session was that the characters are of
     log::LogFollower follower;
     std::unordered_map<model::CharacterKey, Place> places;
     std::vector<std::unique_ptr<CharacterFeed>> feeds;
     bool isFinished = false;
 };
 
-PoseFeed::PoseFeed(const PoseSource& source, PoseContent content, log::Duration wait)
-    : m_parts(std::make_unique<Parts>(source, content, wait)) {}
+PoseFeed::PoseFeed(PoseSource source, PoseContent content, log::Duration wait)
+    : m_parts(std::make_unique<Parts>(std::move(source), content, wait)) {}
 
 PoseFeed::~PoseFeed() = default;
+
+void PoseFeed::update(PoseSource newest) {
+    m_parts->known = newest.endPacket;
+    m_parts->setCharacters(std::move(newest.characters));
+}
+
+const PoseCharacter& PoseFeed::characterOf(const PoseSample& sample) const {
+    return m_parts->source.characters[sample.character];
+}
 
 bool PoseFeed::advance(const TakePose& take, log::Stamp now) {
     if (m_parts->isFinished) {
@@ -251,7 +294,7 @@ bool PoseFeed::advance(const TakePose& take, log::Stamp now) {
     m_parts->follower.refresh();
     std::uint64_t count = 0;
     for (; count < kPacketsAtOnce; ++count) {
-        const auto packet = m_parts->follower.next(end);
+        const auto packet = m_parts->follower.next(std::min(end, m_parts->known));
         if (!packet) {
             break;
         }

@@ -96,11 +96,17 @@ public:
     /// A sample waits this long for those before it, and for its other messages.
     static constexpr log::Duration kWait = std::chrono::seconds(4);
 
-    /// The source outlives this. Of what is received live, `wait` is how late samples are at most.
-    PoseFeed(const PoseSource& source, PoseContent content, log::Duration wait = kWait);
+    /// Of what is received live, `wait` is how late samples are at most.
+    PoseFeed(PoseSource source, PoseContent content, log::Duration wait = kWait);
     ~PoseFeed();
     PoseFeed(const PoseFeed&) = delete;
     PoseFeed& operator=(const PoseFeed&) = delete;
+
+    /// The characters as a session knows them that has followed the log to the end of `newest`, up to where
+    /// this reads from now on. Those that it had go on; it ends where it always did.
+    void update(PoseSource newest);
+    /// Valid until the next update.
+    [[nodiscard]] const PoseCharacter& characterOf(const PoseSample& sample) const;
 
     /// Reads on for some packets; false if there were none left for now. At the end of the source's range all
     /// samples are handed out, before that those that have waited at `now`.

@@ -205,9 +205,16 @@ void SampleOrder::believe(std::uint32_t number) {
     }
 }
 
+/// Whether the first that waits needs to wait for none, and for nothing of its own.
+bool SampleOrder::isNext(const Run& run) const {
+    const HeldSample& first = run.waiting.front();
+    return m_runs.size() == 1 && m_doubted.empty() && run.taken && first.hasWholePose() &&
+           distance(first.number(), *run.taken) <= run.step && run.step != INT32_MAX;
+}
+
 void SampleOrder::release(log::Stamp now) {
     const auto isDue = [&](const Run& run) {
-        return !run.waiting.empty() && now - run.waiting.front().stamp() > m_wait;
+        return !run.waiting.empty() && (isNext(run) || now - run.waiting.front().stamp() > m_wait);
     };
     while (!m_runs.empty()) {
         std::size_t waiting = 0;
@@ -245,6 +252,7 @@ void SampleOrder::takeFirst() {
     HeldSample first = std::move(run.waiting.front());
     run.waiting.pop_front();
     const bool beginsRun = !run.taken.has_value();
+    run.step = beginsRun ? run.step : std::min(run.step, distance(first.number(), *run.taken));
     run.taken = first.number();
     m_take(std::move(first), beginsRun);
 }

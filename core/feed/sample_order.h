@@ -50,10 +50,11 @@ private:
     std::array<std::unique_ptr<Joining>, model::kPoseTypes.size()> m_messages;
 };
 
-/// Puts the samples of one character into the order of their counters, each once. Each waits, so that what is
-/// late has its place, also from before a restart; memory does not grow with the range. A counter that is far
-/// from the others is believed if the next ones agree with it: what is lost in between is lost, or a new run
-/// begins. Its rules are those of model::Probation, which counts, so that what is fed is what was counted.
+/// Puts the samples of one character into the order of their counters, each once. Each waits, unless it is
+/// the next and has a whole pose, so that what is late has its place, also from before a restart; memory does
+/// not grow with the range. A counter that is far from the others is believed if the next ones agree with it:
+/// what is lost in between is lost, or a new run begins. Its rules are those of model::Probation, which
+/// counts, so that what is fed is what was counted.
 class SampleOrder {
 public:
     static constexpr std::size_t kMost = 2048; ///< samples that wait
@@ -75,6 +76,7 @@ private:
         std::deque<HeldSample> waiting;     ///< by counter
         std::uint32_t highest = 0;          ///< counter, taken or not
         std::optional<std::uint32_t> taken; ///< the newest that has gone
+        std::int32_t step = INT32_MAX;      ///< the least between two that have gone
 
         [[nodiscard]] HeldSample* find(std::uint32_t number);
         [[nodiscard]] bool lacks(std::uint32_t number);
@@ -86,6 +88,7 @@ private:
         bool isFresh = true; ///< the run has not advanced since
     };
 
+    [[nodiscard]] bool isNext(const Run& run) const;
     [[nodiscard]] bool isExpected(std::uint32_t number);
     [[nodiscard]] bool mayStraggle(std::uint32_t number);
     [[nodiscard]] HeldSample* findLacking(std::size_t place, const wire::Header& header);

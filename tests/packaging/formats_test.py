@@ -8,13 +8,14 @@ usage: formats_test.py FORMATS_MD POSEWIRE_CLI SOURCE_DIR
 import json
 import pathlib
 import re
+import socket
 import struct
 import subprocess
 import sys
 import tempfile
 
 # Values and options, not keys.
-WORDS = {"none", "good", "warning", "bad", "provisional", "ongoing", "over", "encode", "--from", "--verbose", "MXTP",
+WORDS = {"none", "good", "warning", "bad", "provisional", "ongoing", "over", "encode", "--from", "--verbose", "MXTP", "sent", "solved", "assumed",
          "(lastSample - firstSample) / step + 1 = samples + incomplete + lost"}
 NOT_PROMISED = "memory"
 
@@ -79,6 +80,19 @@ def compare(title, promised, written):
     assert promised <= written, (title, "on the page, not written:", sorted(promised - written))
 
 
+def followed(cli):
+    """Poses of a performer, as other programs get them."""
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as free:
+        free.bind(("127.0.0.1", 0))
+        port = str(free.getsockname()[1])
+    sending = subprocess.Popen([cli, "send", "--to", "127.0.0.1:" + port, "--rate", "60"], stdout=subprocess.DEVNULL)
+    try:
+        return lines(output(cli, "follow", "--udp", "127.0.0.1:" + port, "--duration", "1"))
+    finally:
+        sending.kill()
+        sending.wait()
+
+
 def main(page, cli, source):
     sys.path.insert(0, str(source / "tests" / "support"))
     import capture_writer  # pylint: disable=import-outside-toplevel,import-error
@@ -98,6 +112,7 @@ def main(page, cli, source):
     compare("monitor --json", promised, keys(report))
     lines_only = {"monitor --json-lines": promised["monitor --json-lines"] | keys(report["verdict"]) | keys(report["incidents"])}
     compare("monitor --json-lines", lines_only, keys(told))
+    compare("follow", promised, keys(followed(cli)))
     truth_only = {"send --truth": promised["send --truth"] | (keys(sent) & promised["monitor --json"])}
     compare("send --truth", truth_only, keys(sent))
     return 0

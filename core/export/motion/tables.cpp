@@ -2,6 +2,7 @@
 #include "core/export/motion/motion_writer.h"
 
 #include "core/export/json_value.h"
+#include "core/export/motion/pose_lines.h"
 #include "core/export/motion/skeleton.h"
 #include "core/export/sheets.h"
 #include "core/wire/type_table.h"
@@ -118,43 +119,13 @@ public:
             m_line += (receipt.empty() ? "" : ",\"receivedNs\":" + receipt) +
                       ",\"timeCode\":" + std::to_string(frame.pose->timeCode) + ",\"type\":\"" +
                       wire::typeDigits(frame.pose->type) + "\",\"segments\":[";
-            addSegments(*frame.pose);
+            appendSegments(*frame.pose, false, m_line);
             m_line += "]}\n";
         }
         out.write(m_line);
     }
 
 private:
-    void addSegments(const model::CharacterPose& pose) {
-        bool isFirst = true;
-        for (std::size_t i = 0; i < pose.segments.size(); ++i) {
-            const std::string_view name = model::segmentName(pose.layout, static_cast<int>(i));
-            if (!pose.isPresent(i) || name.empty()) {
-                continue;
-            }
-            m_line += isFirst ? "{\"id\":" : ",{\"id\":";
-            m_line += std::to_string(i + 1);
-            m_line.append(",\"name\":\"").append(name).append("\",\"position\":");
-            const SegmentPose& segment = pose.segments[i];
-            addList({segment.position.x(), segment.position.y(), segment.position.z()});
-            m_line += ",\"orientation\":";
-            const Eigen::Quaterniond& turn = segment.orientation;
-            addList({turn.w(), turn.x(), turn.y(), turn.z()});
-            m_line += '}';
-            isFirst = false;
-        }
-    }
-
-    void addList(std::initializer_list<double> values) {
-        char before = '[';
-        for (const double value : values) {
-            m_line += before;
-            appendNumber(value, m_line);
-            before = ',';
-        }
-        m_line += ']';
-    }
-
     const MotionTask& m_task;
     std::vector<std::string> m_begins;
     std::string m_line;

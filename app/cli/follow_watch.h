@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/cli/monitor.h"
+#include "app/outlets/pose_outlet.h"
+
+#include <memory>
+#include <optional>
+
+namespace posewire::cli {
+
+/// The poses of `follow` while the network is monitored: to standard output, or to all who connect.
+class FollowWatch {
+public:
+    FollowWatch(MonitorRun& run, Console& console) : m_run(run), m_console(console) {}
+
+    /// Begins if `follow` was asked for; false and a complaint if that cannot be.
+    [[nodiscard]] bool start(const MonitorOptions& options, const log::Clock& clock);
+    /// After the session has followed the log.
+    void look();
+    /// Nobody reads standard output any more.
+    [[nodiscard]] bool isOver() const { return m_lines && !m_lines->isWanted(); }
+    /// Says how much was sent, and what was not.
+    void end();
+
+private:
+    MonitorRun& m_run;
+    Console& m_console;
+    std::optional<TableWriter> m_lines; ///< to standard output
+    std::unique_ptr<outlets::PoseOutlet> m_outlet;
+};
+
+} // namespace posewire::cli

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#include "core/export/motion/pose_lines.h"
+
+#include "core/export/json_value.h"
+#include "core/export/motion/motion_writer.h"
+#include "core/wire/type_table.h"
+
+#include <array>
+#include <initializer_list>
+
+namespace posewire::exporting {
+namespace {
+
+void appendList(std::initializer_list<double> values, std::string& text) {
+    char before = '[';
+    for (const double value : values) {
+        text += before;
+        appendNumber(value, text);
+        before = ',';
+    }
+    text += ']';
+}
+
+} // namespace
+
+void appendSegments(const model::CharacterPose& pose, bool hasProvenance, std::string& text) {
+    constexpr std::array<std::string_view, 4> kFrom{"", "assumed", "solved", "sent"}; // by Provenance
+    bool isFirst = true;
+    for (std::size_t i = 0; i < pose.segments.size(); ++i) {
+        const std::string_view name = model::segmentName(pose.layout, static_cast<int>(i));
+        if (!pose.isPresent(i) || name.empty()) {
+            continue;
+        }
+        text += isFirst ? "{\"id\":" : ",{\"id\":";
+        text += std::to_string(i + 1);
+        text.append(",\"name\":\"").append(name).append("\",\"position\":");
+        const model::SegmentPose& segment = pose.segments[i];
+        appendList({segment.position.x(), segment.position.y(), segment.position.z()}, text);
+        text += ",\"orientation\":";
+        const Eigen::Quaterniond& turn = segment.orientation;
+        appendList({turn.w(), turn.x(), turn.y(), turn.z()}, text);
+        if (hasProvenance) {
+            const auto from = static_cast<std::size_t>(pose.sources[i].weaker());
+            text.append(",\"from\":\"").append(kFrom[from]).append("\"");
+        }
+        text += '}';
+        isFirst = false;
+    }
+}
+
+std::string poseLine(const log::PacketLog& log, const feed::PoseCharacter& character,
+                     const feed::PoseSample& sample) {
+    const model::CharacterPose& pose = sample.pose;
+    const auto sender = log.senders().find(character.key.sender);
+    std::string line = "{\"character\":" + jsonText(character.name.shown()) +
+                       ",\"id\":" + std::to_string(character.key.character) +
+                       ",\"source\":" + jsonText(sender != nullptr ? sender->address : std::string()) +
+                       ",\"sample\":" + std::to_string(pose.sample);
+    line += sample.beginsRun ? ",\"begins\":true" : "";
+    line += ",\"receivedNs\":" + std::to_string(log::nanosecondsOf(log.timeline().wallOf(pose.stamp))) +
+            ",\"timeCode\":" + std::to_string(pose.timeCode) + ",\"type\":\"" + wire::typeDigits(pose.type) +
+            "\",\"segments\":[";
+    appendSegments(pose, true, line);
+    return line += "]}";
+}
+
+} // namespace posewire::exporting
