@@ -80,9 +80,10 @@ void PoseOutlet::run(const MakeWriter& make, const std::function<void(net::NetRe
         return;
     }
     publish(0, 0);
+    const std::uint64_t first = log::LogReader(m_log).end();
+    feed::PoseFeed feed({&m_log, first, UINT64_MAX, {}}, feed::PoseContent::Segments, kWait);
+    feed.update({&m_log, first, first, {}}); // nothing is known yet: nothing is read
     tell({});
-    feed::PoseFeed feed({&m_log, log::LogReader(m_log).end(), UINT64_MAX, {}}, feed::PoseContent::Segments,
-                        kWait);
     std::uint64_t poses = 0;
     const feed::TakePose take = [&](const feed::PoseSample& sample) {
         (*writer)->take(feed.characterOf(sample), sample);
