@@ -48,11 +48,10 @@ double characterAge(const model::SessionView& view, log::Stamp newest) {
     return std::max(0.0, log::secondsOf(now - newest));
 }
 
-/// The rate of a whole recording; on the wire that of now, which is 0 once nothing has come for long.
-double measuredHz(const model::Stream& stream, double ageS, bool isRecording) {
-    const double rateHz =
-        isRecording ? model::figuresOf(stream)[model::Figure::RateWhole] : stream.statistics.rateHz();
-    return !isRecording && ageS > std::max(kStaleAge, patienceAt(rateHz)) ? 0 : rateHz;
+/// The rate of a whole recording; on the wire that of now.
+double measuredHz(const model::SessionView& view, const model::Stream& stream) {
+    return view.isRecording() ? model::figuresOf(stream)[model::Figure::RateWhole]
+                              : stream.rateAt(view.now());
 }
 
 QString hertz(const std::optional<double>& rateHz, bool isNominal) {
@@ -238,7 +237,7 @@ void CharacterModel::refresh() {
         row.ageS = characterAge(m_view, m_view.roster().find(key)->lastStamp);
         if (const model::Stream* leading = leadingStream(*m_view.roster().find(key))) {
             row.nominalHz = m_rates.of(*leading);
-            row.measuredHz = measuredHz(*leading, row.ageS, m_view.isRecording());
+            row.measuredHz = measuredHz(m_view, *leading);
         }
         for (const model::Character* one : m_view.roster().lineage(key)) {
             for (const model::Stream* stream : one->streams) {
@@ -350,7 +349,7 @@ void CharacterDetailModel::refresh(const std::optional<model::CharacterKey>& key
             row.ageS = characterAge(m_view, stream->accounting.lastStamp());
             row.nominalHz = rates.of(*stream);
             if (wire::isSampled(stream->key.type)) {
-                row.measuredHz = measuredHz(*stream, row.ageS, m_view.isRecording());
+                row.measuredHz = measuredHz(m_view, *stream);
             }
             row.lost = losses.of(*stream).byCause;
             rows.push_back(row);

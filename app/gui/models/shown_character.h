@@ -44,13 +44,10 @@ namespace posewire::gui {
 /// 10:42:19.608, 126 samples".
 [[nodiscard]] QString rangeText(model::SessionView& view, const model::TimeRange& range);
 
-/// Without data for this long a stream is silent, and for the second it is stale (seconds).
+/// Without data for this long a stream is silent (seconds).
 inline constexpr double kSilentAge = 0.25;
-inline constexpr double kStaleAge = 1.0;
-/// A slow stream is given the time of two and a half samples (seconds); `rateHz` 0 where it is not known.
-[[nodiscard]] constexpr double patienceAt(double rateHz) {
-    return rateHz > 0 ? 2.5 / rateHz : 0.0;
-}
+using model::kStaleAge;
+using model::patienceAt;
 
 /// "stale 3.2 s"; nothing while it is not.
 [[nodiscard]] QString staleText(double ageSeconds, double rateHz = 0);

@@ -48,4 +48,10 @@ std::array<std::uint64_t, kLossCauses> Stream::lostByCause() const {
     return result;
 }
 
+double Stream::rateAt(log::Stamp now) const {
+    const double rateHz = statistics.rateHz();
+    const double age = log::secondsOf(now - accounting.lastStamp());
+    return age > std::max(kStaleAge, patienceAt(rateHz)) ? 0 : rateHz;
+}
+
 } // namespace posewire::model

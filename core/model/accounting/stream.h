@@ -37,6 +37,13 @@ private:
 };
 
 /// One message type of one character of one sender.
+/// Without data for this long a stream is stale (seconds).
+inline constexpr double kStaleAge = 1.0;
+/// A slow stream is given the time of two and a half samples (seconds); `rateHz` 0 where it is not known.
+[[nodiscard]] constexpr double patienceAt(double rateHz) {
+    return rateHz > 0 ? 2.5 / rateHz : 0.0;
+}
+
 struct Stream {
     explicit Stream(const log::StreamKey& streamKey) : key(streamKey), accounting(streamKey.type) {}
 
@@ -48,6 +55,8 @@ struct Stream {
 
     /// All samples lost and incomplete by LossCause.
     [[nodiscard]] LossesByCause lostByCause() const;
+    /// By arrival, as StreamStatistics has it; 0 once it is stale at `now`.
+    [[nodiscard]] double rateAt(log::Stamp now) const;
 
     /// So much came of it that something is missing where no more does; a corrupt header may have invented it
     /// before.

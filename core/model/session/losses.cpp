@@ -21,7 +21,7 @@ void addLosses(LossesByCause& sums, const LossesByCause& more) {
 }
 
 Losses::Losses(const SessionView& session, const std::optional<TimeRange>& range)
-    : m_range(range), m_isRecording(session.isRecording()) {
+    : m_range(range), m_now(session.now()), m_isRecording(session.isRecording()) {
     session.accounts().attribution().forEachPending([&](const PendingLoss& loss) {
         if (!range || (loss.to >= range->from && loss.to < range->to)) {
             Pending& pending = m_pending[loss.stream];
@@ -105,6 +105,8 @@ StreamFigures Losses::figuresOf(const Stream& stream) const {
     StreamFigures figures = model::figuresOf(stream, m_range);
     if (m_isRecording) { // the end of a recording is not now
         figures.set(Figure::Rate, figures[Figure::RateWhole]);
+    } else if (!m_range) {
+        figures.set(Figure::Rate, stream.rateAt(m_now));
     }
     const StreamLosses losses = of(stream);
     for (std::size_t cause = 0; cause < kFigureOfCause.size(); ++cause) {

@@ -59,6 +59,7 @@ private:
     void takePending(const log::StreamKey& stream, const RangeParts& parts, std::span<RangePart> from) const;
 
     std::optional<TimeRange> m_range;
+    log::Stamp m_now;
     bool m_isRecording;
     std::unordered_map<log::StreamKey, LossesByCause> m_known; ///< of the range, where there is one
     std::unordered_map<log::StreamKey, Pending> m_pending;

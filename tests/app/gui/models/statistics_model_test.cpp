@@ -81,6 +81,15 @@ TEST_F(StatisticsModelTest, ShowsRateSpacingAndBandwidthOfAStream) {
     EXPECT_EQ(text(stream(), Figure::Lost), "0");
 }
 
+TEST_F(StatisticsModelTest, RateIsThatOfNowAndZeroWhereNothingComesAnyMore) {
+    performSeconds(3);
+    EXPECT_NEAR(number(stream(), Figure::Rate), 100, 1);
+    m_stage.now += 2s;
+    refresh();
+    EXPECT_EQ(number(stream(), Figure::Rate), 0);
+    EXPECT_NEAR(number(stream(), Figure::RateMean), 100, 1);
+}
+
 TEST_F(StatisticsModelTest, ZeroIsQuietAndLossHasShapeColourAndText) {
     performSeconds(3);
     EXPECT_EQ(cell(stream(), Figure::Lost).data(Qt::ForegroundRole).value<QColor>(), theme().dim);
