@@ -116,8 +116,8 @@ CommandPalette::CommandPalette(const QMenuBar& bar, QWidget* window)
          window->geometry().top() + 2 * row);
 }
 
-/// Those whose name begins with what is typed come first. What cannot be carried out now comes last, and is
-/// never the current one.
+/// The one of that name comes first, then those whose name begins with what is typed. What cannot be carried
+/// out now comes last, and is never the current one.
 void CommandPalette::list(const QString& typed) {
     m_list->clear();
     std::vector<std::size_t> meant;
@@ -128,8 +128,12 @@ void CommandPalette::list(const QString& typed) {
     }
     const auto disabled = std::stable_partition(
         meant.begin(), meant.end(), [this](std::size_t i) { return m_commands[i].action->isEnabled(); });
-    std::stable_partition(meant.begin(), disabled, [&](std::size_t i) {
-        return m_commands[i].name.startsWith(typed.trimmed(), Qt::CaseInsensitive);
+    std::stable_sort(meant.begin(), disabled, [&](std::size_t a, std::size_t b) {
+        const auto rank = [&](const QString& name) {
+            const bool isBegin = name.startsWith(typed.trimmed(), Qt::CaseInsensitive);
+            return isBegin && name.size() == typed.trimmed().size() ? 0 : isBegin ? 1 : 2;
+        };
+        return rank(m_commands[a].name) < rank(m_commands[b].name);
     });
     m_choices = static_cast<int>(std::distance(meant.begin(), disabled));
     for (const std::size_t i : meant) {

@@ -231,6 +231,14 @@ TEST_F(KeyboardTest, ThePaletteHasTheDockOfANameBeforeWhatIsDoneInIt) {
         << list->topLevelItem(0)->text(0).toStdString();
 }
 
+TEST_F(KeyboardTest, ThePaletteBeginsWithTheCommandOfThatName) {
+    for (const char* name : {"Packets", "Statistics", "Timeline", "Incidents", "Metadata", "Null pose"}) {
+        CommandPalette palette(*m_window.menuBar(), &m_window);
+        QTest::keyClicks(palette.findChild<QLineEdit*>(), QString(name).toLower());
+        EXPECT_EQ(palette.findChild<QTreeWidget*>()->topLevelItem(0)->text(0).remove("✓ "), name);
+    }
+}
+
 TEST_F(KeyboardTest, ThePaletteChoosesWhatWasTypedAndMovesInItsList) {
     CommandPalette palette(*m_window.menuBar(), &m_window);
     palette.show();
