@@ -95,9 +95,10 @@ MarkdownView::MarkdownView(const HelpPages& pages, QWidget* parent) : QTextBrows
     });
 }
 
-/// QTextBrowser has loaded the page, unless it was loaded before. A step back then restores its scroll bar.
+/// A step back restores the scroll bar after this.
 void MarkdownView::arrive(const QUrl& place) {
-    if (place.path() != m_page) {
+    const bool isLoaded = document()->pageSize().isEmpty(); // by loadResource(), also the same page once more
+    if (isLoaded || place.path() != m_page) {
         m_page = place.path();
         highlight({});
         applyColours();

@@ -54,6 +54,19 @@ TEST_F(HelpWindowTest, AWindowThatWasNotOpenShowsThePlaceToo) {
     EXPECT_EQ(fresh.view().cursorForPosition({200, 8}).block().text(), "A file cannot be opened");
 }
 
+TEST_F(HelpWindowTest, APageOfTheContentsCanBeClickedAndIsLaidOut) {
+    for (const char* title : {"Metadata", "Statistics", "Metadata"}) {
+        const auto items = window.contents().findItems(title, Qt::MatchExactly | Qt::MatchRecursive);
+        ASSERT_EQ(items.size(), 1);
+        window.contents().scrollToItem(items.front());
+        QTest::mouseClick(window.contents().viewport(), Qt::LeftButton, {},
+                          window.contents().visualItemRect(items.front()).center());
+        EXPECT_EQ(firstBlock(), title);
+        EXPECT_GT(window.view().document()->pageSize().width(), 300);
+        EXPECT_EQ(window.view().cursorForPosition({200, 30}).block().text(), title);
+    }
+}
+
 TEST_F(HelpWindowTest, TheContentsHaveRoomForEveryTitle) {
     HelpWindow fresh(pages, nullptr);
     fresh.open("index");
