@@ -45,11 +45,17 @@ std::uint64_t firstWholePacket(const model::SessionView& session) {
 
 /// Of the oldest pose of the sample that is shown.
 log::Stamp shownSampleStamp(const model::SessionView& session) {
-    constexpr log::Duration kSample = std::chrono::milliseconds(50);
+    constexpr double kMost = 0.05;
     log::Stamp stamp = session.cursorStamp();
     for (const model::Character* character : session.roster().listed()) {
         const model::CharacterPose* pose = session.messages().pose(character->key);
-        if (pose != nullptr && session.cursorStamp() - pose->stamp < kSample) {
+        const model::Stream* stream =
+            pose == nullptr ? nullptr
+                            : session.roster().find(log::StreamKey{character->key.sender,
+                                                                   character->key.character, pose->type});
+        const double rateHz = stream == nullptr ? 0 : stream->statistics.rateHz();
+        const double half = rateHz > 0 ? std::min(kMost, 0.5 / rateHz) : kMost; // of the time of a sample
+        if (pose != nullptr && log::secondsOf(session.cursorStamp() - pose->stamp) < half) {
             stamp = std::min(stamp, pose->stamp);
         }
     }
@@ -158,7 +164,10 @@ void Playback::trimRange(const model::CharacterKey& of, int steps) {
     const model::SessionView& session = m_commands.session();
     if (const auto range = session.choices().range.fixed) {
         stopAt(session.packetAt(m_isEndSet ? range->to - log::Duration(1) : range->from));
-        stepSamples(of, steps);
+        // A range may begin with another character, a moment before the sample of this one comes.
+        const model::CharacterPose* pose = session.messages().pose(of);
+        const bool isYetToCome = !m_isEndSet && pose != nullptr && pose->stamp < range->from;
+        stepSamples(of, steps + (isYetToCome ? 1 : 0));
         const log::Stamp edge = session.cursorStamp();
         if (m_isEndSet ? edge >= range->from : edge < range->to) {
             setRangeEdge(m_isEndSet);

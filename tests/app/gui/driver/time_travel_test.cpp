@@ -20,19 +20,25 @@ constexpr std::uint64_t kPackets = 600; ///< a sample each, 60 a second
 
 class TimeTravelTest : public testing::Test {
 protected:
+    static constexpr log::Duration kApart = 30us; ///< of characters in one sample
+
+    explicit TimeTravelTest(std::uint8_t characters = 1) : m_characters(characters) {}
     void SetUp() override {
         const std::string path = m_folder.filePath("take.pcapng").toStdString();
         auto sink = log::createFile(path).value();
         log::PcapngWriter writer(*sink);
         ASSERT_TRUE(writer.begin({}));
         for (std::uint32_t sample = 0; sample < kPackets; ++sample) {
-            wire::Datagram datagram;
-            datagram.body = smallPose();
-            datagram.header.sampleCounter = sample;
-            wire::completeHeader(datagram, wire::HeaderEra::Counted);
-            const auto bytes = wire::encode(datagram).value();
-            ASSERT_TRUE(writer.add({0, momentOf(sample), {}, 0, {}, bytes},
-                                   {"10.0.0.2:4000", log::Transport::Udp, 9763}));
+            for (std::uint8_t character = 0; character < m_characters; ++character) {
+                wire::Datagram datagram;
+                datagram.body = smallPose();
+                datagram.header.sampleCounter = sample;
+                datagram.header.character = character;
+                wire::completeHeader(datagram, wire::HeaderEra::Counted);
+                const auto bytes = wire::encode(datagram).value();
+                ASSERT_TRUE(writer.add({0, momentOf(sample) + character * kApart, {}, 0, {}, bytes},
+                                       {"10.0.0.2:4000", log::Transport::Udp, 9763}));
+            }
         }
         ASSERT_TRUE(writer.addStatistics());
         ASSERT_TRUE(sink->flush());
@@ -41,7 +47,7 @@ protected:
             m_driver.tick();
             std::this_thread::sleep_for(1ms);
         }
-        ASSERT_EQ(m_driver.commands().session().end(), kPackets);
+        ASSERT_EQ(m_driver.commands().session().end(), m_characters * kPackets);
     }
 
     static log::Stamp momentOf(std::uint64_t packet) {
@@ -56,6 +62,7 @@ protected:
         m_driver.tick();
     }
 
+    const std::uint8_t m_characters;
     QTemporaryDir m_folder;
     log::ManualClock m_clock{log::asWallTime(Stage::kStart + 1h)};
     SessionDriver m_driver{m_clock};
@@ -217,6 +224,27 @@ TEST_F(TimeTravelTest, TheEdgeThatWasSetLastIsTrimmedBySamples) {
     playback.trimRange(key(), 2);
     EXPECT_EQ(first(), 63U);
     EXPECT_EQ(after(), 120U);
+}
+
+class TripleTravelTest : public TimeTravelTest {
+protected:
+    TripleTravelTest() : TimeTravelTest(3) {}
+};
+
+TEST_F(TripleTravelTest, AnEdgeIsTrimmedByWholeSamplesWhoeverIsSelected) {
+    Playback& playback = m_driver.playback();
+    const model::SessionView& session = m_driver.commands().session();
+    for (const model::Character& one : session.roster().characters()) {
+        playback.showMoment(momentOf(60) + 2 * kApart);
+        playback.setRangeEdge(false);
+        EXPECT_EQ(session.packetFrom(session.range()->from), 3U * 60);
+        for (const int step : {1, 1, 1, -1, -1, -1, -1, 1}) {
+            const auto before = static_cast<int>(session.packetFrom(session.range()->from));
+            playback.trimRange(one.key, step);
+            EXPECT_EQ(static_cast<int>(session.packetFrom(session.range()->from)), before + 3 * step)
+                << int{one.key.character} << " from " << before;
+        }
+    }
 }
 
 TEST_F(TimeTravelTest, AStepLetsGoOfThePacketThatWasHeld) {
