@@ -219,7 +219,7 @@ std::string cellOf(const model::StreamFigures& figures, model::Figure figure) {
     const double value = figures[figure];
     const bool isOnlyWithLoss = figure == BurstDensity || (figure == RateWhole && !figures.isSampled());
     const bool isOnlyWithTimeCode = row.style.form == model::FigureForm::Signed;
-    if (!figures.has(figure) || (isOnlyWithLoss && value == 0) ||
+    if (!figures.has(figure) || std::isnan(value) || (isOnlyWithLoss && value == 0) ||
         (isOnlyWithTimeCode && !figures.isFromTimeCode())) {
         return {};
     }

@@ -67,20 +67,13 @@ PropertyValue lostByCause(const Source& from) {
 PropertyValue longestGap(const Source& from) {
     const model::Losses losses(from.view, from.view.range());
     std::uint64_t longest = 0;
-    double rateHz = 0;
     for (const model::Stream& stream : from.view.roster().streams()) {
-        if (const std::uint64_t own = losses.longestGapOf(stream); own > longest) {
-            longest = own;
-            rateHz = stream.statistics.rateHz();
-        }
+        longest = std::max(longest, losses.longestGapOf(stream));
     }
     if (longest == 0) {
         return {tr("none"), Health::Good};
     }
-    const QString samples = tr("%1 samples", nullptr, static_cast<int>(longest)).arg(grouped(longest));
-    const QString time =
-        rateHz > 0 ? tr(" · %1 ms").arg(fixed(static_cast<double>(longest) / rateHz * 1000, 1)) : QString();
-    return {samples + time, Health::Warning};
+    return {tr("%1 samples", nullptr, static_cast<int>(longest)).arg(grouped(longest)), Health::Warning};
 }
 
 PropertyValue computer(const Source& from) {

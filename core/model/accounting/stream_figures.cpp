@@ -344,7 +344,12 @@ StreamFigures figuresOf(const Stream& stream, const std::optional<TimeRange>& ra
     } else {
         read.lostByCause = stream.lostByCause();
     }
-    return {stream.key, read};
+    StreamFigures figures(stream.key, read);
+    if (range) { // counters are kept of all there is
+        figures.set(FirstSample, std::numeric_limits<double>::quiet_NaN());
+        figures.set(LastSample, std::numeric_limits<double>::quiet_NaN());
+    }
+    return figures;
 }
 
 RangeFigures countedFigures(const StreamAccounting& stream, const std::optional<TimeRange>& range) {
