@@ -273,14 +273,14 @@ std::vector<TableColumn<BoardRow>> CharacterModel::columns(model::SessionView& v
         }
     };
     Column name = Column::words(tr("Character"), {},
-                                [&view](const BoardRow& row) { return characterName(view, row.key); })
+                                [&view](const BoardRow& row) { return characterName(view.atNow(), row.key); })
                       .in({.usual = QStringLiteral("         Mira Li"),
                            .wish = QStringLiteral("         Performer with a name · 10"),
                            .least = QStringLiteral("         Mira L"),
                            .whole = 16})
                       .withToolTip(help)
                       .withMore(marks);
-    name.spoken = [&view](const BoardRow& row) { return nameApart(view, row.key); };
+    name.spoken = [&view](const BoardRow& row) { return nameApart(view.atNow(), row.key); };
     std::vector<Column> columns{
         std::move(name),
         valueColumn(Column::words(tr("Verdict"), tr("Whether it is good now on the wire"), {}),

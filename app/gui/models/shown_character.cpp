@@ -61,7 +61,7 @@ model::Selection selectionOf(model::SessionView& view, const model::CharacterKey
     return selection;
 }
 
-QString characterName(model::SessionView& view, const model::CharacterKey& key) {
+QString characterName(const model::SessionView& view, const model::CharacterKey& key) {
     return shown(view.roster().displayName(key));
 }
 

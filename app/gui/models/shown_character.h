@@ -21,7 +21,7 @@ namespace posewire::gui {
 [[nodiscard]] model::Selection selectionOf(model::SessionView& view, const model::CharacterKey& key,
                                            std::optional<int> segment = {});
 
-[[nodiscard]] QString characterName(model::SessionView& view, const model::CharacterKey& key);
+[[nodiscard]] QString characterName(const model::SessionView& view, const model::CharacterKey& key);
 /// Its name, and what tells it from others of now that have the same: its ID, "Mira · 2", or where they share
 /// that too its sender, "Mira · 0 · :40002", by the port where they come from one host.
 [[nodiscard]] QString nameApart(const model::SessionView& view, const model::CharacterKey& key);

@@ -172,7 +172,7 @@ void HealthBar::measure(const QFontMetrics& metrics) {
     grow(m_stateWidth, tr("10.0 % lost"), tr("10.0 % lost, over"));
     for (const model::CharacterKey& key : std::span(m_shown).first(std::min(m_shown.size(), kMostEntries))) {
         grow(m_stateWidth, whatOf(m_session->verdicts().of(key)), tr("10.0 % lost, over"));
-        grow(m_nameWidth, nameApart(*m_session, key), QStringLiteral("Performer with a name"));
+        grow(m_nameWidth, nameApart(m_session->atNow(), key), QStringLiteral("Performer with a name"));
     }
 }
 
@@ -216,9 +216,9 @@ void HealthBar::showEntry(std::size_t index, int nameWidth, int width) {
     const QString what = whatOf(verdict);
     const int room = std::max(nameWidth, nameWidth + m_stateWidth - metrics.horizontalAdvance(what));
     entry->setFixedWidth(width);
-    entry->setContent(state.health,
-                      metrics.elidedText(nameApart(*m_session, m_shown[index]), Qt::ElideRight, room) +
-                          QLatin1Char(' ') + what);
+    entry->setContent(state.health, metrics.elidedText(nameApart(m_session->atNow(), m_shown[index]),
+                                                       Qt::ElideRight, room) +
+                                        QLatin1Char(' ') + what);
     entry->setToolTip(toolTipText(state.toolTip));
 }
 

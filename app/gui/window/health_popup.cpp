@@ -138,7 +138,7 @@ private:
     void addTitle(QVBoxLayout& column) {
         const model::TakeVerdict& verdict = m_session.verdicts().of(m_key);
         const Health health = healthOf(verdict.state);
-        auto* title = plainLabel(nameApart(m_session, m_key), this);
+        auto* title = plainLabel(nameApart(m_session.atNow(), m_key), this);
         title->setProperty("heading", true);
         auto* words = plainLabel(healthText(health, said(verdict.said, words::Form::Brief)), this);
         setTextColour(*words, healthColour(health));

@@ -77,6 +77,19 @@ TEST_F(CharacterModelTest, ShowsEachCharacterInOneLine) {
     EXPECT_EQ(text(0, Column::kPose), "02");
 }
 
+TEST_F(CharacterModelTest, ANameIsOfNowAsTheVerdictIsWhateverMomentIsShown) {
+    m_stage.sendMetadata("name:Anna\n", Stage::kStart);
+    performer::Performer performer(sending(1, {2}, 60.0));
+    perform(performer, 0, 60, 0);
+    m_stage.sendMetadata("name:Bert\n", Stage::kStart + 2s);
+    perform(performer, 60, 180, 2);
+    m_stage.playback.showMoment(Stage::kStart + 1s);
+    refresh();
+    EXPECT_EQ(characterName(m_stage.session, m_stage.key()), "Anna");
+    EXPECT_EQ(text(0, Column::kName), "Bert");
+    EXPECT_EQ(nameApart(m_stage.session.atNow(), m_stage.key()), "Bert");
+}
+
 TEST_F(CharacterModelTest, SaysWhereThereIsNoPose) {
     performer::Performer performer(sending(1, {24}, 60.0));
     perform(performer, 0, 60, 0);
