@@ -18,7 +18,7 @@ public:
     [[nodiscard]] bool start(const MonitorOptions& options, const log::Clock& clock);
     /// After the session has followed the log.
     void look();
-    /// Nobody reads standard output any more.
+    /// True once the reader of standard output has gone.
     [[nodiscard]] bool isOver() const { return m_lines && !m_lines->isWanted(); }
     /// Says how much was sent, and what was not.
     void end();

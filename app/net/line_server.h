@@ -15,7 +15,7 @@ namespace posewire::net {
 class LineServer {
 public:
     static constexpr std::size_t kMostReceivers = 32;
-    /// A receiver that has left so much unread gets no lines until it reads again.
+    /// Bytes: a receiver that has left more unread gets no lines until it reads again.
     static constexpr std::int64_t kMostUnread = std::int64_t{1} << 20;
 
     /// `place` is "unix:PATH", "ADDRESS:PORT", or "PORT" for this computer alone; port 0 is one that is free.

@@ -55,7 +55,7 @@ OutletState PoseOutlet::state() const {
     return m_state;
 }
 
-/// What the session knows now, if it has told; nothing after a while, so that Qt's events are processed.
+/// Returns what update() was given last; nothing after a while, so that Qt's events are processed.
 std::optional<feed::PoseSource> PoseOutlet::await() {
     constexpr std::chrono::milliseconds kLongest{10};
     std::unique_lock lock(m_mutex);

@@ -42,7 +42,7 @@ using MakeWriter = std::function<net::NetResult<std::unique_ptr<PoseWriter>>(con
 /// for it.
 class PoseOutlet {
 public:
-    /// Samples are this late at most: as long as the viewport waits for what overtakes.
+    /// Samples are this late at most: as long as the viewport waits for late ones.
     static constexpr log::Duration kWait = std::chrono::milliseconds(50);
 
     /// From the newest packet of the log on. Log and clock must outlive it; the error is that of the writer.

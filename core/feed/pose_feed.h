@@ -102,8 +102,8 @@ public:
     PoseFeed(const PoseFeed&) = delete;
     PoseFeed& operator=(const PoseFeed&) = delete;
 
-    /// The characters as a session knows them that has followed the log to the end of `newest`, up to where
-    /// this reads from now on. Those that it had go on; it ends where it always did.
+    /// Takes the characters as a session knows them that has followed the log to the end of `newest`: this
+    /// reads up to there, at most to the end of its own source. Samples that wait go on waiting.
     void update(PoseSource newest);
     /// Valid until the next update.
     [[nodiscard]] const PoseCharacter& characterOf(const PoseSample& sample) const;

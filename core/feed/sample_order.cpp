@@ -205,7 +205,8 @@ void SampleOrder::believe(std::uint32_t number) {
     }
 }
 
-/// Whether the first that waits needs to wait for none, and for nothing of its own.
+/// Returns whether the first that waits is the next one and has a whole pose, so that no other comes before
+/// it.
 bool SampleOrder::isNext(const Run& run) const {
     const HeldSample& first = run.waiting.front();
     return m_runs.size() == 1 && m_doubted.empty() && run.taken && first.hasWholePose() &&
