@@ -194,7 +194,11 @@ void Playback::stepPackets(int steps) {
 }
 
 void Playback::stepTime(log::Duration by) {
+    const std::uint64_t before = shownPacket(m_commands.session());
     showMoment(m_commands.session().cursorStamp() + by, true);
+    if (by > log::Duration::zero() && shownPacket(m_commands.session()) == before) { // a longer silence
+        stopAt(std::min(before + 1, newestOf(m_commands.session())));
+    }
 }
 
 bool Playback::isPlaying(Direction direction) const {

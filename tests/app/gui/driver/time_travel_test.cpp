@@ -77,6 +77,9 @@ TEST_F(TimeTravelTest, StepsSamplesPacketsAndTime) {
     EXPECT_EQ(packet(), 291U);
     m_driver.playback().stepTime(1s);
     EXPECT_EQ(packet(), 351U);
+    m_driver.playback().stepTime(1ms); // in a silence of 17
+    EXPECT_EQ(packet(), 352U);
+    m_driver.playback().stepPackets(-1);
     m_driver.playback().stepPackets(-1);
     EXPECT_EQ(packet(), 350U);
     EXPECT_EQ(m_driver.commands().session().choices().selection.packet, 350U)
