@@ -49,13 +49,14 @@ log::Stamp shownSampleStamp(const model::SessionView& session) {
     log::Stamp stamp = session.cursorStamp();
     for (const model::Character* character : session.roster().listed()) {
         const model::CharacterPose* pose = session.messages().pose(character->key);
-        const model::Stream* stream =
-            pose == nullptr ? nullptr
-                            : session.roster().find(log::StreamKey{character->key.sender,
-                                                                   character->key.character, pose->type});
+        if (pose == nullptr) {
+            continue;
+        }
+        const model::Stream* stream = session.roster().find(
+            log::StreamKey{character->key.sender, character->key.character, pose->type});
         const double rateHz = stream == nullptr ? 0 : stream->statistics.rateHz();
-        const double half = rateHz > 0 ? std::min(kMost, 0.5 / rateHz) : kMost; // of the time of a sample
-        if (pose != nullptr && log::secondsOf(session.cursorStamp() - pose->stamp) < half) {
+        const double halfASample = std::min(kMost, 0.5 / rateHz); // seconds
+        if (log::secondsOf(session.cursorStamp() - pose->stamp) < halfASample) {
             stamp = std::min(stamp, pose->stamp);
         }
     }

@@ -97,9 +97,7 @@ MarkdownView::MarkdownView(const HelpPages& pages, QWidget* parent) : QTextBrows
 
 /// A step back restores the scroll bar after this.
 void MarkdownView::arrive(const QUrl& place) {
-    const bool isLoaded = document()->pageSize().isEmpty(); // by loadResource(), also the same page once more
-    if (isLoaded || place.path() != m_page) {
-        m_page = place.path();
+    if (document()->pageSize().width() <= 0) { // loadResource() has loaded it, perhaps once more
         highlight({});
         applyColours();
         setLineWrapColumnOrWidth(lineWrapColumnOrWidth()); // gives it its width again

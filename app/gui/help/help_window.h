@@ -43,7 +43,6 @@ private:
     void fitPictures();
 
     const HelpPages& m_pages;
-    QString m_page; ///< that is loaded
     QStringList m_highlighted;
     int m_fittedWidth = 0; ///< of the pictures
 };
