@@ -18,8 +18,10 @@ bool FollowWatch::start(const MonitorOptions& options, const log::Clock& clock) 
     if (options.follow.empty()) {
         return true;
     }
-    outlets::MakeWriter make = outlets::followAt(options.follow);
-    if (options.follow == "-") {
+    outlets::MakeWriter make;
+    if (options.follow != "-") {
+        make = outlets::followAt(options.follow);
+    } else {
         m_lines.emplace(system::kStandardOutput, false);
         make = outlets::followInto([&lines = *m_lines](std::string line) {
             const bool hasRoom = lines.hasRoom();

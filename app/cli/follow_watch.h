@@ -14,9 +14,9 @@ class FollowWatch {
 public:
     FollowWatch(MonitorRun& run, Console& console) : m_run(run), m_console(console) {}
 
-    /// Begins if `follow` was asked for; false and a complaint if that cannot be.
+    /// Starts the outlet if the options ask for one; false, with a complaint, if it fails.
     [[nodiscard]] bool start(const MonitorOptions& options, const log::Clock& clock);
-    /// After the session has followed the log.
+    /// To be called each time after the session has followed the log.
     void look();
     /// True once the reader of standard output has gone.
     [[nodiscard]] bool isOver() const { return m_lines && !m_lines->isWanted(); }

@@ -200,7 +200,7 @@ DeclaredOption addPlace(Arguments arguments, const std::string& name, std::vecto
     return arguments.add(name, texts, what + "; may be given several times").group("Where from");
 }
 
-/// Where to receive from. The last one is `--from`.
+/// Adds the options that say where to receive from.
 std::array<DeclaredOption, 5> addPlaces(Arguments arguments, MonitorOptions& options) {
     return {addPlace(arguments, "--udp [ADDRESS:]PORT", options.udp,
                      "listen there (default 9763); ADDRESS is one of this computer's, where it has several "

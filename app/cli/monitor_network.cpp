@@ -261,7 +261,7 @@ double watch(const MonitorOptions& options, const net::Receiver& receiver, Monit
              RecordingWatch& recording, InputWatch& inputs, FollowWatch& follow,
              std::chrono::steady_clock::time_point start) {
     using namespace std::chrono;
-    // A verdict is told at once, and poses are.
+    // Lines report a verdict or a pose without delay.
     const duration<double> pause{options.asJsonLines || !options.follow.empty() ? 0.01 : 0.05};
     const log::SystemClock clock;
     while (true) {

@@ -78,7 +78,7 @@ struct LineServer::Parts {
 
     template <class Socket>
     void admit(Socket* socket) {
-        socket->setReadBufferSize(1); // nothing that it sends is of interest, or may fill the memory
+        socket->setReadBufferSize(1); // what it sends must not fill the memory
         if (receivers.size() >= kMostReceivers) {
             socket->deleteLater();
             return;

@@ -12,7 +12,7 @@ namespace posewire::outlets {
 /// has them.
 [[nodiscard]] MakeWriter followAt(const std::string& place);
 
-/// The same into one place; `write` returns whether there was room for the line.
+/// Passes these lines to `write`, which returns false if it has no room for one.
 [[nodiscard]] MakeWriter followInto(std::function<bool(std::string line)> write);
 
 } // namespace posewire::outlets

@@ -82,7 +82,7 @@ void PoseOutlet::run(const MakeWriter& make, const std::function<void(net::NetRe
     publish(0, 0);
     const std::uint64_t first = log::LogReader(m_log).end();
     feed::PoseFeed feed({&m_log, first, UINT64_MAX, {}}, feed::PoseContent::Segments, kWait);
-    feed.update({&m_log, first, first, {}}); // nothing is known yet: nothing is read
+    feed.update({&m_log, first, first, {}}); // reads no packet before the first update()
     tell({});
     std::uint64_t poses = 0;
     const feed::TakePose take = [&](const feed::PoseSample& sample) {

@@ -5,7 +5,6 @@
 #include "core/feed/pose_feed.h"
 #include "core/log/clock.h"
 
-#include <atomic>
 #include <condition_variable>
 #include <cstddef>
 #include <cstdint>
@@ -38,8 +37,8 @@ public:
 };
 using MakeWriter = std::function<net::NetResult<std::unique_ptr<PoseWriter>>(const log::PacketLog& log)>;
 
-/// Hands the poses of all characters to a writer as they are received, on a thread of its own: nothing waits
-/// for it.
+/// Hands the poses of all characters to a writer as they are received, on a thread of its own: receiving
+/// never waits for it.
 class PoseOutlet {
 public:
     /// Samples are this late at most: as long as the viewport waits for late ones.

@@ -228,7 +228,7 @@ struct PoseFeed::Parts {
         setCharacters(std::exchange(source.characters, {}));
     }
 
-    /// Those that were there go on with what they hold.
+    /// Replaces the characters; those that stay keep the samples that wait.
     void setCharacters(std::vector<PoseCharacter> characters) {
         auto before = std::exchange(feeds, {});
         const auto placesBefore = std::exchange(places, {});

@@ -96,7 +96,7 @@ public:
     /// A sample waits this long for those before it, and for its other messages.
     static constexpr log::Duration kWait = std::chrono::seconds(4);
 
-    /// Of what is received live, `wait` is how late samples are at most.
+    /// Live samples are handed out after `wait` at the latest.
     PoseFeed(PoseSource source, PoseContent content, log::Duration wait = kWait);
     ~PoseFeed();
     PoseFeed(const PoseFeed&) = delete;
