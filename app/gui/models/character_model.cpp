@@ -71,8 +71,7 @@ TableColumn<Row> lostColumn(const QString& title, model::LossCause cause, int or
     const auto at = static_cast<std::size_t>(cause);
     return TableColumn<Row>::numbers(title, help, [at](const Row& row) { return grouped(row.lost[at]); })
         .in({.usual = QStringLiteral("9 999"), .order = order})
-        .withColour(
-            [at](const Row& row) { return QVariant(row.lost[at] == 0 ? theme().dim : theme().warning); });
+        .withColour([at](const Row& row) { return row.lost[at] == 0 ? QVariant(theme().dim) : QVariant(); });
 }
 
 /// Rates, losses and age: the same for characters and their streams, side by side and of the same time.
@@ -160,10 +159,7 @@ QString boardSpanText(const model::SessionView& view) {
     }
     const log::Duration recent = model::VerdictSpan::kRecent;
     const bool isAll = view.choices().reset != log::Stamp() && view.now() - view.choices().reset < recent;
-    const bool isPast = view.choices().cursor.mode == model::Cursor::Mode::Paused;
-    return isAll    ? tr("since the reset")
-           : isPast ? tr("now, last %1 s").arg(recent / std::chrono::seconds(1))
-                    : tr("last %1 s").arg(recent / std::chrono::seconds(1));
+    return isAll ? tr("now, since the reset") : tr("now, last %1 s").arg(recent / std::chrono::seconds(1));
 }
 
 std::vector<model::CharacterKey> boardOf(const model::SessionView& view, BoardOrder order) {

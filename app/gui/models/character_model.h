@@ -38,7 +38,7 @@ struct DetailRow : BoardFigures {
 /// The time that losses are counted in: the newest seconds, but nothing before the reset. Nothing for all of
 /// a recording.
 [[nodiscard]] std::optional<model::TimeRange> boardSpan(const model::SessionView& view);
-/// "last 10 s", "since the reset", "whole recording".
+/// "now, last 10 s", "now, since the reset", "whole recording".
 [[nodiscard]] QString boardSpanText(const model::SessionView& view);
 
 enum class BoardOrder : std::uint8_t { Appearance, TroubleFirst };

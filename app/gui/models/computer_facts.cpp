@@ -61,7 +61,7 @@ PropertyValue lostByCause(const Source& from) {
         return {tr("nothing lost"), Health::Good};
     }
     const bool isHere = lost[static_cast<std::size_t>(ThisComputer)] != 0;
-    return {parts.join(QStringLiteral(" · ")), isHere ? Health::Error : Health::Warning};
+    return {parts.join(QStringLiteral(" · ")), isHere ? Health::Error : Health::Unknown};
 }
 
 PropertyValue longestGap(const Source& from) {
@@ -73,7 +73,7 @@ PropertyValue longestGap(const Source& from) {
     if (longest == 0) {
         return {tr("none"), Health::Good};
     }
-    return {tr("%1 samples", nullptr, static_cast<int>(longest)).arg(grouped(longest)), Health::Warning};
+    return {tr("%1 samples", nullptr, static_cast<int>(longest)).arg(grouped(longest))};
 }
 
 PropertyValue computer(const Source& from) {

@@ -42,9 +42,13 @@ QString countText(const FaultRow& row, int column) {
     return column == FaultModel::kLost && lost != 0 ? healthText(Health::Warning, text) : text;
 }
 
-QColor countColour(const FaultRow& row, int column) {
+/// Loudest is the sum, and what this computer itself lost.
+QVariant countColour(const FaultRow& row, int column) {
     const bool isHere = causeIn(column) == model::LossCause::ThisComputer;
-    return lostIn(row, column) == 0 ? theme().dim : isHere ? theme().error : theme().warning;
+    return lostIn(row, column) == 0      ? QVariant(theme().dim)
+           : isHere                      ? QVariant(theme().error)
+           : column == FaultModel::kLost ? QVariant(theme().warning)
+                                         : QVariant();
 }
 
 FaultColumn countColumn(int column, const QString& title, const QString& help) {
@@ -54,7 +58,7 @@ FaultColumn countColumn(int column, const QString& title, const QString& help) {
         FaultColumn::numbers(title, help, [column](const FaultRow& row) {
             return countText(row, column);
         }).in({.usual = mark + QStringLiteral("9 999"), .wish = mark + QStringLiteral("9 999 <0.1 %")});
-    made.colour = [column](const FaultRow& row) { return QVariant(countColour(row, column)); };
+    made.colour = [column](const FaultRow& row) { return countColour(row, column); };
     made.more = [column](const FaultRow& row, int role) {
         const std::uint64_t lost = lostIn(row, column);
         const bool hasShare = lost != 0 && row.counts.expected != 0;

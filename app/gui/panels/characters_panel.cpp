@@ -221,20 +221,14 @@ void CharactersPanel::refresh() {
     followSelection();
     m_isFollowing = false;
     const model::Unproven unproven = m_view.accounts().unproven();
-    // Beside the columns that it is about.
-    const bool hasLosses = !m_table->isColumnHidden(CharacterModel::kLostOnNetwork);
-    QString span = hasLosses ? tr("lost: %1").arg(boardSpanText(m_view)) : QString();
-    if (hasLosses && m_span->fontMetrics().horizontalAdvance(span) > m_span->width()) {
-        span = boardSpanText(m_view); // the columns say of what
-    }
+    QString span = boardSpanText(m_view);
     if (unproven.characters != 0) {
-        span.prepend(tr("%1 unconfirmed").arg(grouped(unproven.characters)) +
-                     (hasLosses ? QStringLiteral(" · ") : QString()));
+        span += tr(" · %1 unconfirmed").arg(grouped(unproven.characters));
         m_span->setToolTip(toolTipText(tr("IDs of which too little came to believe that they are characters: "
                                           "corrupt datagrams may have invented them. Datagrams: %1.")
                                            .arg(grouped(unproven.datagrams))));
     } else {
-        m_span->setToolTip(toolTipText(tr("The time that the columns of lost samples are of")));
+        m_span->setToolTip(toolTipText(tr("The time that verdicts and columns of lost samples are of")));
     }
     m_span->setText({}, span);
     showDetail();

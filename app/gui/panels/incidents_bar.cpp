@@ -166,10 +166,6 @@ bool IncidentBar::eventFilter(QObject* watched, QEvent* event) {
             button->click();
             return true;
         }
-        if (!isPress && key == Qt::Key_Space) {
-            event->accept(); // else the window would pause
-            return true;
-        }
     } else if (isPress && key == Qt::Key_Escape && !m_text->text().isEmpty()) {
         m_text->clear();
         return true;

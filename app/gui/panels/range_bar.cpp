@@ -55,13 +55,13 @@ void paintRate(QPainter& painter, const RangeOverview& overview, const QRectF& r
 
 void paintLosses(QPainter& painter, const RangeOverview& overview, const QRectF& rect) {
     const model::RangeParts& parts = overview.parts();
-    const double high = rect.height() / 3;
     painter.setBrush(theme().warning);
     for (std::size_t i = 0; i < parts.count; ++i) {
         if (overview.counted()[i].lost != 0) {
             const double left = placeIn(rect, overview.span(), parts.beginOf(i));
             const double right = placeIn(rect, overview.span(), parts.beginOf(i + 1));
-            painter.drawRect(QRectF(left, rect.bottom() - high, std::max(2.0, right - left), high));
+            const double high = std::max(kLeastMark, rect.height() * overview.counted()[i].lossShare());
+            painter.drawRect(QRectF(left, rect.bottom() - high, std::max(kLeastMark, right - left), high));
         }
     }
 }

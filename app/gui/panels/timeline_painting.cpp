@@ -25,8 +25,6 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr double kLeastMark = 2.5; ///< pixels: what was lost is seen, however little
-
 /// The shortest round step that is at least as long.
 log::Duration roundStep(log::Duration least) {
     constexpr std::array<log::Duration, 33> kSteps{1us,   2us,   5us, 10us, 20us, 50us, 100us, 200us, 500us,
@@ -258,8 +256,7 @@ private:
                 m_painter.fillRect(QRectF(left, bottom - height, right - left, height), colour);
             }
             if (part.lost != 0) {
-                const double share = static_cast<double>(part.lost) / (part.lost + part.samples);
-                const double height = std::max(kLeastMark, room * share);
+                const double height = std::max(kLeastMark, room * part.lossShare());
                 m_painter.fillRect(QRectF(left, bottom - height, std::max(kLeastMark, right - left), height),
                                    theme().warning);
             }

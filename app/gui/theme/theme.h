@@ -55,6 +55,8 @@ tabularFont(); ///< the desktop's font; its digits are of equal width or the mon
 
 /// Health in shape and colour and text: ● good, ▲ warning, ■ error.
 enum class Health { Good, Warning, Error, Unknown };
+/// Pixels of a mark at the least: what was lost is seen, however little.
+inline constexpr double kLeastMark = 2.5;
 [[nodiscard]] QColor healthColour(Health health);
 [[nodiscard]] QString healthSymbol(Health health);
 /// "▲ lossy": a text after the symbol.

@@ -347,8 +347,10 @@ void Docks::show(const QString& name) {
     }
 }
 
-void Docks::showEvidence(std::optional<std::uint64_t> incident) {
-    m_driver.commands().showLive();
+void Docks::showEvidence(std::optional<std::uint64_t> incident, bool isOfFile) {
+    if (!isOfFile) {
+        m_driver.commands().showLive();
+    }
     m_driver.commands().showIncident(incident);
     mainStop(find(QStringLiteral("events"))->panel)->setFocus();
 }

@@ -46,8 +46,9 @@ public:
     void show(const QString& name);
     /// A dock, bar or part of them by its object name, in the front; null if there is none.
     [[nodiscard]] QWidget* showPart(const QString& name);
-    /// Shows what the live verdict rests on, with the keyboard: Enter leads to its packets.
-    void showEvidence(std::optional<std::uint64_t> incident);
+    /// Shows what the live verdict, or that of the recording, rests on, with the keyboard: Enter leads to its
+    /// packets.
+    void showEvidence(std::optional<std::uint64_t> incident, bool isOfFile);
     /// Shows a dock, and keeps which one its tab covers.
     void coverBy(const QString& name);
     /// Brings back what coverBy() has covered, and the keyboard with it.

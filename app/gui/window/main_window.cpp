@@ -47,11 +47,9 @@ namespace {
 /// Milliseconds: half the interval between two ticks.
 constexpr int kAfterTick = 8;
 
-bool isPressing(const QKeyEvent& event, bool isSpaceOnly) {
-    const bool isPlain = (event.modifiers() & ~Qt::KeypadModifier) == Qt::NoModifier;
-    const bool isSpace = event.key() == Qt::Key_Space || event.key() == Qt::Key_Select;
-    const bool isEnter = event.key() == Qt::Key_Return || event.key() == Qt::Key_Enter;
-    return isPlain && (isSpace || (isEnter && !isSpaceOnly));
+bool isPlain(const QKeyEvent& event, std::initializer_list<int> keys) {
+    return (event.modifiers() & ~Qt::KeypadModifier) == Qt::NoModifier &&
+           std::ranges::count(keys, event.key()) != 0;
 }
 
 /// The box in the current row of a table; invalid where it has none.
@@ -110,8 +108,8 @@ QToolBar* fixedBar(const QString& title, const QString& name, QWidget* content) 
 
 } // namespace
 
-/// Space and Enter press what has the focus, in the whole program: a button, a list of choices, a box in a
-/// table. Elsewhere they are what the menus say.
+/// Enter presses the button or list of choices that has the focus, in the whole program. Space does so in
+/// dialogs, where it toggles boxes of tables as well; in the window it plays and pauses.
 class PressingKeys final : public QObject {
 public:
     /// From now on, as long as the parent lives.
@@ -136,11 +134,15 @@ bool PressingKeys::eventFilter(QObject* watched, QEvent* event) {
     auto* button = qobject_cast<QAbstractButton*>(watched);
     auto* list = qobject_cast<QComboBox*>(watched);
     auto* table = qobject_cast<QAbstractItemView*>(watched);
-    if ((button == nullptr && list == nullptr && table == nullptr) || !isPressing(*key, table != nullptr)) {
+    if (button == nullptr && list == nullptr && table == nullptr) {
         return false;
     }
+    const QWidget* window = static_cast<QWidget*>(watched)->window();
+    const bool isOfWindow = window == parent() || qobject_cast<const QDockWidget*>(window) != nullptr;
+    const bool isSpace = !isOfWindow && isPlain(*key, {Qt::Key_Space, Qt::Key_Select});
     const QModelIndex box = table != nullptr ? boxOf(*table) : QModelIndex();
-    if (table != nullptr && !box.isValid()) {
+    if (table != nullptr ? !isSpace || !box.isValid()
+                         : !isSpace && !isPlain(*key, {Qt::Key_Return, Qt::Key_Enter})) {
         return false;
     }
     event->accept();
@@ -379,8 +381,7 @@ void MainWindow::showVerdict() {
     const bool hasPackets = m_driver.commands().live().end() != 0;
     ShownFile file;
     if (OpenedFile* opened = m_driver.files().file(); opened != nullptr && opened->session().end() != 0) {
-        file = {opened->name(), m_driver.commands().isFileShown(),
-                said(opened->verdict().said, words::Form::Headline), opened->notes()};
+        file = {opened->name(), m_driver.commands().isFileShown(), opened->verdict(), opened->notes()};
         file.notes.prepend(m_driver.files().openingText());
     }
     file.comparison = comparisonText(comparison);

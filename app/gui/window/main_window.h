@@ -32,6 +32,7 @@ public:
     [[nodiscard]] ViewportWidget& viewport() const { return *m_viewport; }
     [[nodiscard]] const Menus& menus() const { return m_menus; }
     [[nodiscard]] Docks& docks() const { return *m_docks; }
+    [[nodiscard]] VerdictBar& verdict() const { return *m_verdict; }
     [[nodiscard]] Opening& opening() const { return *m_opening; }
     [[nodiscard]] Guide& guide() const { return *m_guide; }
 

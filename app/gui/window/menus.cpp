@@ -16,8 +16,8 @@
 #include "app/gui/window/guide.h"
 #include "app/gui/window/main_window.h"
 #include "app/gui/window/preferences.h"
+#include "app/gui/window/verdict_bar.h"
 #include "core/model/session/roster.h"
-#include "core/model/session/verdict.h"
 
 #include <QAction>
 #include <QApplication>
@@ -206,9 +206,8 @@ void editRange(Window& window) {
         [&window](const QString& text) { return setRange(window, text); }, &window));
 }
 
-/// The evidence of the live verdict, as a click on it gives it.
-void showEvidence(Window& window) {
-    window.docks().showEvidence(commands(window).live().verdicts().all().all.incident);
+VerdictBar& verdict(const Window& window) {
+    return window.verdict();
 }
 
 template <int seconds>
@@ -334,7 +333,7 @@ const ActionInfo kActions[] = {
     {"resetForTake", "&Time", QT_TRANSLATE_NOOP("Action", "Reset &before take"), "Ctrl+Shift+R",
      Do::callIn<commands, &Commands::resetForTake>},
     {"verdictEvidence", "&Time", QT_TRANSLATE_NOOP("Action", "E&vidence of the verdict"), "Ctrl+E",
-     Do::call<showEvidence>},
+     Do::callIn<verdict, &VerdictBar::showEvidence>},
     {"figures10s", kFigures, QT_TRANSLATE_NOOP("Action", "The last 10 &s"), "", Do::call<useNewest<10>>,
      Do::is<isNewestUsed<10>>},
     {"figuresMinute", kFigures, QT_TRANSLATE_NOOP("Action", "The last &minute"), "", Do::call<useNewest<60>>,

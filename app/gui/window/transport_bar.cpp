@@ -31,6 +31,16 @@ QToolButton* buttonOf(QAction* action, QWidget* parent) {
     return button;
 }
 
+/// What a button says moves nothing.
+void keepRoom(QToolButton& button, const QStringList& texts) {
+    int widest = 0;
+    for (const QString& text : texts) {
+        button.setText(text);
+        widest = std::max(widest, button.sizeHint().width());
+    }
+    button.setMinimumWidth(widest);
+}
+
 /// "Next sample (Right)".
 QString helpOf(const QAction& action) {
     const QString keys = action.shortcut().toString(QKeySequence::NativeText);
@@ -149,11 +159,9 @@ void TransportBar::restyle() {
     font.setPointSizeF(font.pointSizeF() * kTimeScale);
     m_time->setFont(font);
     m_detail->setFont(tabularFont());
-    int widest = 0;
-    for (const QString& text : {tr("● LIVE"), tr("○ WAITING"), tr("○ NO INPUT"), tr("Go live   L")}) {
-        widest = std::max(widest, m_live->fontMetrics().horizontalAdvance(text));
-    }
-    m_live->setMinimumWidth(widest + 2 * fontMetrics().height()); // what it says moves nothing
+    keepRoom(*m_live, {tr("● LIVE"), tr("○ WAITING"), tr("○ NO INPUT"), tr("Go live   L")});
+    keepRoom(*m_pause, {tr("Play   Space"), tr("Pause   Space")});
+    keepRoom(*m_record, {tr("REC %1:%2").arg(QStringLiteral("000"), QStringLiteral("00")), tr("Record   R")});
     m_time->setMinimumWidth(QFontMetrics(font).horizontalAdvance(QStringLiteral("00:00:00.000")));
     m_record->setIcon(themedIcon(QStringLiteral("record"), theme().error));
     showMode(modeNow());
@@ -174,16 +182,14 @@ void TransportBar::showTake(const std::optional<TakeState>& take) {
         return;
     }
     const auto seconds = static_cast<std::int64_t>(take->seconds);
-    m_record->setText(tr("REC %1:%2 · %3 MB")
-                          .arg(seconds / 60)
-                          .arg(seconds % 60, 2, 10, QLatin1Char('0'))
-                          .arg(grouped(take->figures.bytes / 1'000'000)));
+    m_record->setText(tr("REC %1:%2").arg(seconds / 60).arg(seconds % 60, 2, 10, QLatin1Char('0')));
     const QString missed =
         take->figures.missed == 0
             ? tr("nothing missed")
             : tr("%1 packets missed: the disk is too slow").arg(grouped(take->figures.missed));
-    m_record->setToolTip(toolTipText(tr("Recording to %1: %2 packets, %3. Press to stop (R).")
-                                         .arg(take->path, grouped(take->figures.packets), missed)));
+    m_record->setToolTip(toolTipText(tr("Recording to %1: %2 packets, %3 MB, %4. Press to stop (R).")
+                                         .arg(take->path, grouped(take->figures.packets),
+                                              grouped(take->figures.bytes / 1'000'000), missed)));
     m_record->setAccessibleName(tr("Recording, %1").arg(m_record->text()));
 }
 

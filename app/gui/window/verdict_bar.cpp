@@ -18,7 +18,7 @@ namespace posewire::gui {
 
 namespace {
 
-constexpr double kLarge = 1.8; // against the desktop's font
+constexpr double kLarge = 2.6; // against the desktop's font
 
 QToolButton* buttonFor(QAction* action, const QString& text, QWidget* parent) {
     QToolButton* button = framedButton(text, action->toolTip(), parent);
@@ -46,7 +46,8 @@ QString spanOf(const model::SessionView& live) {
         return boardSpanText(live);
     }
     const bool isAll = live.now() - live.choices().reset < model::VerdictSpan::kRecent;
-    return (isAll ? VerdictBar::tr("since the reset at %1") : VerdictBar::tr("last 10 s · reset at %1"))
+    return (isAll ? VerdictBar::tr("now, since the reset at %1")
+                  : VerdictBar::tr("now, last 10 s · reset at %1"))
         .arg(timeOfDay(live.wallOf(live.choices().reset)).chopped(4));
 }
 
@@ -175,8 +176,7 @@ VerdictBar::VerdictBar(model::SessionView& live, const Actions& actions, QWidget
     for (const QToolButton* button : {m_recovered, m_later}) {
         connect(button, &QToolButton::clicked, this, [this] { m_recovery.clear(); });
     }
-    connect(m_headline, &QAbstractButton::clicked, this,
-            [this] { emit evidenceRequested(m_verdict.incident); });
+    connect(m_headline, &QAbstractButton::clicked, this, &VerdictBar::showEvidence);
 }
 
 void VerdictBar::setLarge(bool isLarge) {
@@ -190,22 +190,24 @@ void VerdictBar::showRecovery(const QString& text) {
 
 void VerdictBar::refresh(const ShownFile& file, bool hasInputs, const QString& blocked) {
     m_verdict = m_live.verdicts().all().all;
-    showVerdict(file.isShown, blocked);
+    m_isOfFile = file.isShown && m_verdict.state == model::TakeVerdict::State::None && blocked.isEmpty();
+    showVerdict(file, blocked);
     showStrip(file, hasInputs);
-    m_headline->setVisible(hasInputs || file.name.isEmpty());
-    m_span->setVisible(m_headline->isVisibleTo(this));
-    m_reset->setVisible(m_headline->isVisibleTo(this));
+    const bool isOfLive = !m_isOfFile && (hasInputs || file.name.isEmpty());
+    m_headline->setVisible(m_isOfFile || isOfLive);
+    m_span->setVisible(isOfLive);
+    m_reset->setVisible(isOfLive);
 }
 
-void VerdictBar::showVerdict(bool isBehindFile, const QString& blocked) {
-    model::TakeVerdict shown = m_verdict;
-    if (shown.state == model::TakeVerdict::State::None && !blocked.isEmpty()) {
+void VerdictBar::showVerdict(const ShownFile& file, const QString& blocked) {
+    model::TakeVerdict shown = m_isOfFile ? file.verdict : m_verdict;
+    if (!m_isOfFile && shown.state == model::TakeVerdict::State::None && !blocked.isEmpty()) {
         shown.state = model::TakeVerdict::State::Bad;
         shown.said = {words::Kind::Text, {{"text", blocked.toStdString()}}};
     }
+    const bool isBehindFile = file.isShown && !m_isOfFile;
     m_headline->setLarge(m_isLarge && !isBehindFile);
-    const bool isPast = m_live.choices().cursor.mode == model::Cursor::Mode::Paused;
-    m_headline->setVerdict(shown, isBehindFile ? tr("Live: ") : isPast ? tr("Now: ") : QString());
+    m_headline->setVerdict(shown, isBehindFile ? tr("Live: ") : QString());
     m_span->setText(spanOf(m_live));
     m_reset->setEnabled(m_live.end() != 0);
 }
@@ -220,11 +222,14 @@ void VerdictBar::showStrip(const ShownFile& file, bool hasInputs) {
     m_showFile->setText(tr("Show %1").arg(
         fontMetrics().elidedText(file.name, Qt::ElideMiddle, fontMetrics().averageCharWidth() * 24)));
     if (file.isShown) {
-        QStringList lines{file.verdict};
-        lines += file.notes;
+        QStringList lines = file.notes;
+        if (!m_isOfFile) {
+            lines.prepend(said(file.verdict.said, words::Form::Headline));
+        }
         lines.removeAll(QString());
         m_what->setText(tr("Recording %1").arg(file.name) + compared,
-                        QStringLiteral(" · ") + lines.join(QStringLiteral(" · ")));
+                        (lines.isEmpty() ? QString() : QStringLiteral(" · ")) +
+                            lines.join(QStringLiteral(" · ")));
     } else {
         m_what->setText(isRecovery ? m_recovery : tr("What is received,") + compared);
     }

@@ -28,6 +28,7 @@ public:
 
     [[nodiscard]] QSize sizeHint() const override;
     [[nodiscard]] QSize minimumSizeHint() const override;
+    [[nodiscard]] std::optional<std::uint64_t> incident() const { return m_verdict.incident; }
 
 protected:
     void paintEvent(QPaintEvent* event) override;
@@ -46,13 +47,14 @@ private:
 struct ShownFile {
     QString name{}; ///< of the file that is open; empty where none is
     bool isShown = false;
-    QString verdict{};    ///< on all of it
-    QStringList notes{};  ///< what else the operator must know of it
-    QString comparison{}; ///< what is shown is compared with, and how; empty for nothing
+    model::TakeVerdict verdict{}; ///< on all of it
+    QStringList notes{};          ///< what else the operator must know of it
+    QString comparison{};         ///< what is shown is compared with, and how; empty for nothing
 };
 
-/// Above everything: whether what is on the wire now is good for the take, whatever is shown; and, where the
-/// display is not live, what it shows and how to come back.
+/// Above everything: whether what is on the wire now is good for the take, whatever is shown; of a recording
+/// that is shown while nothing has come, whether that is good. And, where the display is not live, what it
+/// shows and how to come back.
 class VerdictBar final : public QWidget {
     Q_OBJECT
 
@@ -73,15 +75,17 @@ public:
     void showRecovery(const QString& text);
     /// `hasInputs`: there is something to be live with. `blocked`: why nothing can come from any of them.
     void refresh(const ShownFile& file, bool hasInputs, const QString& blocked = {});
+    /// What a click on the headline does.
+    void showEvidence() { emit evidenceRequested(m_headline->incident(), m_isOfFile); }
     /// As last refreshed.
     [[nodiscard]] const model::TakeVerdict& verdict() const { return m_verdict; }
 
 signals:
-    /// `incident` is what the verdict rests on, where it rests on one.
-    void evidenceRequested(std::optional<std::uint64_t> incident);
+    /// `incident` is what the verdict in the headline rests on, where it rests on one.
+    void evidenceRequested(std::optional<std::uint64_t> incident, bool isOfFile);
 
 private:
-    void showVerdict(bool isBehindFile, const QString& blocked);
+    void showVerdict(const ShownFile& file, const QString& blocked);
     void showStrip(const ShownFile& file, bool hasInputs);
 
     model::SessionView& m_live;
@@ -99,6 +103,7 @@ private:
     QString m_recovery;
     model::TakeVerdict m_verdict;
     bool m_isLarge = false;
+    bool m_isOfFile = false; ///< what the headline says
 };
 
 } // namespace posewire::gui

@@ -51,6 +51,9 @@ struct RangePart {
     std::uint32_t samples = 0;
     std::uint32_t lost = 0; ///< samples, incomplete ones included
 
+    [[nodiscard]] double lossShare() const {
+        return lost == 0 ? 0 : static_cast<double>(lost) / (lost + samples);
+    }
     RangePart& operator+=(const RangePart& other);
 };
 
@@ -132,6 +135,7 @@ enum class FigureSum : std::uint8_t {
     Mean, ///< weighted by the samples expected
 };
 
+/// Counts of losses are no more than odd: their share is the warning.
 enum class FigureTrouble : std::uint8_t { None, Odd, Warning, Error };
 
 /// Only streams that count samples, or messages (types 10 to 13) as well.

@@ -116,7 +116,7 @@ TEST_F(CharacterModelTest, CountsLossesByCauseInTheLastTenSecondsOnly) {
         sum += text(0, at).toInt();
     }
     EXPECT_EQ(sum, 10) << "five gaps in two streams, and one that is not settled";
-    EXPECT_EQ(boardSpanText(m_stage.session), "last 10 s");
+    EXPECT_EQ(boardSpanText(m_stage.session), "now, last 10 s");
     perform(performer, 360, 1'100, 6);
     for (int at = Column::kLostHere; at <= Column::kLostUnknown; ++at) {
         EXPECT_EQ(text(0, at), "0");

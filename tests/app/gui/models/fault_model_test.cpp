@@ -75,7 +75,7 @@ TEST_F(FaultModelTest, ZeroIsQuietAndLossHasShapeColourAndText) {
         return second.siblingAtColumn(column).data(Qt::ForegroundRole).value<QColor>();
     };
     EXPECT_EQ(colour(FaultModel::kSender), theme().dim);
-    EXPECT_EQ(colour(FaultModel::kNetwork), theme().warning);
+    EXPECT_EQ(colour(FaultModel::kLost), theme().warning);
     EXPECT_EQ(share(second, FaultModel::kSender), "");
 }
 

@@ -197,7 +197,7 @@ TEST_F(HealthBarTest, SaysWhyAndEachLineLeadsToItsPackets) {
 TEST_F(HealthBarTest, SaysThatAllCameWhereItIsGood) {
     perform(0, 240);
     EXPECT_EQ(lossText(m_stage.session, m_stage.key()),
-              QStringLiteral("All 240 samples arrived · last 10 s"));
+              QStringLiteral("All 240 samples arrived · now, last 10 s"));
     const QWidget* popup = open();
     ASSERT_NE(popup, nullptr);
     EXPECT_TRUE(popup->findChildren<QAbstractButton*>("trouble").empty());
@@ -278,7 +278,8 @@ TEST_F(HealthBarTest, SaysTheSameAsTheVerdictAlsoWhilePaused) {
 
 TEST_F(HealthBarTest, CountsWhatWasLost) {
     perform(0, 240, 60, 63);
-    EXPECT_EQ(lossText(m_stage.session, m_stage.key()), QStringLiteral("Lost 3 of 240 samples · last 10 s"));
+    EXPECT_EQ(lossText(m_stage.session, m_stage.key()),
+              QStringLiteral("Lost 3 of 240 samples · now, last 10 s"));
 }
 
 TEST(ReportSavingTest, WritesAPageOrSaysWhyNot) {

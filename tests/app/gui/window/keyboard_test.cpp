@@ -10,6 +10,8 @@
 #include <QAbstractItemView>
 #include <QAction>
 #include <QCheckBox>
+#include <QComboBox>
+#include <QDialog>
 #include <QDockWidget>
 #include <QLineEdit>
 #include <QMenuBar>
@@ -54,12 +56,15 @@ protected:
     std::vector<Command> m_commands;
 };
 
-TEST_F(KeyboardTest, SpaceAndEnterPressTheButtonThatHasTheFocusAndDoNotPause) {
-    for (const Qt::Key key : {Qt::Key_Space, Qt::Key_Return, Qt::Key_Enter}) {
-        QPushButton push(&m_window);
-        QToolButton tool(&m_window);
-        QCheckBox box(&m_window);
-        ColourText entry(ColourText::Look::Plain, &m_window);
+TEST_F(KeyboardTest, EnterPressesTheButtonThatHasTheFocusAndSpaceOnlyInDialogs) {
+    QDialog dialog(&m_window);
+    const std::pair<Qt::Key, QWidget*> cases[]{
+        {Qt::Key_Space, &dialog}, {Qt::Key_Return, &m_window}, {Qt::Key_Enter, &m_window}};
+    for (const auto& [key, window] : cases) {
+        QPushButton push(window);
+        QToolButton tool(window);
+        QCheckBox box(window);
+        ColourText entry(ColourText::Look::Plain, window);
         for (QAbstractButton* button : std::initializer_list<QAbstractButton*>{&push, &tool, &box, &entry}) {
             int presses = 0;
             QObject::connect(button, &QAbstractButton::clicked, &m_window, [&] { ++presses; });
@@ -73,12 +78,13 @@ TEST_F(KeyboardTest, SpaceAndEnterPressTheButtonThatHasTheFocusAndDoNotPause) {
     }
 }
 
-TEST_F(KeyboardTest, SpaceTogglesTheBoxOfTheCurrentRowInWhateverColumn) {
+TEST_F(KeyboardTest, SpaceInADialogTogglesTheBoxOfTheCurrentRowInWhateverColumn) {
+    QDialog dialog(&m_window);
     QStandardItemModel model(3, 2);
     auto* item = new QStandardItem("shown");
     item->setCheckable(true);
     model.setItem(1, 0, item);
-    QTableView table(&m_window);
+    QTableView table(&dialog);
     table.setModel(&model);
     table.show();
     table.setCurrentIndex(model.index(1, 1));
@@ -89,9 +95,19 @@ TEST_F(KeyboardTest, SpaceTogglesTheBoxOfTheCurrentRowInWhateverColumn) {
     EXPECT_EQ(item->checkState(), Qt::Unchecked);
 }
 
-TEST_F(KeyboardTest, SpacePausesWhereNothingElseTakesIt) {
-    QTest::keyClick(&m_window, Qt::Key_Space);
-    EXPECT_TRUE(isPaused());
+TEST_F(KeyboardTest, SpacePausesWhereverTheFocusIsInTheWindow) {
+    QPushButton push(&m_window);
+    QComboBox list(&m_window);
+    bool isAsked = false;
+    QObject::connect(&push, &QAbstractButton::clicked, &m_window, [&] { isAsked = true; });
+    for (QWidget* part : std::initializer_list<QWidget*>{&m_window, &push, &list}) {
+        QTest::keyClick(part, Qt::Key_L);
+        ASSERT_FALSE(isPaused());
+        part->setFocus();
+        QTest::keyClick(part, Qt::Key_Space);
+        EXPECT_TRUE(isPaused()) << part->metaObject()->className();
+    }
+    EXPECT_FALSE(isAsked);
 }
 
 TEST_F(KeyboardTest, ATreeTakesTheArrowsThatOpenItsRowsAndNotTheKeyThatGoesBack) {

@@ -36,6 +36,10 @@ protected:
     void refresh(const ShownFile& file = {}, bool hasInputs = true, const QString& blocked = {}) {
         m_bar.refresh(file, hasInputs, blocked);
     }
+    [[nodiscard]] static model::TakeVerdict notGood() {
+        return {.state = model::TakeVerdict::State::Bad,
+                .said = {words::Kind::Text, {{"text", std::string("Not good")}}}};
+    }
     [[nodiscard]] std::string headline() const {
         return m_bar.findChild<Headline*>("headline")->text().toStdString();
     }
@@ -72,14 +76,14 @@ TEST_F(VerdictBarTest, IsAboutTheWireAlsoWhileTheDisplayIsPaused) {
     m_stage.now += 1'025ms; // the sender dies
     m_stage.follow();
     refresh();
-    EXPECT_THAT(headline(), StartsWith("Now: Not good: no data from"));
+    EXPECT_THAT(headline(), StartsWith("Not good: no data from"));
     EXPECT_THAT(headline(), HasSubstr("going on"));
     EXPECT_TRUE(strip()->isHidden()) << "pausing moves nothing";
 }
 
 TEST_F(VerdictBarTest, SaysWhichRecordingIsShownAndWhatIsLiveBehindIt) {
     send(0, 120);
-    refresh({"take.pcapng", true, "Not good", {"Memory is full."}});
+    refresh({"take.pcapng", true, notGood(), {"Memory is full."}});
     EXPECT_THAT(headline(), StartsWith("Live: Good for the take"));
     EXPECT_EQ(stripText(), "Recording take.pcapng · Not good · Memory is full.");
     EXPECT_EQ(button("liveButton")->text(), "Back to live (1 good)");
@@ -87,6 +91,16 @@ TEST_F(VerdictBarTest, SaysWhichRecordingIsShownAndWhatIsLiveBehindIt) {
     refresh({"take.pcapng", false, {}, {}});
     EXPECT_TRUE(strip()->isHidden());
     EXPECT_EQ(button("showFileButton")->text(), "Show take.pcapng");
+}
+
+TEST_F(VerdictBarTest, IsOfTheRecordingWhereNothingHasCome) {
+    refresh({"take.pcapng", true, notGood(), {"Memory is full."}});
+    EXPECT_EQ(headline(), "Not good");
+    EXPECT_EQ(stripText(), "Recording take.pcapng · Memory is full.");
+    refresh({"take.pcapng", true, notGood(), {}}, true, "UDP 9763 is taken.");
+    EXPECT_EQ(headline(), "Live: UDP 9763 is taken.");
+    refresh({"take.pcapng", false, notGood(), {}});
+    EXPECT_EQ(headline(), "No data yet");
 }
 
 TEST_F(VerdictBarTest, TellsOfWhatTheLastRunHasLeftUntilItIsPutOff) {
@@ -114,8 +128,8 @@ TEST_F(VerdictBarTest, SaysWhyNothingCanCome) {
 
 TEST_F(VerdictBarTest, OffersNothingLiveWithoutAnInput) {
     refresh({"take.pcapng", true, {}, {}}, false);
-    EXPECT_TRUE(m_bar.findChild<Headline*>("headline")->isHidden());
     EXPECT_TRUE(button("liveButton")->isHidden());
+    EXPECT_TRUE(button("resetForTakeButton")->isHidden());
     EXPECT_FALSE(strip()->isHidden());
 }
 
@@ -140,14 +154,14 @@ TEST_F(VerdictBarTest, SaysWhichTimeItIsOfAndWhenThereWasAReset) {
     const auto span = [this] { return m_bar.findChild<QLabel*>("verdictSpan")->text().toStdString(); };
     send(0, 60);
     refresh();
-    EXPECT_EQ(span(), "last 10 s");
+    EXPECT_EQ(span(), "now, last 10 s");
     m_stage.session.resetForTake();
     send(60, 120);
     refresh();
-    EXPECT_THAT(span(), StartsWith("since the reset at "));
+    EXPECT_THAT(span(), StartsWith("now, since the reset at "));
     send(120, 900); // it is never of more than the board beside it
     refresh();
-    EXPECT_THAT(span(), StartsWith("last 10 s · reset at "));
+    EXPECT_THAT(span(), StartsWith("now, last 10 s · reset at "));
 }
 
 TEST_F(VerdictBarTest, AResetForgetsWhatIsOver) {
