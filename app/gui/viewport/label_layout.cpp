@@ -102,10 +102,14 @@ std::vector<Candidate> candidatesOf(const LabelPlace& place, const QSizeF& size,
     }
     const qreal beside = size.width() / 2 + place.head.width() / 2 + kApart;
     const qreal level = place.head.center().y() - place.anchor.y() + size.height() / 2;
-    for (const int side : {-1, 1}) {
-        add({side * beside, level});
-    }
+    const auto addBeside = [&](qreal down) {
+        add({-beside, level + down});
+        add({beside, level + down});
+    };
+    addBeside(0);
     std::ranges::stable_sort(all, {}, &Candidate::cost);
+    addBeside(row / 2); // where all else is covered
+    addBeside(row);
     return all;
 }
 

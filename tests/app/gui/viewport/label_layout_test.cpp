@@ -173,7 +173,8 @@ TEST(LabelLayout, ComesBackToItsHeadWhenThereIsRoom) {
 
 TEST(LabelLayout, HasALineToAHeadThatItIsAwayFrom) {
     const QRectF above(200, 100, 200, 97);
-    const auto placed = placeLabels(std::vector{labelAt(300, 195, 5)}, kViewport, {above});
+    const QRectF below(200, 200, 200, 60);
+    const auto placed = placeLabels(std::vector{labelAt(300, 195, 5)}, kViewport, {above, below});
     ASSERT_LE(placed[0].form, LabelForm::Brief);
     EXPECT_TRUE(leaderOf(placed[0], std::vector{labelAt(300, 195, 5)}, 0));
 }
