@@ -11,6 +11,7 @@
 #include "core/model/session/roster.h"
 #include "core/model/session/verdict.h"
 
+#include <QApplication>
 #include <QEvent>
 #include <QItemSelectionModel>
 #include <QMenu>
@@ -73,6 +74,9 @@ public:
         constexpr int kMostRows = 4;
         m_model.refresh();
         const int count = m_model.rowCount();
+        if (count == 0 && isAncestorOf(QApplication::focusWidget())) {
+            parentWidget()->setFocus(); // else the next button would have the keyboard
+        }
         setVisible(count != 0);
         m_table->setVisible(isOpen() && count != 0);
         const QString words = tr("%n ended senders", nullptr, count);
@@ -172,6 +176,7 @@ CharactersPanel::CharactersPanel(model::SessionView& view, Commands& commands,
     m_table->setObjectName(QStringLiteral("board"));
     m_table->setModel(&m_model);
     m_table->setItemDelegate(m_rows);
+    setFocusProxy(m_table);
     new EventWatch(m_table->viewport(), QEvent::Resize, [this] { fitRows(); });
     column->addWidget(m_table, 1);
 

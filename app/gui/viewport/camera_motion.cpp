@@ -125,7 +125,7 @@ void CameraMotion::zoom(double steps, const QPointF& pointer, const QSizeF& view
 void CameraMotion::frame(std::span<const render::Bounds> boxes, float aspect) {
     m_camera = fitted(m_camera, boxes, aspect);
     m_isFollowing = true;
-    m_hasFramed = m_hasFramed || !boxes.empty();
+    m_framed = boxes.empty() ? m_framed : aspect;
 }
 
 void CameraMotion::show(const render::Bounds& box, float aspect) {
@@ -137,7 +137,7 @@ void CameraMotion::follow(std::span<const render::Bounds> boxes, float aspect, d
     if (!m_isFollowing || boxes.empty()) {
         return;
     }
-    if (!m_hasFramed) {
+    if (m_framed != aspect) {
         frame(boxes, aspect);
         return;
     }

@@ -48,7 +48,7 @@ public:
     /// Shows all boxes at once, and keeps showing what follow() is given. Without boxes nothing changes.
     void frame(std::span<const render::Bounds> boxes, float aspect);
     void show(const render::Bounds& box, float aspect);
-    /// Shows the first boxes at once. From then on it holds still as long as all are well in the picture, and
+    /// Shows the first boxes, and in a picture of another shape all, at once. From then on it holds still as long as all are well in the picture, and
     /// glides to where they are when they are not; after infinite `seconds`, as between two moments of a
     /// recording, it is there. Nothing after a pan or zoom.
     void follow(std::span<const render::Bounds> boxes, float aspect, double seconds);
@@ -59,7 +59,7 @@ private:
     render::Camera m_camera;
     std::optional<render::StandardView> m_standardView;
     bool m_isFollowing = true;
-    bool m_hasFramed = false;
+    float m_framed = 0; ///< in a picture of that aspect
     bool m_isGliding = false;
 };
 

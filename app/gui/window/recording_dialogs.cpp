@@ -384,6 +384,7 @@ bool ReplayDialog::isMeant(const net::Endpoint& target) {
             .arg(QString::fromStdString(net::textOf(target))),
         QMessageBox::Cancel, this);
     const auto* send = question.addButton(tr("&Send to this monitor"), QMessageBox::AcceptRole);
+    question.setDefaultButton(QMessageBox::Cancel);
     question.exec();
     return question.clickedButton() == send;
 }
