@@ -77,7 +77,8 @@ std::vector<Command> commandsOf(const QMenuBar& bar) {
 }
 
 bool isMeant(const Command& command, const QString& typed) {
-    const QStringList words = wordsOf(command.name) + wordsOf(command.menu) + wordsOf(command.synonyms);
+    const QStringList words = wordsOf(command.name) + wordsOf(command.menu) + wordsOf(command.synonyms) +
+                              wordsOf(command.action->shortcut().toString());
     return std::ranges::all_of(wordsOf(typed), [&](const QString& wanted) {
         return std::ranges::any_of(
             words, [&](const QString& word) { return word.startsWith(wanted, Qt::CaseInsensitive); });
