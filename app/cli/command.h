@@ -61,6 +61,7 @@ Command addEncodeCommand(CommandLine& program);
 Command addExportCommand(CommandLine& program);
 Command addFollowCommand(CommandLine& program);
 Command addMonitorCommand(CommandLine& program);
+Command addOutletCommand(CommandLine& program);
 Command addReferenceCommand(CommandLine& program);
 Command addReportCommand(CommandLine& program);
 Command addSendCommand(CommandLine& program);

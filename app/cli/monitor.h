@@ -49,9 +49,11 @@ struct MonitorOptions {
     std::string up;                   ///< "y", "z"; others: as detected
     double durationSeconds = 0;       ///< 0: until interrupted
     double intervalSeconds = 1;
-    std::string record; ///< empty: not; "-" for standard output
-    std::string report; ///< empty: none; "-" for standard output
-    std::string follow; ///< where poses go: empty: nowhere; "-": standard output; else see net::LineServer
+    std::string record;    ///< empty: not; "-" for standard output
+    std::string report;    ///< empty: none; "-" for standard output
+    std::string outlet;    ///< of outlets::outletKinds(); empty: none
+    std::string to;        ///< its place; empty: where it goes if none is chosen; "-" for standard output
+    std::string character; ///< of outlets that take one
     bool replaces = false;
     bool asJson = false;
     bool asJsonLines = false;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/datagram_pacer.h"
 #include "app/cli/monitor.h"
+#include "app/outlets/outlet.h"
 #include "core/log/file_names.h"
 #include "core/log/recording_file.h"
 
@@ -236,6 +237,19 @@ void addLimits(Arguments arguments, Limits& limits) {
     }
 }
 
+/// What all commands have that hand on what is received.
+Command withOutlet(const std::string& name, Arguments arguments,
+                   const std::shared_ptr<MonitorOptions>& options) {
+    options->isQuiet = true;
+    addPlaces(arguments, *options);
+    arguments.add("--duration SECONDS", options->durationSeconds, "stop after this many seconds; 0: never")
+        .seconds()
+        .showDefault();
+    addUp(arguments, options->up);
+    arguments.verbose(options->isVerbose, "where it listens and each new sender");
+    return {name, [options](Console& console) { return monitorNetwork(*options, console); }};
+}
+
 } // namespace
 
 Command addMonitorCommand(CommandLine& program) {
@@ -275,20 +289,36 @@ Command addMonitorCommand(CommandLine& program) {
 
 Command addFollowCommand(CommandLine& program) {
     auto options = std::make_shared<MonitorOptions>();
-    options->isQuiet = true;
-    options->follow = "-";
+    options->outlet = "follow";
     Arguments arguments = program.addCommand(
         "follow", "Poses of all characters as they are received, for other programs: JSON, one on each line");
-    arguments.add("--to PLACE", options->follow,
+    arguments.add("--to PLACE", options->to,
                   "to all who connect there instead of standard output: PORT of this computer alone, "
                   "ADDRESS:PORT, or unix:PATH");
-    addPlaces(arguments, *options);
-    arguments.add("--duration SECONDS", options->durationSeconds, "stop after this many seconds; 0: never")
-        .seconds()
-        .showDefault();
-    addUp(arguments, options->up);
-    arguments.verbose(options->isVerbose, "where it listens and each new sender");
-    return {"follow", [options](Console& console) { return monitorNetwork(*options, console); }};
+    return withOutlet("follow", arguments, options);
+}
+
+Command addOutletCommand(CommandLine& program) {
+    auto options = std::make_shared<MonitorOptions>();
+    std::string kinds;
+    std::string places;
+    for (const outlets::OutletKind& kind : outlets::outletKinds()) {
+        kinds += (kinds.empty() ? "" : "; ") + std::string(kind.name) + ": " + std::string(kind.help);
+        if (kind.place.find(':') != std::string_view::npos) {
+            places += "; " + std::string(kind.place) + " for " + std::string(kind.name);
+        }
+    }
+    Arguments arguments =
+        program.addCommand("outlet", "Hand on what is received, in a form that other programs read");
+    const auto readKind = [options](const std::string& text) {
+        options->outlet = text;
+        return outlets::findOutletKind(text) != nullptr ? std::string() : "there is no outlet " + text;
+    };
+    arguments.read("KIND", readKind, kinds).required();
+    arguments.add("--to PLACE", options->to, "HOST:PORT of the receiver; of follow as there" + places);
+    arguments.add("--character NAME", options->character,
+                  "for vmc: a name or ID; the first one if it is not given");
+    return withOutlet("outlet", arguments, options);
 }
 
 Command addReportCommand(CommandLine& program) {

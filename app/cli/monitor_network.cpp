@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/cli/follow_watch.h"
+#include "app/cli/outlet_watch.h"
 #include "app/net/connection_help.h"
 #include "core/model/session/roster.h"
 #include "core/words/say.h"
@@ -258,11 +258,11 @@ exporting::MonitorFacts factsOf(const net::Receiver& receiver, double elapsedS) 
 
 /// Until the time is over or nobody wants more. Returns how long it was.
 double watch(const MonitorOptions& options, const net::Receiver& receiver, MonitorRun& run,
-             RecordingWatch& recording, InputWatch& inputs, FollowWatch& follow,
+             RecordingWatch& recording, InputWatch& inputs, OutletWatch& outlet,
              std::chrono::steady_clock::time_point start) {
     using namespace std::chrono;
     // Lines report a verdict or a pose without delay.
-    const duration<double> pause{options.asJsonLines || !options.follow.empty() ? 0.01 : 0.05};
+    const duration<double> pause{options.asJsonLines || !options.outlet.empty() ? 0.01 : 0.05};
     const log::SystemClock clock;
     while (true) {
         const duration<double> elapsed = steady_clock::now() - start;
@@ -272,12 +272,12 @@ double watch(const MonitorOptions& options, const net::Receiver& receiver, Monit
         const log::KernelCounters kernel = receiver.totals().kernel;
         run.session().setKernel(kernel);
         run.follow(now, receiver.isHeldUp());
-        follow.look();
+        outlet.look();
         run.show(factsOf(receiver, elapsed.count()), now);
         recording.look(now);
         inputs.look(run.session(), kernel, now);
         const bool isInVain = options.record == "-" && recording.hasFailed();
-        if (run.isOver() || follow.isOver() || isInVain || (hasEnd && left.count() <= 0)) {
+        if (run.isOver() || outlet.isOver() || isInVain || (hasEnd && left.count() <= 0)) {
             return elapsed.count();
         }
         std::this_thread::sleep_for(hasEnd ? std::min(pause, left) : pause);
@@ -354,12 +354,12 @@ ExitStatus monitorNetwork(const MonitorOptions& options, Console& console) {
         return ExitStatus::Unusable;
     }
     InputWatch inputs(*receiver, console);
-    FollowWatch follow(run, console);
-    if (!follow.start(options, clock)) {
+    OutletWatch outlet(run, console);
+    if (!outlet.start(options, clock, receiver->inputs())) {
         return ExitStatus::Unusable;
     }
-    const double elapsedS = watch(options, *receiver, run, recording, inputs, follow, start);
-    follow.end();
+    const double elapsedS = watch(options, *receiver, run, recording, inputs, outlet, start);
+    outlet.end();
     const log::Stamp over = run.log().timeline().now(clock);
     exporting::MonitorFacts facts = factsOf(*receiver, elapsedS);
     facts.exceeded = inputs.silent();

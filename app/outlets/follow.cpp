@@ -54,8 +54,8 @@ private:
 
 } // namespace
 
-MakeWriter followAt(const std::string& place) {
-    return [place](const log::PacketLog& log) -> net::NetResult<std::unique_ptr<PoseWriter>> {
+MakeWriter followAt(const OutletChoice& choice) {
+    return [place = choice.place](const log::PacketLog& log) -> net::NetResult<std::unique_ptr<PoseWriter>> {
         auto server = net::LineServer::listen(place);
         if (!server) {
             return tl::unexpected(std::move(server.error()));

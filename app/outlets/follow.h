@@ -10,7 +10,7 @@ namespace posewire::outlets {
 
 /// A line of JSON for each pose (see exporting::poseLine), to all who connect to a place as net::LineServer
 /// has them.
-[[nodiscard]] MakeWriter followAt(const std::string& place);
+[[nodiscard]] MakeWriter followAt(const OutletChoice& choice);
 
 /// Passes these lines to `write`, which returns false if it has no room for one.
 [[nodiscard]] MakeWriter followInto(std::function<bool(std::string line)> write);

@@ -34,7 +34,7 @@ class Following:
                                         stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         self.place = ""
         if options:
-            self.place = re.search(r"poses are at (\S+)", self.program.stderr.readline()).group(1)
+            self.place = re.search(r"to (\S+)", self.program.stderr.readline()).group(1)
         self.sender = subprocess.Popen([cli, "send", "--to", f"127.0.0.1:{port}", "--characters", str(CHARACTERS),
                                         "--rate", "60", "--types", "02,12,13"], stdout=subprocess.DEVNULL)
 

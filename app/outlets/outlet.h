@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/net/input.h"
+#include "core/log/clock.h"
+#include "core/log/packet_log.h"
+#include "core/model/session/session_view.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// Ways out: what is received, in forms that other programs read.
+namespace posewire::outlets {
+
+struct OutletState {
+    std::string place;         ///< where others find it, or where it sends to
+    std::size_t receivers = 0; ///< now
+    std::uint64_t poses = 0;   ///< handed to the writer
+    std::uint64_t sent = 0;    ///< lines or datagrams, of all receivers
+    std::uint64_t skipped = 0; ///< of them, left out for receivers that did not read in time, or refused
+    std::uint64_t missed = 0;  ///< packets that the log had dropped before the outlet read them
+    std::string problem;       ///< why nothing is sent; empty if all is well
+};
+
+/// Hands on what is received in one form, on a thread of its own: receiving never waits for it.
+class Outlet {
+public:
+    virtual ~Outlet() = default;
+    /// Poses are of the characters as this session knows them, up to where it has followed the log. From the
+    /// thread that has it follow, again and again.
+    virtual void update(const model::SessionView& session) = 0;
+    [[nodiscard]] virtual OutletState state() const = 0;
+};
+
+struct OutletChoice {
+    std::string place;
+    std::string character; ///< a name or ID, of those that take one; empty: the first that is listed
+};
+
+/// What an outlet stands in. Log and clock must outlive it.
+struct OutletPlace {
+    const log::PacketLog& log;
+    const log::Clock& clock;
+    std::vector<net::InputStatus> inputs; ///< no datagrams are sent back into these
+};
+
+/// A row for each form.
+struct OutletKind {
+    std::string_view name;
+    std::string_view place; ///< where it goes if none is chosen; empty: one has to be
+    std::string_view unit;  ///< what is sent: "line"
+    std::string_view help;
+    net::NetResult<std::unique_ptr<Outlet>> (*start)(const OutletChoice& choice, const OutletPlace& place);
+};
+[[nodiscard]] std::span<const OutletKind> outletKinds();
+/// Null if there is no such kind.
+[[nodiscard]] const OutletKind* findOutletKind(std::string_view name);
+
+} // namespace posewire::outlets

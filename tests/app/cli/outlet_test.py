@@ -1,0 +1,206 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Reads what `outlet` sends, by readers of others, and compares it with the lines of `follow`.
+
+usage: outlet_test.py POSEWIRE_CLI
+"""
+import contextlib
+import json
+import pathlib
+import signal
+import socket
+import subprocess
+import sys
+import time
+
+POSES = 60
+CLOSE = 1e-4
+BUNDLE = 1472  # bytes, at most
+
+
+def free_port():
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as one:
+        one.bind(("127.0.0.1", 0))
+        return one.getsockname()[1]
+
+
+@contextlib.contextmanager
+def running(command, **options):
+    with subprocess.Popen(command, text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE, **options) as program:
+        try:
+            yield program
+        finally:
+            program.send_signal(signal.SIGINT)
+            try:
+                program.communicate(timeout=20)
+            except subprocess.TimeoutExpired:
+                program.kill()
+
+
+def close(one, other):
+    return len(one) == len(other) and all(abs(float(a) - float(b)) < CLOSE for a, b in zip(one, other))
+
+
+def turned(q, v):
+    """A vector turned by a quaternion w x y z."""
+    w, x, y, z = q
+    t = [2 * (y * v[2] - z * v[1]), 2 * (z * v[0] - x * v[2]), 2 * (x * v[1] - y * v[0])]
+    return [v[0] + w * t[0] + y * t[2] - z * t[1], v[1] + w * t[1] + z * t[0] - x * t[2],
+            v[2] + w * t[2] + x * t[1] - y * t[0]]
+
+
+def product(a, b):
+    return [a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3], a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
+            a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1], a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0]]
+
+
+def osc_poses(bundles):
+    """Of /posewire: (ID, sample) -> {segment: numbers}, each with its time."""
+    own = {}
+    for bundle in bundles:
+        assert bundle["bytes"] <= BUNDLE, bundle["bytes"]
+        assert abs(bundle["time"] - time.time()) < 60, bundle["time"]
+        for address, types, *values in bundle["messages"]:
+            _, root, name, kind, *segment = address.split("/")
+            assert root == "posewire", address
+            if kind == "pose":
+                assert types == "iiiss" and values[3] == "02", values
+                own[name] = {}
+                yield (values[0], values[1]), own[name]
+            elif name in own:
+                assert types == "fffffff", types
+                own[name][segment[0]] = values
+
+
+def vmc_poses(bundles):
+    """One set of bones after the other: {bone: (position, orientation w x y z)}, Unity's, relative to the parent."""
+    bones = None
+    for bundle in bundles:
+        for address, types, *values in bundle["messages"]:
+            if address == "/VMC/Ext/OK":
+                assert values == [1, 3, 0, 1], values
+                bones = {}
+            elif address == "/VMC/Ext/Bone/Pos" and bones is not None:
+                assert types == "sfffffff", types
+                name, *numbers = values
+                bones[name] = (numbers[:3], [numbers[6], *numbers[3:6]])
+            elif address == "/VMC/Ext/Blend/Apply" and bones is not None:
+                yield bones
+
+
+def world_of(bones, chain):
+    """Where the last bone of a chain is, Z up as MVN has it: x ahead, y to the left."""
+    place, turn = [0, 0, 0], [1, 0, 0, 0]
+    for bone in chain:
+        position, orientation = bones[bone]
+        place = [a + b for a, b in zip(place, turned(turn, position))]
+        turn = product(turn, orientation)
+    return [place[2], -place[0], place[1], turn[0], -turn[3], turn[1], -turn[2]]
+
+
+def told(segment):
+    return segment["position"] + segment["orientation"]
+
+
+class Stage:
+    """Performers who send both to an outlet and to `follow`."""
+
+    def __init__(self, cli, *outlet):
+        self.cli, self.outlet = cli, outlet
+
+    def run(self, poses):
+        """Whatever poses(bundles) makes of what the outlet sent, and the poses of follow by ID and sample."""
+        ports = [free_port(), free_port()]
+        reader = [str(pathlib.Path(__file__).with_name("osc_reader.pl"))]
+        with contextlib.ExitStack() as all_of_them:
+            reading = all_of_them.enter_context(running(["perl", *reader]))
+            to = "127.0.0.1:" + reading.stdout.readline().strip()
+            follow = all_of_them.enter_context(running([self.cli, "follow", "--udp", f"127.0.0.1:{ports[0]}"]))
+            outlet = all_of_them.enter_context(
+                running([self.cli, "outlet", *self.outlet, "--udp", f"127.0.0.1:{ports[1]}", "--to", to]))
+            assert to in outlet.stderr.readline()
+            all_of_them.enter_context(
+                running([self.cli, "send", *(f"--to=127.0.0.1:{port}" for port in ports), "--rate", "60", "--characters",
+                         "2", "--fingers", "--types", "02,12,13"]))
+            got = poses(json.loads(line) for line in reading.stdout)
+            sent = {}
+            while len(sent) < 4 * POSES:
+                line = json.loads(follow.stdout.readline())
+                sent[line["id"], line["sample"]] = {each["name"]: told(each) for each in line["segments"]}
+            reading.kill()
+            return got, sent
+
+
+def first(count, poses):
+    return [next(poses) for _ in range(count)]
+
+
+def by_osc(cli):
+    got, sent = Stage(cli, "osc").run(lambda bundles: first(2 * POSES + 1, osc_poses(bundles))[:-1])
+    compared = [key for key, _ in got if key in sent]
+    assert {key[0] for key in compared} == {0, 1} and len(compared) > POSES, compared
+    for key, segments in got:
+        for name, numbers in segments.items() if key in sent else ():
+            assert close(numbers, sent[key][name]), (key, name, numbers, sent[key][name])
+        assert len(segments) == 63, (key, len(segments))
+
+
+def by_vmc(cli):
+    got, sent = Stage(cli, "vmc", "--character", "1").run(lambda bundles: first(POSES, vmc_poses(bundles)))
+    spine = ["Hips", "Spine", "Chest", "UpperChest"]
+    chains = {"Pelvis": spine[:1], "Head": [*spine, "Neck", "Head"],
+              "RightHand": [*spine, "RightShoulder", "RightUpperArm", "RightLowerArm", "RightHand"],
+              "LeftToe": ["Hips", "LeftUpperLeg", "LeftLowerLeg", "LeftFoot", "LeftToes"],
+              "LeftFourthDP": [*spine, "LeftShoulder", "LeftUpperArm", "LeftLowerArm", "LeftHand", "LeftRingProximal",
+                               "LeftRingIntermediate", "LeftRingDistal"]}
+    for bones in got:
+        assert len(bones) == 52, sorted(bones)
+        hips = world_of(bones, ["Hips"])
+        twin = min((pose for key, pose in sent.items() if key[0] == 1),
+                   key=lambda pose: sum(abs(a - b) for a, b in zip(hips, pose["Pelvis"])))
+        for name, chain in chains.items():
+            mine = world_of(bones, chain)
+            theirs = twin[name]
+            same = close(mine[:3], theirs[:3]) and (close(mine[3:], theirs[3:]) or close(mine[3:], [-part for part in theirs[3:]]))
+            assert same, (name, mine, theirs)
+
+
+def by_datagrams(cli):
+    port = free_port()
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as receiver:
+        receiver.bind(("127.0.0.1", 0))
+        receiver.settimeout(20)
+        to = f"127.0.0.1:{receiver.getsockname()[1]}"
+        with running([cli, "outlet", "datagrams", "--udp", f"127.0.0.1:{port}", "--to", to]) as outlet:
+            assert to in outlet.stderr.readline()
+            with running([cli, "send", "--to", f"127.0.0.1:{port}", "--rate", "60", "--types", "02"]):
+                for _ in range(POSES):
+                    assert receiver.recv(65536).startswith(b"MXTP02")
+
+
+def refusals(cli):
+    port = free_port()
+    place = f"127.0.0.1:{port}"
+    for arguments, named in ((["nothing"], "nothing"), (["datagrams"], "--to"), (["osc", "--to", "nowhere:x"], "nowhere:x"),
+                             (["osc", "--to", "-"], "--to"), (["datagrams", "--to", place], place)):
+        refused = subprocess.run([cli, "outlet", *arguments, "--udp", place, "--duration", "1"], capture_output=True,
+                                 text=True, timeout=20, check=False)
+        assert refused.returncode == 2 and named in refused.stderr, (arguments, refused)
+    alone = subprocess.run([cli, "outlet", "osc", "--udp", place, "--to", f"127.0.0.1:{free_port()}", "--duration", "0.5"],
+                           capture_output=True, text=True, timeout=20, check=False)
+    assert alone.returncode == 0, alone
+
+
+def main(cli):
+    refusals(cli)
+    by_datagrams(cli)
+    if subprocess.run(["perl", "-MProtocol::OSC", "-e1"], stderr=subprocess.DEVNULL, check=False).returncode != 0:
+        print("Protocol::OSC (libprotocol-osc-perl) is not here: OSC and VMC were not read")
+        return 0
+    by_osc(cli)
+    by_vmc(cli)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))
