@@ -48,9 +48,9 @@ public:
     /// Shows all boxes at once, and keeps showing what follow() is given. Without boxes nothing changes.
     void frame(std::span<const render::Bounds> boxes, float aspect);
     void show(const render::Bounds& box, float aspect);
-    /// Shows the first boxes, and in a picture of another shape all, at once. From then on it holds still as long as all are well in the picture, and
-    /// glides to where they are when they are not; after infinite `seconds`, as between two moments of a
-    /// recording, it is there. Nothing after a pan or zoom.
+    /// Shows the first boxes, and in a picture of another shape all, at once. From then on it holds still as
+    /// long as all are well in the picture, and glides to where they are when they are not; after infinite
+    /// `seconds`, as between two moments of a recording, it is there. Nothing after a pan or zoom.
     void follow(std::span<const render::Bounds> boxes, float aspect, double seconds);
 
 private:
