@@ -40,7 +40,7 @@ bool OutletWatch::start(const MonitorOptions& options, const log::Clock& clock,
         return true;
     }
     const std::string place = options.to.empty() ? std::string(m_kind->place) : options.to;
-    auto outlet = started({place, options.character}, {m_run.log(), clock, std::move(inputs)});
+    auto outlet = started({place, options.character}, {m_run.log(), clock, std::move(inputs), {}});
     if (!outlet) {
         m_console.complain("--to: " + outlet.error().text);
         return false;
@@ -78,8 +78,8 @@ void OutletWatch::end() {
     if (state.poses != 0) {
         told.insert(0, countText(state.poses, "pose") + ", ");
     }
-    if (state.skipped != 0) {
-        told += ", " + countText(state.skipped, m_kind->unit) + " left out";
+    if (const std::uint64_t left = state.refused + state.skipped; left != 0) {
+        told += ", " + countText(left, m_kind->unit) + " left out";
     }
     m_console.complain(told);
     if (state.missed != 0) {

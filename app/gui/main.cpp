@@ -117,8 +117,8 @@ void openInputs(MainWindow& window, const Options& options, const Settings& sett
     for (const InputAddress& input : inputsToOpen(options, choices)) {
         driver.receiving().addPort(input);
     }
-    for (const RelayChoice& relay : choices.relays) {
-        driver.receiving().relaying().add(relay);
+    for (const WayOut& way : choices.waysOut) {
+        driver.receiving().waysOut().add(way);
     }
     if (options.demoCharacters > 0) {
         driver.demo().setCharacters(options.demoCharacters);

@@ -35,7 +35,7 @@ public:
         state.place = m_sender.place();
         state.receivers = 1;
         state.sent = m_sender.sent();
-        state.skipped = m_sender.refused();
+        state.refused = m_sender.refused();
     }
 
 protected:

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/outlets/outlet.h"
 
-#include "app/net/relay.h"
 #include "app/outlets/follow.h"
 #ifndef _WIN32
 #include "app/outlets/osc.h"
@@ -23,27 +22,41 @@ public:
         if (!target) {
             return tl::unexpected(target.error());
         }
-        auto outlet = std::make_unique<RelayedDatagrams>(place);
-        if (auto added = outlet->m_relay.add(*target, place.inputs); !added) {
+        const auto relay = place.relay ? place.relay : std::make_shared<net::Relay>(place.log, place.clock);
+        auto added = relay->add(*target, place.inputs);
+        if (!added) {
             return tl::unexpected(std::move(added.error()));
         }
-        return outlet;
+        return std::make_unique<RelayedDatagrams>(relay, *added);
     }
 
-    explicit RelayedDatagrams(const OutletPlace& place) : m_relay(place.log, place.clock) {}
+    RelayedDatagrams(std::shared_ptr<net::Relay> relay, net::RelayId id)
+        : m_relay(std::move(relay)), m_id(id) {}
+    ~RelayedDatagrams() override { m_relay->remove(m_id); }
+    RelayedDatagrams(const RelayedDatagrams&) = delete;
+    RelayedDatagrams& operator=(const RelayedDatagrams&) = delete;
 
     void update(const model::SessionView& /*session*/) override {}
     [[nodiscard]] OutletState state() const override {
-        const net::RelayTarget target = m_relay.targets().front();
-        return {.place = net::textOf(target.endpoint),
+        const std::vector<net::RelayTarget> targets = m_relay->targets();
+        const net::RelayTarget& own = *std::ranges::find(targets, m_id, &net::RelayTarget::id);
+        return {.place = net::textOf(own.endpoint),
                 .receivers = 1,
-                .sent = target.sent,
-                .skipped = target.refused + target.skipped,
-                .problem = target.problem};
+                .sent = own.sent,
+                .refused = own.refused,
+                .skipped = own.skipped,
+                .behind = own.behind,
+                .problem = own.problem,
+                .returner = own.isStopped ? std::optional(own.returner) : std::nullopt};
+    }
+    [[nodiscard]] std::optional<net::NetError>
+    problemWith(const std::vector<net::InputStatus>& inputs) const override {
+        return m_relay->problemWith(m_id, inputs);
     }
 
 private:
-    net::Relay m_relay;
+    std::shared_ptr<net::Relay> m_relay;
+    net::RelayId m_id;
 };
 
 template <auto makeWriter>
@@ -52,11 +65,13 @@ Started startPoses(const OutletChoice& choice, const OutletPlace& place) {
 }
 
 constexpr OutletKind kKinds[] = {
-    {"datagrams", "", "datagram", "what is received, unchanged, by UDP", RelayedDatagrams::start},
-    {"follow", "-", "line", "poses as lines of JSON, to all who connect", startPoses<followAt>},
+    {"datagrams", "", false, false, "datagram", "what is received, unchanged, by UDP",
+     RelayedDatagrams::start},
+    {"follow", "-", true, false, "line", "poses as lines of JSON, to all who connect", startPoses<followAt>},
 #ifndef _WIN32
-    {"osc", "127.0.0.1:9000", "datagram", "poses as Open Sound Control, by UDP", startPoses<oscTo>},
-    {"vmc", "127.0.0.1:39539", "datagram", "poses of one character by the VMC protocol, by UDP",
+    {"osc", "127.0.0.1:9000", true, false, "datagram", "poses as Open Sound Control, by UDP",
+     startPoses<oscTo>},
+    {"vmc", "127.0.0.1:39539", true, true, "datagram", "poses of one character by the VMC protocol, by UDP",
      startPoses<vmcTo>},
 #endif
 };

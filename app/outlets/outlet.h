@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/net/input.h"
+#include "app/net/relay.h"
 #include "core/log/clock.h"
 #include "core/log/packet_log.h"
 #include "core/model/session/session_view.h"
@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -22,9 +23,12 @@ struct OutletState {
     std::size_t receivers = 0; ///< now
     std::uint64_t poses = 0;   ///< handed to the writer
     std::uint64_t sent = 0;    ///< lines or datagrams, of all receivers
-    std::uint64_t skipped = 0; ///< of them, left out for receivers that did not read in time, or refused
+    std::uint64_t refused = 0; ///< by this system, or by nobody who listens there
+    std::uint64_t skipped = 0; ///< left out for receivers that did not read in time, or for fear of a loop
+    std::uint64_t behind = 0;  ///< packets that wait to be handed on
     std::uint64_t missed = 0;  ///< packets that the log had dropped before the outlet read them
-    std::string problem;       ///< why nothing is sent; empty if all is well
+    std::string problem;       ///< why the newest was refused, or why nothing is sent; empty if all is well
+    std::optional<log::SenderId> returner{}; ///< who sent datagrams back, so that it was stopped
 };
 
 /// Hands on what is received in one form, on a thread of its own: receiving never waits for it.
@@ -35,6 +39,11 @@ public:
     /// thread that has it follow, again and again.
     virtual void update(const model::SessionView& session) = 0;
     [[nodiscard]] virtual OutletState state() const = 0;
+    /// Why it cannot stay with these inputs; nothing if it can.
+    [[nodiscard]] virtual std::optional<net::NetError>
+    problemWith(const std::vector<net::InputStatus>& /*inputs*/) const {
+        return {};
+    }
 };
 
 struct OutletChoice {
@@ -47,13 +56,16 @@ struct OutletPlace {
     const log::PacketLog& log;
     const log::Clock& clock;
     std::vector<net::InputStatus> inputs; ///< no datagrams are sent back into these
+    std::shared_ptr<net::Relay> relay;    ///< of all outlets of datagrams, which know of one another
 };
 
 /// A row for each form.
 struct OutletKind {
     std::string_view name;
     std::string_view place; ///< where it goes if none is chosen; empty: one has to be
-    std::string_view unit;  ///< what is sent: "line"
+    bool hasPoses;
+    bool isOfOne;          ///< character
+    std::string_view unit; ///< what is sent: "line"
     std::string_view help;
     net::NetResult<std::unique_ptr<Outlet>> (*start)(const OutletChoice& choice, const OutletPlace& place);
 };

@@ -63,7 +63,7 @@ void checkSettings(const QByteArray& bytes) {
     const auto again = parseSettings(QJsonDocument(jsonOf(*settings)).toJson());
     require(again && *again == *settings);
     require(settings->window.width() >= 0 && settings->window.right() >= settings->window.left() - 1);
-    require(settings->inputs.relays.size() <= 256);
+    require(settings->inputs.waysOut.size() <= 256);
     for (const InputAddress& input : settings->inputs.inputs.value_or(std::vector<InputAddress>())) {
         require(input.port != 0);
     }

@@ -68,11 +68,15 @@ QJsonObject jsonOf(const InputChoices& choices) {
         }
         object["inputs"] = inputs;
     }
-    QJsonArray relays;
-    for (const RelayChoice& relay : choices.relays) {
-        relays.append(QJsonObject{{"host", relay.host}, {"port", relay.port}, {"on", relay.isOn}});
+    QJsonArray waysOut;
+    for (const WayOut& way : choices.waysOut) {
+        waysOut.append(QJsonObject{{"host", way.host},
+                                   {"port", way.port},
+                                   {"on", way.isOn},
+                                   {"kind", way.kind},
+                                   {"character", way.character}});
     }
-    object["relays"] = relays;
+    object["relays"] = waysOut; // as it was called when there were only those
     if (!choices.allowed.isEmpty()) {
         object["from"] = QJsonArray::fromStringList(choices.allowed);
     }
@@ -90,10 +94,12 @@ InputChoices inputChoicesOf(const QJsonObject& object) {
         }
     }
     for (const QJsonValue& value : object["relays"].toArray()) {
-        const QJsonObject relay = value.toObject();
-        const auto port = portOf(relay["port"]);
-        if (port && !relay["host"].toString().isEmpty()) {
-            choices.relays.push_back({relay["host"].toString(), *port, relay["on"].toBool(true)});
+        const QJsonObject way = value.toObject();
+        const auto port = portOf(way["port"]);
+        const QString kind = way["kind"].toString(WayOut().kind);
+        if (port && (kind == QStringLiteral("follow") || !way["host"].toString().isEmpty())) {
+            choices.waysOut.push_back(
+                {way["host"].toString(), *port, way["on"].toBool(true), kind, way["character"].toString()});
         }
     }
     QStringList unreadable;
@@ -151,11 +157,12 @@ QString displayText(const InputAddress& input) {
         transport = tr("TCP to ");
     }
     return transport + (input.address.isEmpty() ? QString::number(input.port)
-                                                : displayText(RelayChoice{input.address, input.port}));
+                                                : displayText(WayOut{input.address, input.port}));
 }
 
-QString displayText(const RelayChoice& relay) {
-    return QString::fromStdString(net::textOf({relay.host.toStdString(), relay.port}));
+QString displayText(const WayOut& way) {
+    return way.host.isEmpty() ? QString::number(way.port)
+                              : QString::fromStdString(net::textOf({way.host.toStdString(), way.port}));
 }
 
 } // namespace posewire::gui

@@ -26,11 +26,19 @@ struct InputAddress {
     friend bool operator==(const InputAddress&, const InputAddress&) = default;
 };
 
-struct RelayChoice {
-    QString host;
+/// Where something is handed on, and in which form.
+struct WayOut {
+    QString host; ///< empty: all who connect to that port of this computer
     std::uint16_t port = kDefaultPort;
     bool isOn = true;
-    friend bool operator==(const RelayChoice&, const RelayChoice&) = default;
+    QString kind = QStringLiteral("datagrams"); ///< of outlets::outletKinds()
+    QString character{};                        ///< of those that take one: a name or ID
+
+    /// Whether both are the same, on or off.
+    [[nodiscard]] bool isLike(const WayOut& other) const {
+        return host == other.host && port == other.port && kind == other.kind && character == other.character;
+    }
+    friend bool operator==(const WayOut&, const WayOut&) = default;
 };
 
 /// "9763", "127.0.0.1:9763", "[::1]:9763"; the error says what is wrong, and begins with the option's name.
@@ -42,16 +50,16 @@ parseInputAddress(const QString& text, InputAddress::Kind kind = InputAddress::K
 
 /// "UDP 9763", "UDP 127.0.0.1:9763", "TCP 9763", "TCP to studio:9763".
 [[nodiscard]] QString displayText(const InputAddress& input);
-/// "studio:9763", "[::1]:9763".
-[[nodiscard]] QString displayText(const RelayChoice& relay);
+/// "studio:9763", "[::1]:9763"; "9800" without a host.
+[[nodiscard]] QString displayText(const WayOut& way);
 
 /// "udp", "tcp-listen", "tcp": the option of the command line, and the protocol in files.
 [[nodiscard]] QString kindName(InputAddress::Kind kind);
 
-/// Inputs and relays of the operator, kept from one run to the next.
+/// Inputs and ways out of the operator, kept from one run to the next.
 struct InputChoices {
     std::optional<std::vector<InputAddress>> inputs{}; ///< nothing where nobody has chosen yet
-    std::vector<RelayChoice> relays{};
+    std::vector<WayOut> waysOut{};
     QStringList allowed{}; ///< hosts and nets to listen to; none: all
     friend bool operator==(const InputChoices&, const InputChoices&) = default;
 };

@@ -24,15 +24,16 @@ struct PortState {
     double datagramsPerSecond = 0;
 };
 
-struct RelayState {
+struct WayOutState {
     enum class Stage : std::uint8_t { Off, LookingUp, Forwarding, Refused };
-    RelayChoice target;
+    WayOut target;
     Stage stage = Stage::Off;
-    QString problem{}; ///< why it was refused, or the newest datagrams were; that nobody listens there
-    std::uint64_t sent = 0;
+    QString problem{};      ///< why it was refused, or the newest datagrams were; that nobody listens there
+    std::uint64_t sent = 0; ///< datagrams or lines
     std::uint64_t refused = 0; ///< datagrams that this system did not take, or nobody there
     std::uint64_t skipped = 0; ///< datagrams left out: fallen too far behind, or for fear of a loop
     std::uint64_t behind = 0;  ///< packets that wait to be forwarded
+    std::size_t receivers = 0; ///< now, of those that they connect to
 };
 
 struct ReceivingState {
@@ -45,7 +46,7 @@ struct ReceivingState {
     log::Duration longestDelay{}; ///< the longest time the receiving thread did not look at its sockets
     double datagramsPerSecond = 0;
     double bytesPerSecond = 0;
-    std::vector<RelayState> relays{};
+    std::vector<WayOutState> waysOut{};
     std::vector<words::Fact> findings{};        ///< why no characters are seen; empty if all is well
     std::vector<net::LocalAddress> addresses{}; ///< of this computer, to type into a sender, the best first
 };

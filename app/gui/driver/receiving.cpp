@@ -202,8 +202,8 @@ void Receiving::measure(log::Stamp now) {
         port.datagramsPerSecond =
             port.id ? m_portRates[*port.id].add(now, status.datagrams, status.bytes).datagrams : 0;
     }
-    m_relaying.measure(openInputs());
-    m_state.relays = m_relaying.states();
+    m_waysOut.measure(openInputs());
+    m_state.waysOut = m_waysOut.states();
 }
 
 Receiving::Rates Receiving::RateMeter::add(log::Stamp now, std::uint64_t datagrams, std::uint64_t bytes) {
@@ -252,8 +252,8 @@ InputChoices Receiving::choices() const {
     for (const PortState& state : m_state.ports) {
         choices.inputs->push_back(state.port);
     }
-    for (const RelayState& relay : m_relaying.states()) {
-        choices.relays.push_back(relay.target);
+    for (const WayOutState& way : m_waysOut.states()) {
+        choices.waysOut.push_back(way.target);
     }
     choices.allowed = m_allowed;
     return choices;

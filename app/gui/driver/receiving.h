@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/gui/base/program_state.h"
-#include "app/gui/driver/relaying.h"
+#include "app/gui/driver/ways_out.h"
 #include "app/net/allow_list.h"
 #include "app/net/receiver.h"
 #include "core/log/clock.h"
@@ -23,7 +23,7 @@ namespace posewire::gui {
 class Receiving {
 public:
     Receiving(log::PacketLog& log, const log::Clock& clock)
-        : m_clock(clock), m_receiver(log, clock), m_relaying(log, clock) {}
+        : m_clock(clock), m_receiver(log, clock), m_waysOut(log, clock) {}
 
     /// Listens or connects to one more; what is wrong with it is in state(), and it is tried again by
     /// retry().
@@ -62,7 +62,7 @@ public:
     [[nodiscard]] net::Endpoint openPlace() const;
 
     [[nodiscard]] net::Receiver& receiver() { return m_receiver; }
-    [[nodiscard]] Relaying& relaying() { return m_relaying; }
+    [[nodiscard]] WaysOut& waysOut() { return m_waysOut; }
 
     /// Inputs that are open and targets that are forwarded to now.
     [[nodiscard]] InputChoices choices() const;
@@ -95,7 +95,7 @@ private:
     const log::Clock& m_clock;
     ReceivingState m_state;
     net::Receiver m_receiver;
-    Relaying m_relaying;
+    WaysOut m_waysOut;
     RateMeter m_rates;
     std::map<net::InputId, RateMeter> m_portRates;
     net::ConnectionWatch m_watch;

@@ -196,7 +196,8 @@ SessionDriver::SessionDriver(const log::Clock& clock, const QString& cacheFolder
         // A tick that takes long is followed by a rest as long: the window never takes more than half a
         // processor.
         const auto took = sinceTick();
-        const auto tick = took > kTick || (m_isInSight && !m_isQuiet) ? kTick : kRestingTick;
+        const bool isResting = (!m_isInSight || m_isQuiet) && !m_receiving.waysOut().hasPoses();
+        const auto tick = took > kTick || !isResting ? kTick : kRestingTick;
         m_timer.start(std::clamp(std::max(tick - took, took), std::chrono::milliseconds(1), kSlowestTick));
     });
 }
@@ -229,11 +230,13 @@ void SessionDriver::tick() {
     while (live.follow(now, kPacketsAtOnce) && m_clock.monotonic() - begin < kFollowTime) {
     }
     const bool hasNew = live.end() != endBefore;
+    m_receiving.waysOut().update(live);
     m_health.addFollow(m_clock.monotonic() - begin, live.end() - endBefore);
     m_isChanged = m_playback.follow() || m_isChanged;
     m_isChanged = m_files.follow(kFollowTime) || m_isChanged;
     m_isInSight = isAnyWindowInSight();
-    m_receiving.receiver().setNap(m_isInSight ? net::ReceiverOptions().nap : kUnseenNap);
+    const bool isWanted = m_isInSight || m_receiving.waysOut().hasPoses();
+    m_receiving.receiver().setNap(isWanted ? net::ReceiverOptions().nap : kUnseenNap);
     m_changed = hasNew || m_isChanged || m_files.isOpening() ? now : m_changed;
     const bool isWaiting = live.end() == 0 && m_files.file() == nullptr; // help looks for why nothing comes
     m_isQuiet = !isWaiting && now - m_changed > kQuiet;
@@ -267,10 +270,10 @@ void SessionDriver::tickTables(log::Stamp now) {
     model::Session& live = m_local.session();
     m_receiving.measure(now);
     live.setKernel(m_receiving.state().kernel);
-    for (const Relaying::Loop& loop : m_receiving.relaying().takeLoops()) {
+    for (const WaysOut::Loop& loop : m_receiving.waysOut().takeLoops()) {
         live.report(model::IncidentKind::RelayLoop, now,
                     {words::Kind::RelayStopped, {{"problem", loop.text.toStdString()}}}, loop.returner);
-        emit relayStopped();
+        emit wayOutStopped();
     }
     m_receiving.examine(live, now);
     m_takes.follow(now);

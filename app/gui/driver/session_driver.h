@@ -173,7 +173,7 @@ signals:
     /// Ten times a second, or once if nothing changes or can be seen, after the session has followed.
     void tableTick();
     /// A relay was switched off because its datagrams came back.
-    void relayStopped();
+    void wayOutStopped();
 
 private:
     [[nodiscard]] std::chrono::milliseconds sinceTick() const;

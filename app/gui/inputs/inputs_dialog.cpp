@@ -3,7 +3,7 @@
 
 #include "app/gui/base/saving.h"
 #include "app/gui/inputs/inputs_page.h"
-#include "app/gui/inputs/relay_page.h"
+#include "app/gui/inputs/ways_out_page.h"
 #include "app/gui/models/text.h"
 #include "app/gui/theme/help_link.h"
 #include "app/gui/theme/theme.h"
@@ -117,12 +117,12 @@ InputsDialog::InputsDialog(Receiving& receiving, QWidget* parent)
     : QDialog(parent),
       m_receiving(receiving),
       m_inputs(new InputsPage(receiving, this)),
-      m_relay(new RelayPage(receiving.relaying(), this)),
+      m_waysOut(new WaysOutPage(receiving.waysOut(), this)),
       m_help(new ConnectionPage([this](const InputAddress& offer) { takeOffer(offer); }, this)) {
     setObjectName(QStringLiteral("sourcesDialog"));
-    setWindowTitle(tr("Inputs"));
+    setWindowTitle(tr("Inputs and ways out"));
     m_tabs->addTab(m_inputs, tr("&Inputs"));
-    m_tabs->addTab(m_relay, tr("Re&lay"));
+    m_tabs->addTab(m_waysOut, tr("&Ways out"));
     m_tabs->addTab(m_help, tr("Connection &help"));
     auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, this);
     auto* column = new QVBoxLayout(this);
@@ -133,7 +133,7 @@ InputsDialog::InputsDialog(Receiving& receiving, QWidget* parent)
     connect(m_tabs, &QTabWidget::currentChanged, this, &InputsDialog::refresh);
     connect(m_inputs, &InputsPage::choicesChanged, this, &InputsDialog::choicesChanged);
     connect(m_inputs, &InputsPage::openFileRequested, this, &InputsDialog::openFileRequested);
-    connect(m_relay, &RelayPage::choicesChanged, this, &InputsDialog::choicesChanged);
+    connect(m_waysOut, &WaysOutPage::choicesChanged, this, &InputsDialog::choicesChanged);
     const QFontMetrics metrics = fontMetrics();
     resize(metrics.averageCharWidth() * 165, metrics.lineSpacing() * 36);
 }
@@ -162,8 +162,8 @@ void InputsDialog::refresh() {
     case Page::Inputs:
         m_inputs->refresh();
         return;
-    case Page::Relay:
-        m_relay->refresh();
+    case Page::WaysOut:
+        m_waysOut->refresh();
         return;
     case Page::Help:
         m_help->refresh(m_receiving.state());

@@ -9,16 +9,16 @@
 namespace posewire::gui {
 
 class ConnectionPage;
-class RelayPage;
+class WaysOutPage;
 class InputsPage;
 
-/// What is received and passed on: inputs, relay, connection help. Stays open beside the window and
+/// What is received and passed on: inputs, ways out, connection help. Stays open beside the window and
 /// shows what happens.
 class InputsDialog final : public QDialog {
     Q_OBJECT
 
 public:
-    enum class Page : int { Inputs, Relay, Help };
+    enum class Page : int { Inputs, WaysOut, Help };
 
     explicit InputsDialog(Receiving& receiving, QWidget* parent = nullptr);
 
@@ -27,7 +27,7 @@ public:
     void refresh();
 
     [[nodiscard]] InputsPage& inputs() const { return *m_inputs; }
-    [[nodiscard]] RelayPage& relay() const { return *m_relay; }
+    [[nodiscard]] WaysOutPage& waysOut() const { return *m_waysOut; }
 
 signals:
     /// Receiving::choices() has been changed by the operator.
@@ -40,7 +40,7 @@ private:
     Receiving& m_receiving;
     QTabWidget* m_tabs = new QTabWidget(this);
     InputsPage* m_inputs;
-    RelayPage* m_relay;
+    WaysOutPage* m_waysOut;
     ConnectionPage* m_help;
 };
 

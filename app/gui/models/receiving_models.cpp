@@ -142,46 +142,50 @@ std::vector<InputColumn> inputColumns() {
     };
 }
 
-using RelayColumn = TableColumn<RelayState>;
+using WayOutColumn = TableColumn<WayOutState>;
 
-RelayColumn relayCount(const QString& title, const QString& help, std::uint64_t RelayState::*count) {
-    return RelayColumn::numbers(title, help, [count](const auto& relay) { return grouped(relay.*count); })
+WayOutColumn wayOutCount(const QString& title, const QString& help, std::uint64_t WayOutState::*count) {
+    return WayOutColumn::numbers(title, help, [count](const auto& way) { return grouped(way.*count); })
         .in({QStringLiteral("100 000")});
 }
 
-RelayColumn troubleColumn(const QString& title, const QString& help, std::uint64_t RelayState::*count) {
-    return relayCount(title, help, count).withColour([count](const RelayState& relay) {
-        return relay.*count > 0 ? QVariant(theme().warning) : QVariant();
+WayOutColumn troubleColumn(const QString& title, const QString& help, std::uint64_t WayOutState::*count) {
+    return wayOutCount(title, help, count).withColour([count](const WayOutState& way) {
+        return way.*count > 0 ? QVariant(theme().warning) : QVariant();
     });
 }
 
-std::vector<RelayColumn> relayColumns() {
-    const auto box = [](const RelayState& relay, int role) {
-        return role == Qt::CheckStateRole ? QVariant(relay.target.isOn ? Qt::Checked : Qt::Unchecked)
+std::vector<WayOutColumn> waysOutColumns() {
+    const auto box = [](const WayOutState& way, int role) {
+        return role == Qt::CheckStateRole ? QVariant(way.target.isOn ? Qt::Checked : Qt::Unchecked)
                                           : QVariant();
     };
     return {
-        RelayColumn::words(tr("Host"), {}, [](const auto& relay) { return relay.target.host; })
-            .in({QStringLiteral("☑ motion-capture.studio")})
+        WayOutColumn::words(tr("To"), {}, [](const auto& way) { return displayText(way.target); })
+            .in({QStringLiteral("☑ motion-capture.studio:65535")})
             .withMore(box),
-        RelayColumn::numbers(tr("Port"), {},
-                             [](const auto& relay) { return QString::number(relay.target.port); })
-            .in({QStringLiteral("65535")}),
+        WayOutColumn::words(tr("As"), tr("The form: see the list below"),
+                            [](const auto& way) {
+                                return way.target.character.isEmpty()
+                                           ? way.target.kind
+                                           : tr("%1 of %2").arg(way.target.kind, way.target.character);
+                            })
+            .in({QStringLiteral("datagrams")}),
         valueColumn(
-            RelayColumn{.title = tr("State"), .room = {.usual = tr("looking up studio"), .isOpen = true}},
-            relayStage),
-        relayCount(tr("Sent"), tr("Datagrams forwarded"), &RelayState::sent)
+            WayOutColumn{.title = tr("State"), .room = {.usual = tr("looking up studio"), .isOpen = true}},
+            wayOutStage),
+        wayOutCount(tr("Sent"), tr("Datagrams, or lines to each who has connected"), &WayOutState::sent)
             .in({QStringLiteral("100 000 000")}),
         troubleColumn(
             tr("Refused"),
             tr("Datagrams that this system did not take (no way there, or too long for UDP), or that "
                "the other computer sent back because nobody listens there"),
-            &RelayState::refused),
+            &WayOutState::refused),
         troubleColumn(tr("Skipped"),
                       tr("Datagrams left out because forwarding had fallen too far behind, or while it was "
-                         "found out whether they come back"),
-                      &RelayState::skipped),
-        relayCount(tr("Behind"), tr("Packets received that wait to be forwarded"), &RelayState::behind),
+                         "found out whether they come back; lines that a program had no room for"),
+                      &WayOutState::skipped),
+        wayOutCount(tr("Behind"), tr("Packets received that wait to be forwarded"), &WayOutState::behind),
     };
 }
 
@@ -213,16 +217,20 @@ PropertyValue inputState(const PortState& state) {
     return {state.port.kind == Kind::TcpListener ? tr("listening, nobody has connected") : tr("listening")};
 }
 
-PropertyValue relayStage(const RelayState& relay) {
-    switch (relay.stage) {
-    case RelayState::Stage::LookingUp:
-        return {tr("looking up %1").arg(relay.target.host)};
-    case RelayState::Stage::Refused:
-        return {relay.problem, Health::Error, relay.problem};
-    case RelayState::Stage::Forwarding:
-        return relay.problem.isEmpty() ? PropertyValue{tr("forwarding"), Health::Good}
-                                       : PropertyValue{relay.problem, Health::Warning, relay.problem};
-    case RelayState::Stage::Off:
+PropertyValue wayOutStage(const WayOutState& way) {
+    switch (way.stage) {
+    case WayOutState::Stage::LookingUp:
+        return {tr("looking up %1").arg(displayText(way.target))};
+    case WayOutState::Stage::Refused:
+        return {way.problem, Health::Error, way.problem};
+    case WayOutState::Stage::Forwarding:
+        return !way.problem.isEmpty()         ? PropertyValue{way.problem, Health::Warning, way.problem}
+               : way.target.kind != u"follow" ? PropertyValue{tr("forwarding"), Health::Good}
+               : way.receivers == 0
+                   ? PropertyValue{tr("nobody has connected")}
+                   : PropertyValue{tr("%n connected", nullptr, static_cast<int>(way.receivers)),
+                                   Health::Good};
+    case WayOutState::Stage::Off:
         break;
     }
     return {tr("off")};
@@ -251,10 +259,10 @@ int InputModel::rowOf(const InputAddress& input) const {
     return place == rows().end() ? -1 : static_cast<int>(place - rows().begin());
 }
 
-RelayModel::RelayModel() : TableModel(relayColumns()) {}
+WaysOutModel::WaysOutModel() : TableModel(waysOutColumns()) {}
 
-bool RelayModel::setData(const QModelIndex& index, const QVariant& value, int role) {
-    if (role != Qt::CheckStateRole || index.column() != kHost ||
+bool WaysOutModel::setData(const QModelIndex& index, const QVariant& value, int role) {
+    if (role != Qt::CheckStateRole || index.column() != kTarget ||
         !checkIndex(index, CheckIndexOption::IndexIsValid)) {
         return false;
     }
@@ -262,9 +270,9 @@ bool RelayModel::setData(const QModelIndex& index, const QVariant& value, int ro
     return true;
 }
 
-Qt::ItemFlags RelayModel::flags(const QModelIndex& index) const {
+Qt::ItemFlags WaysOutModel::flags(const QModelIndex& index) const {
     const Qt::ItemFlags flags = TableModel::flags(index);
-    return index.column() == kHost ? flags | Qt::ItemIsUserCheckable : flags;
+    return index.column() == kTarget ? flags | Qt::ItemIsUserCheckable : flags;
 }
 
 } // namespace posewire::gui

@@ -28,17 +28,17 @@ public:
 /// "listening", "connected from 10.0.0.5:50123", or what is wrong.
 [[nodiscard]] PropertyValue inputState(const PortState& state);
 
-/// The hosts that everything is forwarded to, in the order in which they were added. Each is switched on and
-/// off by its box.
-class RelayModel : public TableModel<RelayState> {
+/// Where what is received is handed on, in the order in which they were added. Each is switched on and off
+/// by its box.
+class WaysOutModel : public TableModel<WayOutState> {
     Q_OBJECT
 
 public:
-    enum Column : int { kHost, kPort, kState, kSent, kRefused, kSkipped, kBehind };
+    enum Column : int { kTarget, kKind, kState, kSent, kRefused, kSkipped, kBehind };
 
-    RelayModel();
+    WaysOutModel();
 
-    void refresh(const std::vector<RelayState>& relays) { setRows(relays); }
+    void refresh(const std::vector<WayOutState>& ways) { setRows(ways); }
 
     [[nodiscard]] bool setData(const QModelIndex& index, const QVariant& value, int role) override;
     [[nodiscard]] Qt::ItemFlags flags(const QModelIndex& index) const override;
@@ -48,8 +48,8 @@ signals:
     void switched(int row, bool isOn);
 };
 
-/// "forwarding", "off", or why not.
-[[nodiscard]] PropertyValue relayStage(const RelayState& relay);
+/// "forwarding", "2 connected", "off", or why not.
+[[nodiscard]] PropertyValue wayOutStage(const WayOutState& way);
 
 /// Why no characters are seen, and what to do about it, each a sentence.
 struct Advice {

@@ -31,7 +31,7 @@ constexpr std::pair<const char*, const char*> kSynonyms[] = {
     {"rangeOut", QT_TRANSLATE_NOOP("Action", "out mark trim select")},
     {"record", QT_TRANSLATE_NOOP("Action", "take capture")},
     {"inputs", QT_TRANSLATE_NOOP("Action", "port network udp tcp address cable connect")},
-    {"relay", QT_TRANSLATE_NOOP("Action", "forward send on")},
+    {"waysOut", QT_TRANSLATE_NOOP("Action", "relay forward send on osc vmc json outlet")},
     {"thresholds", QT_TRANSLATE_NOOP("Action", "limits alarm sound mute beep notification")},
     {"preferences", QT_TRANSLATE_NOOP("Action", "settings options configure")},
     {"recordingOptions", QT_TRANSLATE_NOOP("Action", "take disk files split")},
@@ -52,7 +52,8 @@ void collect(const QList<QAction*>& actions, const QString& menu, std::vector<Co
                     into);
         } else if (!action->isSeparator() && action->isVisible() && !name.isEmpty()) {
             const QObject* named = action->objectName().isEmpty() ? action->parent() : action;
-            into.push_back({action, name, menu, synonymsOf(named->objectName())});
+            into.push_back(
+                {action, name, menu, synonymsOf(named->objectName()), action->shortcut().toString()});
         }
     }
 }
@@ -77,8 +78,8 @@ std::vector<Command> commandsOf(const QMenuBar& bar) {
 }
 
 bool isMeant(const Command& command, const QString& typed) {
-    const QStringList words = wordsOf(command.name) + wordsOf(command.menu) + wordsOf(command.synonyms) +
-                              wordsOf(command.action->shortcut().toString());
+    const QStringList words =
+        wordsOf(command.name) + wordsOf(command.menu) + wordsOf(command.synonyms) + wordsOf(command.keys);
     return std::ranges::all_of(wordsOf(typed), [&](const QString& wanted) {
         return std::ranges::any_of(
             words, [&](const QString& word) { return word.startsWith(wanted, Qt::CaseInsensitive); });

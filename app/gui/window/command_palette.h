@@ -18,6 +18,7 @@ struct Command {
     QString name;       ///< as people read it, without the letter to press
     QString menu;       ///< "View › Camera"
     QString synonyms{}; ///< words for it that people type
+    QString keys{};     ///< "Ctrl+Home", which they may type as well
 };
 
 /// Other words for an action, a dock or a part of the preferences, by its object name; empty if there are

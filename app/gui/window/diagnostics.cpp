@@ -20,10 +20,10 @@ void writeReceiving(QTextStream& out, const ReceivingState& receiving) {
             << " datagrams, " << port.status.kernelDropped << " dropped here, "
             << port.status.refusedDatagrams << " refused\n";
     }
-    for (const RelayState& relay : receiving.relays) {
-        out << "relay to " << displayText(relay.target) << ": " << relayStage(relay).text << ", "
-            << relay.sent << " sent, " << relay.refused << " refused, " << relay.skipped << " skipped, "
-            << relay.behind << " behind\n";
+    for (const WayOutState& way : receiving.waysOut) {
+        out << way.target.kind << " to " << displayText(way.target) << ": " << wayOutStage(way).text << ", "
+            << way.sent << " sent, " << way.refused << " refused, " << way.skipped << " skipped, "
+            << way.behind << " behind\n";
     }
     for (const words::Fact& finding : receiving.findings) {
         out << "found: " << QString::fromStdString(words::say(finding, words::Form::Sentence)) << '\n';

@@ -68,7 +68,8 @@ HealthBar::HealthBar(model::SessionView& session, Commands& commands, QWidget* p
       m_commands(commands),
       m_more(new ColourText(ColourText::Look::Plain, m_entriesArea)),
       m_message(new PassingMessage(kMessageMs, this)),
-      m_about(flatButton(QStringLiteral("?"), tr("Help on this message"), this)) {
+      m_about(flatButton(QStringLiteral("?"), tr("Help on this message"), this)),
+      m_waysOut(new ColourText(ColourText::Look::Plain, this)) {
     setObjectName(QStringLiteral("healthBar"));
     auto* row = spacedRow({6, 1, 6, 1}, 8, this);
     // More characters than there is room for must not widen the window.
@@ -94,6 +95,10 @@ HealthBar::HealthBar(model::SessionView& session, Commands& commands, QWidget* p
     connect(m_about, &QToolButton::clicked, this, [this] { openHelp(m_helpPlace); });
     new EventWatch(m_message, QEvent::Hide, [this] { m_about->hide(); });
     m_message->setObjectName(QStringLiteral("message"));
+    m_waysOut->setObjectName(QStringLiteral("waysOut"));
+    m_waysOut->hide();
+    row->addWidget(m_waysOut);
+    connect(m_waysOut, &ColourText::clicked, this, &HealthBar::waysOutRequested);
     for (QLabel* figure : {m_rate, m_history, m_dropped}) {
         figure->setFont(tabularFont());
         const int margin = ColourText::marginsOf(figure->fontMetrics()) / 2; // as the buttons beside them
@@ -132,6 +137,7 @@ QString HealthBar::byteRateText(double bytesPerSecond) {
 
 void HealthBar::refresh(const ReceivingState& receiving) {
     refreshCharacters();
+    showWaysOut(receiving.waysOut);
     showFigure(*m_rate, Health::Unknown,
                tr("%1 datagrams/s · %2")
                    .arg(grouped(static_cast<std::uint64_t>(receiving.datagramsPerSecond)),
@@ -140,6 +146,23 @@ void HealthBar::refresh(const ReceivingState& receiving) {
     const Health untroubled = m_session->end() == 0 ? Health::Unknown : Health::Good;
     showFigure(*m_dropped, receiving.kernelDropped == 0 ? untroubled : Health::Error,
                tr("dropped here %1 in all").arg(grouped(receiving.kernelDropped)));
+}
+
+void HealthBar::showWaysOut(const std::vector<WayOutState>& ways) {
+    QStringList lines;
+    Health level = Health::Good;
+    for (const WayOutState& way : ways) {
+        if (way.target.isOn) {
+            const PropertyValue stage = wayOutStage(way);
+            const bool isWorse = stage.health == Health::Error || level == Health::Good;
+            level = stage.health != Health::Good && isWorse ? stage.health : level;
+            lines += tr("%1 to %2: %3, %4 sent")
+                         .arg(way.target.kind, displayText(way.target), stage.text, grouped(way.sent));
+        }
+    }
+    m_waysOut->setVisible(!lines.isEmpty());
+    m_waysOut->setContent(level, tr("⇉ %n ways out", nullptr, static_cast<int>(lines.size())));
+    m_waysOut->setToolTip(toolTipText(lines.join(QLatin1Char('\n'))));
 }
 
 void HealthBar::refreshCharacters() {

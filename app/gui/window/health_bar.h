@@ -37,7 +37,11 @@ public:
     void say(const QString& text, const QString& helpPlace = {});
     [[nodiscard]] QString said() const { return m_message->said(); }
 
+signals:
+    void waysOutRequested();
+
 private:
+    void showWaysOut(const std::vector<WayOutState>& ways);
     /// Selects a character, and says in a popup why it is as it is.
     void explain(const model::CharacterKey& key, QWidget& anchor);
     [[nodiscard]] static QString byteRateText(double bytesPerSecond);
@@ -63,6 +67,7 @@ private:
     QToolButton* m_about; ///< opens m_helpPlace, while the message is there
     QString m_helpPlace;
     QLabel* m_when = dimLabel(tr("Now"), this); ///< the time that characters are judged by
+    ColourText* m_waysOut;                      ///< only while something is handed on, or should be
     QLabel* m_rate = plainLabel(this);
     QLabel* m_history = plainLabel(this);
     QLabel* m_dropped = plainLabel(this);

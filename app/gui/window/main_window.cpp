@@ -199,12 +199,11 @@ void MainWindow::makeBars() {
     m_layoutButton->setObjectName(QStringLiteral("layoutButton"));
 
     const auto action = [this](const char* id) { return m_menus.action(QLatin1String(id)); };
-    m_transport =
-        new TransportBar(m_driver.commands().session(),
-                         {action("record"), action("pause"), action("live"), action("inputs"),
-                          action("relay"), action("sampleBack"), action("sampleOn"), action("playBack"),
-                          action("loop"), menuAt(*menuBar(), QStringLiteral("&Time/Sp&eed"))},
-                         this);
+    m_transport = new TransportBar(m_driver.commands().session(),
+                                   {action("record"), action("pause"), action("live"), action("inputs"),
+                                    action("sampleBack"), action("sampleOn"), action("playBack"),
+                                    action("loop"), menuAt(*menuBar(), QStringLiteral("&Time/Sp&eed"))},
+                                   this);
     connect(m_transport, &TransportBar::inputRequested, this, [this](const InputAddress& input) {
         openInputs(InputsDialog::Page::Inputs);
         m_inputs->inputs().select(input);
@@ -225,6 +224,7 @@ void MainWindow::makeBars() {
     setHelpPlace(*statusBar(), placeOf(HelpTopic::HealthBar));
     statusBar()->setSizeGripEnabled(false);
     statusBar()->addWidget(m_health, 1);
+    connect(m_health, &HealthBar::waysOutRequested, m_menus.action("waysOut"), &QAction::trigger);
 }
 
 void MainWindow::connectDriver() {
@@ -255,8 +255,8 @@ void MainWindow::connectDriver() {
         showTake();
     });
     // At once: the next run must not begin with a loop.
-    connect(&m_driver, &SessionDriver::relayStopped, this, [this] {
-        m_settings.inputs.relays = m_driver.receiving().choices().relays;
+    connect(&m_driver, &SessionDriver::wayOutStopped, this, [this] {
+        m_settings.inputs.waysOut = m_driver.receiving().choices().waysOut;
         writeSettings();
     });
     connect(&m_driver.files(), &Files::closing, m_docks, &Docks::forgetFile);

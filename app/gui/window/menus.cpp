@@ -344,8 +344,8 @@ const ActionInfo kActions[] = {
      Do::is<isNewestUsed<0>>},
     panelsIn("&Time"),
 
-    {"relay", QT_TRANSLATE_NOOP("Action", "T&ools"), QT_TRANSLATE_NOOP("Action", "&Relay…"), "Ctrl+R",
-     Do::call<&Window::openInputs, InputsDialog::Page::Relay>},
+    {"waysOut", QT_TRANSLATE_NOOP("Action", "T&ools"), QT_TRANSLATE_NOOP("Action", "&Ways out…"), "Ctrl+R",
+     Do::call<&Window::openInputs, InputsDialog::Page::WaysOut>},
     {"thresholds", QT_TRANSLATE_NOOP("Action", "T&ools"), QT_TRANSLATE_NOOP("Action", "&Thresholds…"),
      "Ctrl+T", Do::call<openPreferences, PreferencesSection::Thresholds>},
     {"copyDiagnostics", QT_TRANSLATE_NOOP("Action", "T&ools"),

@@ -4,7 +4,7 @@
 #include "app/gui/base/help_topics.h"
 #include "app/gui/base/saving.h"
 #include "app/gui/driver/history.h"
-#include "app/gui/inputs/relay_page.h"
+#include "app/gui/inputs/ways_out_page.h"
 #include "app/gui/models/text.h"
 #include "app/gui/theme/help_link.h"
 #include "app/gui/theme/words.h"
@@ -348,7 +348,7 @@ void ReplayDialog::toggle() {
 }
 
 void ReplayDialog::begin() {
-    const auto place = readRelay(m_target->text());
+    const auto place = readTarget(m_target->text());
     if (!place) {
         m_problem = place.error();
         return;

@@ -118,8 +118,7 @@ TransportBar::TransportBar(model::SessionView& session, const Actions& actions, 
       m_pause(buttonOf(actions.pause, this)),
       m_live(buttonOf(actions.live, this)),
       m_past(new TimeControls(actions, this)),
-      m_add(buttonOf(actions.inputs, this)),
-      m_relay(new ColourText(ColourText::Look::Pill, this)) {
+      m_add(buttonOf(actions.inputs, this)) {
     setObjectName(QStringLiteral("transport"));
     m_live->setToolButtonStyle(Qt::ToolButtonTextOnly);
     m_live->setProperty("framed", false);
@@ -136,10 +135,7 @@ TransportBar::TransportBar(model::SessionView& session, const Actions& actions, 
     row->addWidget(m_detail, 1);
     m_pillLayout->setSpacing(8);
     row->addLayout(m_pillLayout);
-    row->addWidget(m_relay);
     row->addWidget(m_add);
-    m_relay->setVisible(false);
-    connect(m_relay, &QAbstractButton::clicked, actions.relay, &QAction::trigger);
     paintAsBar(this);
     new EventWatch(this, QEvent::PaletteChange, [this] { restyle(); });
     new EventWatch(this, QEvent::Resize,
@@ -303,26 +299,7 @@ void TransportBar::setReceiving(const ReceivingState& receiving) {
     for (std::size_t i = shown; i < m_pills.size(); ++i) {
         m_pills[i]->setVisible(false);
     }
-    showRelays(receiving.relays);
     followMode();
-}
-
-void TransportBar::showRelays(const std::vector<RelayState>& relays) {
-    QStringList lines;
-    Health level = Health::Unknown;
-    qsizetype wanted = 0;
-    for (const RelayState& relay : relays) {
-        if (relay.target.isOn) {
-            ++wanted;
-            const PropertyValue stage = relayStage(relay);
-            const bool isWorse = stage.health == Health::Error || level == Health::Unknown;
-            level = stage.health != Health::Good && isWorse ? stage.health : level;
-            lines += tr("%1: %2, %3 sent").arg(displayText(relay.target), stage.text, grouped(relay.sent));
-        }
-    }
-    m_relay->setVisible(wanted > 0);
-    m_relay->setContent(level, wanted == 1 ? tr("⇉ Relay") : tr("⇉ Relay to %1").arg(wanted));
-    m_relay->setToolTip(toolTipText(lines.join(QLatin1Char('\n'))));
 }
 
 } // namespace posewire::gui

@@ -26,13 +26,12 @@ class TransportBar final : public QWidget {
 
 public:
     /// `record` begins and ends a take, `pause` stops and plays, `live` goes to the end, `inputs` is for
-    /// the list of inputs, `relay` is for forwarding; the others move through the past.
+    /// the list of inputs; the others move through the past.
     struct Actions {
         QAction* record;
         QAction* pause;
         QAction* live;
         QAction* inputs;
-        QAction* relay;
         QAction* back;
         QAction* on;
         QAction* playBack;
@@ -60,7 +59,6 @@ private:
     void restyle();
     void showMode(Mode mode);
     void followMode();
-    void showRelays(const std::vector<RelayState>& relays);
     [[nodiscard]] const model::CharacterPose* timedPose();
 
     model::SessionView* m_session;
@@ -70,7 +68,6 @@ private:
     QToolButton* m_live;
     TimeControls* m_past;
     QToolButton* m_add;
-    ColourText* m_relay; ///< only while something is forwarded, or should be
     QLabel* m_time = plainLabel(this);
     ElidedLabel* m_detail = new ElidedLabel(Qt::AlignLeft | Qt::AlignVCenter, this);
     QHBoxLayout* m_pillLayout = new QHBoxLayout;

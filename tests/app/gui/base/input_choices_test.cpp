@@ -18,7 +18,7 @@ TEST(InputChoices, AreReadBackAsTheyWereWritten) {
     choices.inputs = {{"", 9763, Kind::Udp, {"239.1.2.3"}},
                       {"::1", 9764, Kind::TcpListener},
                       {"studio", 9765, Kind::TcpConnection}};
-    choices.relays = {{"10.0.0.9", 9763, true}, {"later", 9000, false}};
+    choices.waysOut = {{"10.0.0.9", 9763, true}, {"later", 9000, false}};
     choices.allowed = QStringList{"192.168.1.0/24", "studio"};
     EXPECT_EQ(inputChoicesOf(jsonOf(choices)), choices);
 }
@@ -31,7 +31,7 @@ TEST(InputChoices, LeaveOutWhatMakesNoSense) {
     const InputChoices choices = inputChoicesOf(QJsonDocument::fromJson(text).object());
     ASSERT_TRUE(choices.inputs);
     EXPECT_EQ(*choices.inputs, std::vector<InputAddress>({{"", 5}}));
-    EXPECT_EQ(choices.relays, std::vector<RelayChoice>({{"b", 5}}));
+    EXPECT_EQ(choices.waysOut, std::vector<WayOut>({{"b", 5}}));
     EXPECT_EQ(choices.allowed, QStringList("10.0.0.5"));
 }
 

@@ -45,7 +45,7 @@ TEST_F(SettingsFileTest, ReadsBackWhatWasWritten) {
     written.docks = QByteArray("\x00\xff\x01 docks", 9);
     written.panels["statistics"] = QJsonObject{{"columns", QJsonArray{0, 3}}};
     written.inputs.inputs = {{"", 9763, InputAddress::Kind::TcpListener}};
-    written.inputs.relays = {{"10.0.0.9", 9763, false}};
+    written.inputs.waysOut = {{"10.0.0.9", 9763, false}};
     written.viewport = QJsonObject{{"axes", 1}};
     written.filter = "type == 02 && gap > 0";
     written.file = "/takes/take 3.pcapng";
@@ -164,7 +164,7 @@ TEST(Settings, TakeNoMoreInputsAndRelaysThanAnyoneChooses) {
         parseSettings(QJsonDocument(QJsonObject{{"schema", 2}, {"receiving", receiving}}).toJson());
     ASSERT_TRUE(settings);
     EXPECT_EQ(settings->inputs.inputs->size(), 256U);
-    EXPECT_EQ(settings->inputs.relays.size(), 256U);
+    EXPECT_EQ(settings->inputs.waysOut.size(), 256U);
 }
 
 TEST(Settings, AreAsShippedWhereTheyAreOfTheWrongKind) {

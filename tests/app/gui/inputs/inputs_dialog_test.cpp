@@ -3,7 +3,7 @@
 
 #include "app/gui/driver/session_driver.h"
 #include "app/gui/inputs/inputs_page.h"
-#include "app/gui/inputs/relay_page.h"
+#include "app/gui/inputs/ways_out_page.h"
 #include "app/gui/panels/table_view.h"
 #include "app/net/datagram_sender.h"
 #include "core/model/session/verdict.h"
@@ -64,13 +64,13 @@ TEST(SenderSettings, NamesTheAddressesThatReachAnInput) {
     EXPECT_TRUE(hosts({"studio", 9763, Kind::TcpConnection}).isEmpty());
 }
 
-TEST(RelayPage, ReadsHostsWithAndWithoutPorts) {
-    EXPECT_EQ(readRelay("studio:9000"), (RelayChoice{"studio", 9000}));
-    EXPECT_EQ(readRelay(" 10.0.0.9 "), (RelayChoice{"10.0.0.9", kDefaultPort}));
-    EXPECT_EQ(readRelay("[::1]:9000"), (RelayChoice{"::1", 9000}));
-    EXPECT_EQ(readRelay("::1"), (RelayChoice{"::1", kDefaultPort}));
+TEST(WaysOutPage, ReadsHostsWithAndWithoutPorts) {
+    EXPECT_EQ(readTarget("studio:9000"), (WayOut{"studio", 9000}));
+    EXPECT_EQ(readTarget(" 10.0.0.9 "), (WayOut{"10.0.0.9", kDefaultPort}));
+    EXPECT_EQ(readTarget("[::1]:9000"), (WayOut{"::1", 9000}));
+    EXPECT_EQ(readTarget("::1"), (WayOut{"::1", kDefaultPort}));
     for (const char* text : {"", "studio:", "studio:0", "studio:70000", "a b", "1:2:x"}) {
-        EXPECT_FALSE(readRelay(text)) << text;
+        EXPECT_FALSE(readTarget(text)) << text;
     }
 }
 
@@ -155,20 +155,20 @@ TEST_F(InputsDialogTest, PutsBackWhatWasRemovedWhereItWas) {
 }
 
 TEST_F(InputsDialogTest, PutsBackARelayTargetWhereItWas) {
-    dialog.open(InputsDialog::Page::Relay);
+    dialog.open(InputsDialog::Page::WaysOut);
     for (const char* target : {"192.0.2.1:9000", "192.0.2.2:9000"}) {
-        dialog.relay().findChild<QLineEdit*>()->setText(target);
-        dialog.relay().submit();
+        dialog.waysOut().findChild<QLineEdit*>()->setText(target);
+        dialog.waysOut().submit();
     }
-    dialog.relay().model().setData(dialog.relay().model().index(0, 0), Qt::Unchecked, Qt::CheckStateRole);
-    const auto& states = driver.receiving().relaying().states();
+    dialog.waysOut().model().setData(dialog.waysOut().model().index(0, 0), Qt::Unchecked, Qt::CheckStateRole);
+    const auto& states = driver.receiving().waysOut().states();
     ASSERT_TRUE(tickUntil([&] { return !states[0].target.isOn; }));
-    dialog.relay().findChild<TableView*>()->setCurrentIndex(dialog.relay().model().index(0, 0));
-    dialog.relay().removeSelected();
+    dialog.waysOut().findChild<TableView*>()->setCurrentIndex(dialog.waysOut().model().index(0, 0));
+    dialog.waysOut().removeSelected();
     ASSERT_EQ(states.size(), 1U);
-    dialog.relay().findChild<QPushButton*>("undoRemoval")->click();
+    dialog.waysOut().findChild<QPushButton*>("undoRemoval")->click();
     ASSERT_EQ(states.size(), 2U);
-    EXPECT_EQ(states[0].target, (RelayChoice{"192.0.2.1", 9000, false}));
+    EXPECT_EQ(states[0].target, (WayOut{"192.0.2.1", 9000, false}));
 }
 
 TEST_F(InputsDialogTest, SaysBesideTheFieldsWhatCannotBeOpenedAndKeepsNothingOfIt) {
@@ -206,7 +206,7 @@ TEST_F(InputsDialogTest, LeavesAnInputAsItWasWhereItsChangeFails) {
 
 TEST_F(InputsDialogTest, OpensWhereOneContinues) {
     EXPECT_TRUE(dynamic_cast<TableView*>(dialog.focusWidget())) << "the list of sources";
-    dialog.open(InputsDialog::Page::Relay);
+    dialog.open(InputsDialog::Page::WaysOut);
     EXPECT_TRUE(dynamic_cast<QLineEdit*>(dialog.focusWidget())) << "the target to add";
 }
 
@@ -293,10 +293,10 @@ TEST_F(InputsDialogTest, ALoopSwitchesItsTargetOffAndIsAnEvent) {
     type({"127.0.0.1", freePort()});
     SessionDriver other{clock};
     other.receiving().addPort({"127.0.0.1", 0});
-    ASSERT_TRUE(driver.receiving().relaying().add({"127.0.0.1", other.receiving().openPort()}));
-    ASSERT_TRUE(other.receiving().relaying().add({"127.0.0.1", ports()[0].port.port}));
+    ASSERT_TRUE(driver.receiving().waysOut().add({"127.0.0.1", other.receiving().openPort()}));
+    ASSERT_TRUE(other.receiving().waysOut().add({"127.0.0.1", ports()[0].port.port}));
     auto sender = net::DatagramSender::connect({{"127.0.0.1", ports()[0].port.port}});
-    const RelayState& relay = driver.receiving().relaying().states()[0];
+    const WayOutState& relay = driver.receiving().waysOut().states()[0];
     std::uint64_t sent = 0;
     EXPECT_TRUE(tickUntil([&] {
         other.tick();
@@ -305,14 +305,14 @@ TEST_F(InputsDialogTest, ALoopSwitchesItsTargetOffAndIsAnEvent) {
         return sender->send(bytes).has_value() && !relay.target.isOn;
     })) << relay.sent;
     EXPECT_THAT(relay.problem.toStdString(), HasSubstr("sent back what was relayed there"));
-    EXPECT_FALSE(driver.receiving().choices().relays[0].isOn);
+    EXPECT_FALSE(driver.receiving().choices().waysOut[0].isOn);
     driver.tick();
     const auto& events = driver.commands().session().verdicts().incidents().all();
     const auto loop = std::ranges::find(events, model::IncidentKind::RelayLoop, &model::Incident::kind);
     ASSERT_NE(loop, events.end());
     EXPECT_EQ(words::say(loop->fact(), words::Form::Sentence), relay.problem.toStdString());
-    driver.receiving().relaying().setOn(0, true);
-    EXPECT_TRUE(tickUntil([&] { return relay.stage == RelayState::Stage::Forwarding; }))
+    driver.receiving().waysOut().setOn(0, true);
+    EXPECT_TRUE(tickUntil([&] { return relay.stage == WayOutState::Stage::Forwarding; }))
         << "the operator may";
 }
 
@@ -346,36 +346,36 @@ TEST_F(InputsDialogTest, RelaysToTargetsAndRefusesThoseThatWouldComeBack) {
     const InputAddress away{"127.0.0.1", freePort()};
     type(input);
     driver.receiving().measure(driver.commands().session().log().timeline().now(clock));
-    dialog.open(InputsDialog::Page::Relay);
-    dialog.relay().findChild<QLineEdit*>()->setText(QStringLiteral("127.0.0.1:%1").arg(away.port));
-    dialog.relay().submit();
-    dialog.relay().findChild<QLineEdit*>()->setText(QStringLiteral("127.0.0.1:%1").arg(input.port));
-    dialog.relay().submit();
-    const auto& relays = driver.receiving().relaying().states();
+    dialog.open(InputsDialog::Page::WaysOut);
+    dialog.waysOut().findChild<QLineEdit*>()->setText(QStringLiteral("127.0.0.1:%1").arg(away.port));
+    dialog.waysOut().submit();
+    dialog.waysOut().findChild<QLineEdit*>()->setText(QStringLiteral("127.0.0.1:%1").arg(input.port));
+    dialog.waysOut().submit();
+    const auto& relays = driver.receiving().waysOut().states();
     ASSERT_EQ(relays.size(), 2U);
     EXPECT_TRUE(tickUntil([&] {
-        return relays[0].stage == RelayState::Stage::Forwarding &&
-               relays[1].stage == RelayState::Stage::Refused;
+        return relays[0].stage == WayOutState::Stage::Forwarding &&
+               relays[1].stage == WayOutState::Stage::Refused;
     }));
     EXPECT_THAT(relays[1].problem.toStdString(), HasSubstr("circulate forever"));
 
     driver.receiving().addPort(away);
-    EXPECT_TRUE(tickUntil([&] { return relays[0].stage == RelayState::Stage::Refused; }));
+    EXPECT_TRUE(tickUntil([&] { return relays[0].stage == WayOutState::Stage::Refused; }));
     driver.receiving().removePort(away);
-    EXPECT_TRUE(tickUntil([&] { return relays[0].stage == RelayState::Stage::Forwarding; }));
+    EXPECT_TRUE(tickUntil([&] { return relays[0].stage == WayOutState::Stage::Forwarding; }));
 
-    EXPECT_TRUE(dialog.relay().model().setData(dialog.relay().model().index(0, 0), int{Qt::Unchecked},
-                                               Qt::CheckStateRole));
-    EXPECT_TRUE(tickUntil([&] { return relays[0].stage == RelayState::Stage::Off; }));
+    EXPECT_TRUE(dialog.waysOut().model().setData(dialog.waysOut().model().index(0, 0), int{Qt::Unchecked},
+                                                 Qt::CheckStateRole));
+    EXPECT_TRUE(tickUntil([&] { return relays[0].stage == WayOutState::Stage::Off; }));
 }
 
 TEST_F(InputsDialogTest, RefusesARelayTargetThatIsThereAlready) {
-    dialog.relay().findChild<QLineEdit*>()->setText("127.0.0.1:9");
-    dialog.relay().submit();
-    dialog.relay().findChild<QLineEdit*>()->setText("127.0.0.1:9");
-    dialog.relay().submit();
-    EXPECT_THAT(dialog.relay().problem().toStdString(), HasSubstr("already"));
-    EXPECT_EQ(driver.receiving().relaying().states().size(), 1U);
+    dialog.waysOut().findChild<QLineEdit*>()->setText("127.0.0.1:9");
+    dialog.waysOut().submit();
+    dialog.waysOut().findChild<QLineEdit*>()->setText("127.0.0.1:9");
+    dialog.waysOut().submit();
+    EXPECT_THAT(dialog.waysOut().problem().toStdString(), HasSubstr("already"));
+    EXPECT_EQ(driver.receiving().waysOut().states().size(), 1U);
 }
 
 } // namespace

@@ -103,18 +103,18 @@ TEST(InputModel, SaysTheStateOfEachKindInWords) {
     EXPECT_TRUE(inputState(dialer).text.endsWith("Trying again"));
 }
 
-TEST(RelayModel, ShowsCountersAndAsksForWhatIsSwitched) {
-    RelayModel model;
+TEST(WaysOutModel, ShowsCountersAndAsksForWhatIsSwitched) {
+    WaysOutModel model;
     const QAbstractItemModelTester tester(&model, QAbstractItemModelTester::FailureReportingMode::Fatal);
-    RelayState relay{{"10.0.0.9", 9763, true}};
-    relay.stage = RelayState::Stage::Forwarding;
+    WayOutState relay{{"10.0.0.9", 9763, true}};
+    relay.stage = WayOutState::Stage::Forwarding;
     relay.sent = 1234;
-    model.refresh({relay, RelayState{{"studio", 9000, false}}});
+    model.refresh({relay, WayOutState{{"studio", 9000, false}}});
     ASSERT_EQ(model.rowCount(), 2);
-    EXPECT_TRUE(cell(model, 0, RelayModel::kState).endsWith("forwarding"));
-    EXPECT_EQ(cell(model, 1, RelayModel::kState), "off");
+    EXPECT_TRUE(cell(model, 0, WaysOutModel::kState).endsWith("forwarding"));
+    EXPECT_EQ(cell(model, 1, WaysOutModel::kState), "off");
     EXPECT_EQ(model.index(1, 0).data(Qt::CheckStateRole).toInt(), int{Qt::Unchecked});
-    QSignalSpy switched(&model, &RelayModel::switched);
+    QSignalSpy switched(&model, &WaysOutModel::switched);
     EXPECT_TRUE(model.setData(model.index(1, 0), int{Qt::Checked}, Qt::CheckStateRole));
     ASSERT_EQ(switched.size(), 1);
     EXPECT_EQ(switched[0][0].toInt(), 1);
@@ -122,12 +122,12 @@ TEST(RelayModel, ShowsCountersAndAsksForWhatIsSwitched) {
     EXPECT_FALSE(model.setData(model.index(1, 1), int{Qt::Checked}, Qt::CheckStateRole));
 }
 
-TEST(RelayModel, SaysWhyATargetIsRefused) {
-    RelayState relay{{"127.0.0.1", 9763, true}};
-    relay.stage = RelayState::Stage::Refused;
+TEST(WaysOutModel, SaysWhyATargetIsRefused) {
+    WayOutState relay{{"127.0.0.1", 9763, true}};
+    relay.stage = WayOutState::Stage::Refused;
     relay.problem = "every datagram would come back";
-    EXPECT_EQ(relayStage(relay).health, Health::Error);
-    EXPECT_EQ(relayStage(relay).text, relay.problem);
+    EXPECT_EQ(wayOutStage(relay).health, Health::Error);
+    EXPECT_EQ(wayOutStage(relay).text, relay.problem);
 }
 
 } // namespace

@@ -104,14 +104,14 @@ TEST_F(MainWindowTest, WritesItsSettingsOnceTheyHaveChanged) {
 
 TEST_F(MainWindowTest, KeepsAtOnceThatARelayWasStopped) {
     const auto window = makeWindow();
-    Relaying& relaying = driver.receiving().relaying();
+    WaysOut& relaying = driver.receiving().waysOut();
     relaying.add({"192.0.2.7", 9763, true});
     relaying.setOn(0, false);
-    emit driver.relayStopped();
+    emit driver.wayOutStopped();
     QString problem;
     const Settings kept = file.read(&problem);
-    ASSERT_EQ(kept.inputs.relays.size(), 1U) << problem.toStdString();
-    EXPECT_FALSE(kept.inputs.relays[0].isOn);
+    ASSERT_EQ(kept.inputs.waysOut.size(), 1U) << problem.toStdString();
+    EXPECT_FALSE(kept.inputs.waysOut[0].isOn);
     EXPECT_FALSE(kept.inputs.inputs.has_value()) << "nobody has chosen any";
 }
 

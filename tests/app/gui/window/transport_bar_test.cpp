@@ -19,8 +19,8 @@ protected:
     QObject m_actions;
     QMenu m_speeds;
     TransportBar m_bar{m_stage.session,
-                       {named("record"), named("pause"), named("live"), named("inputs"), named("relay"),
-                        named("back"), named("on"), named("playBack"), named("loop"), &m_speeds}};
+                       {named("record"), named("pause"), named("live"), named("inputs"), named("back"),
+                        named("on"), named("playBack"), named("loop"), &m_speeds}};
 };
 
 TEST_F(TransportBarTest, TheClockGoesOnWhenTheFirstCharacterFallsSilent) {

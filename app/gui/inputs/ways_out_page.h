@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/driver/relaying.h"
+#include "app/gui/driver/ways_out.h"
 #include "app/gui/inputs/undo_removal.h"
 #include "app/gui/models/receiving_models.h"
 #include "app/gui/panels/table_view.h"
@@ -13,12 +13,13 @@
 
 namespace posewire::gui {
 
-/// The hosts that every datagram is forwarded to, with what they got; adds, switches and removes them.
-class RelayPage final : public QWidget {
+/// Where what is received is handed on, and in which form, with what they got; adds, switches and removes
+/// them.
+class WaysOutPage final : public QWidget {
     Q_OBJECT
 
 public:
-    explicit RelayPage(Relaying& relaying, QWidget* parent = nullptr);
+    explicit WaysOutPage(WaysOut& waysOut, QWidget* parent = nullptr);
 
     void refresh();
 
@@ -26,7 +27,7 @@ public:
     void removeSelected(); ///< until it is undone
 
     [[nodiscard]] const QString& problem() const { return m_problem; }
-    [[nodiscard]] RelayModel& model() { return m_model; }
+    [[nodiscard]] WaysOutModel& model() { return m_model; }
 
 signals:
     void choicesChanged();
@@ -36,16 +37,20 @@ protected:
 
 private:
     void layOut();
-    void remove(const RelayChoice& choice);
-    void putBack(const RelayChoice& choice, std::size_t row);
+    void remove(const WayOut& choice);
+    void putBack(const WayOut& choice, std::size_t row);
     void switchTarget(int row, bool isOn);
+    void showKind();
+    [[nodiscard]] tl::expected<WayOut, QString> read() const;
     void setProblem(const QString& problem);
     void showNote();
 
-    Relaying& m_relaying;
-    RelayModel m_model;
-    TableView* m_table = new TableView(tr("Relay targets"), this);
+    WaysOut& m_waysOut;
+    WaysOutModel m_model;
+    TableView* m_table = new TableView(tr("Ways out"), this);
+    ComboBox* m_kind = new ComboBox(this);
     QLineEdit* m_target = new QLineEdit(this);
+    QLineEdit* m_character = new QLineEdit(this); ///< only of forms that are of one
     Note* m_note = new Note(this);
     QPushButton* m_add = new QPushButton(tr("&Add target"), this);
     QPushButton* m_remove = new QPushButton(tr("&Remove"), this);
@@ -54,6 +59,6 @@ private:
 };
 
 /// "HOST:PORT", "HOST" for the port that MVN uses, "[IPv6]:PORT"; the error is a sentence.
-[[nodiscard]] tl::expected<RelayChoice, QString> readRelay(const QString& text);
+[[nodiscard]] tl::expected<WayOut, QString> readTarget(const QString& text);
 
 } // namespace posewire::gui
