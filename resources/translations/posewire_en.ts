@@ -118,6 +118,13 @@
             <numerusform>Selected: %1 to %2, %n samples</numerusform>
         </translation>
     </message>
+    <message numerus="yes">
+        <source>%n connected</source>
+        <translation>
+            <numerusform>%n connected</numerusform>
+            <numerusform>%n connected</numerusform>
+        </translation>
+    </message>
 </context>
 <context>
     <name>posewire::gui::EndedSenders</name>
@@ -136,6 +143,13 @@
         <translation>
             <numerusform>%1 character</numerusform>
             <numerusform>%1 characters</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>⇉ %n ways out</source>
+        <translation>
+            <numerusform>⇉ %n way out</numerusform>
+            <numerusform>⇉ %n ways out</numerusform>
         </translation>
     </message>
 </context>

@@ -107,12 +107,12 @@ void WaysOutPage::layOut() {
     m_character->setPlaceholderText(tr("name or ID; else the first"));
     m_character->setAccessibleName(tr("Character"));
     m_remove->setEnabled(false);
-    auto* label = plainLabel(tr("&Target"), this);
+    auto* label = plainLabel(tr("&to"), this);
     label->setBuddy(m_target);
     auto* row = new QHBoxLayout;
+    row->addWidget(m_kind);
     row->addWidget(label);
     row->addWidget(m_target, 2);
-    row->addWidget(m_kind);
     row->addWidget(m_character, 1);
     row->addWidget(m_add);
     row->addSpacing(fontMetrics().height());
