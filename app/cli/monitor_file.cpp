@@ -303,7 +303,7 @@ Command addOutletCommand(CommandLine& program) {
     std::string kinds;
     std::string places;
     for (const outlets::OutletKind& kind : outlets::outletKinds()) {
-        kinds += (kinds.empty() ? "" : "; ") + std::string(kind.name) + ": " + std::string(kind.help);
+        kinds += (kinds.empty() ? "" : "; ") + std::string(kind.name) + ": " + kind.help;
         if (kind.place.find(':') != std::string_view::npos) {
             places += "; " + std::string(kind.place) + " for " + std::string(kind.name);
         }

@@ -65,14 +65,15 @@ Started startPoses(const OutletChoice& choice, const OutletPlace& place) {
 }
 
 constexpr OutletKind kKinds[] = {
-    {"datagrams", "", false, false, "datagram", "what is received, unchanged, by UDP",
+    {"datagrams", "Datagrams", "", false, false, "datagram", "what is received, unchanged, by UDP",
      RelayedDatagrams::start},
-    {"follow", "-", true, false, "line", "poses as lines of JSON, to all who connect", startPoses<followAt>},
+    {"follow", "JSON lines", "-", true, false, "line", "poses as lines of JSON, to all who connect",
+     startPoses<followAt>},
 #ifndef _WIN32
-    {"osc", "127.0.0.1:9000", true, false, "datagram", "poses as Open Sound Control, by UDP",
+    {"osc", "OSC", "127.0.0.1:9000", true, false, "datagram", "poses as Open Sound Control, by UDP",
      startPoses<oscTo>},
-    {"vmc", "127.0.0.1:39539", true, true, "datagram", "poses of one character by the VMC protocol, by UDP",
-     startPoses<vmcTo>},
+    {"vmc", "VMC", "127.0.0.1:39539", true, true, "datagram",
+     "poses of one character by the VMC protocol, by UDP", startPoses<vmcTo>},
 #endif
 };
 

@@ -61,12 +61,13 @@ struct OutletPlace {
 
 /// A row for each form.
 struct OutletKind {
-    std::string_view name;
+    std::string_view name; ///< on the command line, and where choices are kept
+    const char* title;
     std::string_view place; ///< where it goes if none is chosen; empty: one has to be
     bool hasPoses;
     bool isOfOne;          ///< character
     std::string_view unit; ///< what is sent: "line"
-    std::string_view help;
+    const char* help;
     net::NetResult<std::unique_ptr<Outlet>> (*start)(const OutletChoice& choice, const OutletPlace& place);
 };
 [[nodiscard]] std::span<const OutletKind> outletKinds();

@@ -34,6 +34,7 @@ struct WayOutState {
     std::uint64_t skipped = 0; ///< datagrams left out: fallen too far behind, or for fear of a loop
     std::uint64_t behind = 0;  ///< packets that wait to be forwarded
     std::size_t receivers = 0; ///< now, of those that they connect to
+    std::string form{};        ///< the title of its kind
 };
 
 struct ReceivingState {

@@ -13,7 +13,10 @@ bool WaysOut::add(const WayOut& choice, std::size_t row) {
         return false;
     }
     row = std::min(row, m_states.size());
-    m_states.insert(m_states.begin() + static_cast<std::ptrdiff_t>(row), WayOutState{choice});
+    const outlets::OutletKind* kind = outlets::findOutletKind(choice.kind.toStdString());
+    m_states.insert(
+        m_states.begin() + static_cast<std::ptrdiff_t>(row),
+        WayOutState{.target = choice, .form = kind != nullptr ? kind->title : choice.kind.toStdString()});
     m_work.insert(m_work.begin() + static_cast<std::ptrdiff_t>(row), Work{});
     if (choice.isOn) {
         begin(row);

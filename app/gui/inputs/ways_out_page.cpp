@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/inputs/ways_out_page.h"
 
+#include "app/gui/theme/words.h"
 #include "app/outlets/outlet.h"
 
 #include <QHBoxLayout>
@@ -68,7 +69,7 @@ void WaysOutPage::showKind() {
     const outlets::OutletKind& kind =
         outlets::outletKinds()[static_cast<std::size_t>(m_kind->currentIndex())];
     m_character->setVisible(kind.isOfOne);
-    m_kind->setToolTip(QString::fromUtf8(kind.help));
+    m_kind->setToolTip(toolTipText(translatedText(kind.help)));
     m_target->setPlaceholderText(
         kind.place == "-"    ? tr("port of this computer alone, or address:port, such as 9800")
         : kind.place.empty() ? tr("host:port, such as 192.168.1.40:%1").arg(kDefaultPort)
@@ -100,8 +101,8 @@ void WaysOutPage::layOut() {
                 this);
     m_table->setMinimumHeight(m_table->heightForRows(kTargetRows));
     for (const outlets::OutletKind& kind : outlets::outletKinds()) {
-        m_kind->addItem(QString::fromUtf8(kind.name));
-        m_kind->setItemData(m_kind->count() - 1, QString::fromUtf8(kind.help), Qt::ToolTipRole);
+        m_kind->addItem(translatedText(kind.title));
+        m_kind->setItemData(m_kind->count() - 1, toolTipText(translatedText(kind.help)), Qt::ToolTipRole);
     }
     m_kind->setAccessibleName(tr("Form"));
     m_character->setPlaceholderText(tr("name or ID; else the first"));

@@ -164,13 +164,14 @@ std::vector<WayOutColumn> waysOutColumns() {
         WayOutColumn::words(tr("To"), {}, [](const auto& way) { return displayText(way.target); })
             .in({QStringLiteral("☑ motion-capture.studio:65535")})
             .withMore(box),
-        WayOutColumn::words(tr("As"), tr("The form: see the list below"),
+        WayOutColumn::words(tr("As"), tr("The form in which it is handed on"),
                             [](const auto& way) {
+                                const QString form = translatedText(way.form);
                                 return way.target.character.isEmpty()
-                                           ? way.target.kind
-                                           : tr("%1 of %2").arg(way.target.kind, way.target.character);
+                                           ? form
+                                           : tr("%1 of %2").arg(form, way.target.character);
                             })
-            .in({QStringLiteral("datagrams")}),
+            .in({QStringLiteral("Datagrams")}),
         valueColumn(
             WayOutColumn{.title = tr("State"), .room = {.usual = tr("looking up studio"), .isOpen = true}},
             wayOutStage),
