@@ -4,6 +4,9 @@
 #include "core/performer/performer.h"
 #include "core/wire/codec.h"
 
+#include <QHostAddress>
+#include <QUdpSocket>
+
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -60,6 +63,7 @@ protected:
     log::SystemClock m_clock;
     performer::Performer m_performer{settings()};
     model::Origin m_origin;
+    std::uint64_t m_frame = 0; ///< the next one, for those that go on
     Got m_got;
     MakeWriter m_make = [this](const log::PacketLog& /*log*/) {
         return net::NetResult<std::unique_ptr<PoseWriter>>(std::make_unique<Keeper>(m_got));
@@ -109,6 +113,37 @@ TEST_F(PoseOutletTest, SaysWhyItsWriterCannotBegin) {
     });
     ASSERT_FALSE(outlet);
     EXPECT_EQ(outlet.error().kind, net::NetError::Kind::PortInUse);
+}
+
+/// With a receiver, and stopped while it sends; `follow` has none, and the others nobody who reads.
+TEST_F(PoseOutletTest, EveryKindHandsOnWhatComesAndStops) {
+    QUdpSocket receiver;
+    ASSERT_TRUE(receiver.bind(QHostAddress::LocalHost));
+    for (const OutletKind& kind : outletKinds()) {
+        const std::string place = "127.0.0.1:" + std::to_string(kind.place == "-" ? 0 : receiver.localPort());
+        const auto outlet = kind.start({place, {}}, {m_origin.log(), m_clock, {}, {}});
+        ASSERT_TRUE(outlet) << kind.name;
+        const auto isDone = [&] {
+            const OutletState state = (*outlet)->state();
+            return kind.place == "-" ? state.poses > 4 : state.sent > 4;
+        };
+        while (!isDone()) {
+            receive(m_frame++);
+            (*outlet)->update(m_origin.session());
+            std::this_thread::yield();
+        }
+        EXPECT_EQ((*outlet)->state().problem, "") << kind.name;
+        if (kind.place != "-") {
+            EXPECT_EQ((*outlet)->state().place, place);
+        }
+    }
+    EXPECT_EQ(findOutletKind("carrier pigeon"), nullptr);
+}
+
+TEST_F(PoseOutletTest, NoKindOfDatagramsTakesAPlaceWithoutAPort) {
+    for (const OutletKind& kind : outletKinds()) {
+        EXPECT_FALSE(kind.start({"nowhere:x", {}}, {m_origin.log(), m_clock, {}, {}})) << kind.name;
+    }
 }
 
 } // namespace
