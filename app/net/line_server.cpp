@@ -6,7 +6,6 @@
 #include <QFileInfo>
 #include <QLocalServer>
 #include <QLocalSocket>
-#include <QNetworkProxy>
 #include <QTcpServer>
 #include <QTcpSocket>
 
@@ -35,18 +34,8 @@ bool isLeft(const QString& path) {
 
 struct LineServer::Parts {
     NetResult<void> listenAt(const std::string& text) {
-        const auto endpoint = parseEndpoint(text);
-        if (!endpoint) {
-            return tl::unexpected(endpoint.error());
-        }
-        const auto address = listenAddress(endpoint->host.empty() ? "127.0.0.1" : endpoint->host);
-        if (!address) {
-            return tl::unexpected(address.error());
-        }
-        tcp.setProxy(QNetworkProxy::NoProxy);
-        if (!tcp.listen(*address, endpoint->port)) {
-            return tl::unexpected(withHolder(
-                listenError("TCP", *endpoint, tcp.serverError(), tcp.errorString()), endpoint->port, true));
+        if (const auto listening = listenTcp(tcp, text); !listening) {
+            return tl::unexpected(listening.error());
         }
         place = textOf(tcp.serverAddress(), tcp.serverPort());
         QObject::connect(&tcp, &QTcpServer::newConnection, &tcp, [this] {

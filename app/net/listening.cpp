@@ -4,6 +4,9 @@
 #include "app/net/port_holder.h"
 #include "app/net/socket_options.h"
 
+#include <QNetworkProxy>
+#include <QTcpSocket>
+
 #include <algorithm>
 #include <iterator>
 #include <string_view>
@@ -151,6 +154,41 @@ NetError withHolder(NetError error, std::uint16_t port, bool isTcp) {
                                : "by " + holder->name + process);
     }
     return error;
+}
+
+NetResult<void> listenTcp(QTcpServer& server, const std::string& place) {
+    const auto endpoint = parseEndpoint(place);
+    if (!endpoint) {
+        return tl::unexpected(endpoint.error());
+    }
+    const auto address = listenAddress(endpoint->host.empty() ? "127.0.0.1" : endpoint->host);
+    if (!address) {
+        return tl::unexpected(address.error());
+    }
+    server.setProxy(QNetworkProxy::NoProxy);
+    if (!server.listen(*address, endpoint->port)) {
+        return tl::unexpected(withHolder(
+            listenError("TCP", *endpoint, server.serverError(), server.errorString()), endpoint->port, true));
+    }
+    return {};
+}
+
+NetResult<std::string> freeTcpPlace(const std::string& place) {
+    QTcpServer server;
+    if (const auto listening = listenTcp(server, place); !listening) {
+        return tl::unexpected(listening.error());
+    }
+    return textOf(server.serverAddress(), server.serverPort());
+}
+
+void knock(const std::string& place) {
+    constexpr int kPatience = 100; // milliseconds
+    if (const auto endpoint = parseEndpoint(place)) {
+        QTcpSocket socket;
+        socket.setProxy(QNetworkProxy::NoProxy);
+        socket.connectToHost(QString::fromStdString(endpoint->host), endpoint->port);
+        socket.waitForConnected(kPatience);
+    }
 }
 
 NetResult<UdpSockets> bindUdp(Input& input, int bufferBytes) {

@@ -5,6 +5,7 @@
 
 #include <QAbstractSocket>
 #include <QHostAddress>
+#include <QTcpServer>
 #include <QUdpSocket>
 
 #include <memory>
@@ -22,6 +23,15 @@ namespace posewire::net {
 
 /// The error with the port's holder named, if the port is in use and the system reveals who has it.
 [[nodiscard]] NetError withHolder(NetError error, std::uint16_t port, bool isTcp);
+
+/// Listens at "ADDRESS:PORT", or "PORT" for this computer alone; port 0 is one that is free.
+[[nodiscard]] NetResult<void> listenTcp(QTcpServer& server, const std::string& place);
+
+/// Such a place for a library that listens by itself: "127.0.0.1:9464", where nobody listens yet.
+[[nodiscard]] NetResult<std::string> freeTcpPlace(const std::string& place);
+
+/// Connects to such a place and leaves at once: whoever waits there for connections wakes up.
+void knock(const std::string& place);
 
 struct UdpSocket {
     std::unique_ptr<QUdpSocket> socket;
