@@ -54,6 +54,7 @@ struct MonitorOptions {
     std::string outlet;    ///< of outlets::outletKinds(); empty: none
     std::string to;        ///< its place; empty: where it goes if none is chosen; "-" for standard output
     std::string character; ///< of outlets that take one
+    std::string metrics;   ///< where figures are served: empty: nowhere; else see outlets::Metrics
     bool replaces = false;
     bool asJson = false;
     bool asJsonLines = false;

@@ -275,6 +275,11 @@ Command addMonitorCommand(CommandLine& program) {
                   "write everything received there as pcapng; - for standard output, instead of the table");
     arguments.add("--report FILE", options->report,
                   "write a report there as HTML: what was received, what not, and whose fault it was");
+    arguments
+        .add("--metrics [ADDRESS:]PORT", options->metrics,
+             "serve the figures there for Prometheus, at http://ADDRESS:PORT/metrics; PORT alone is for this "
+             "computer only")
+        .excludes(arguments.option("FILE"));
     addOutputs(arguments, options->replaces);
     addUp(arguments, options->up);
     arguments.verbose(options->isVerbose,

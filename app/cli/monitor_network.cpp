@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/outlet_watch.h"
 #include "app/net/connection_help.h"
+#include "app/outlets/metrics.h"
+#include "app/system/process_figures.h"
+#include "app/usage/usage.h"
 #include "core/model/session/roster.h"
 #include "core/words/say.h"
 
@@ -247,6 +250,24 @@ private:
     std::set<std::string> m_advised;
 };
 
+struct Watches {
+    RecordingWatch recording;
+    InputWatch inputs;
+    OutletWatch outlet;
+    std::unique_ptr<outlets::Metrics> metrics; ///< null if they are not asked for
+};
+
+/// False, with a complaint, if metrics are asked for and cannot be served.
+bool serveMetrics(const MonitorOptions& options, Watches& watches, Console& console) {
+    if (options.metrics.empty()) {
+        return true;
+    }
+    auto served = outlets::Metrics::serve(options.metrics, std::string(usage::version()));
+    console.complain(served ? "metrics are at " + (*served)->address() : "--metrics: " + served.error().text);
+    watches.metrics = served ? std::move(*served) : nullptr;
+    return watches.metrics != nullptr;
+}
+
 exporting::MonitorFacts factsOf(const net::Receiver& receiver, double elapsedS) {
     const net::ReceiveTotals totals = receiver.totals();
     exporting::MonitorFacts facts;
@@ -257,8 +278,7 @@ exporting::MonitorFacts factsOf(const net::Receiver& receiver, double elapsedS) 
 }
 
 /// Until the time is over or nobody wants more. Returns how long it was.
-double watch(const MonitorOptions& options, const net::Receiver& receiver, MonitorRun& run,
-             RecordingWatch& recording, InputWatch& inputs, OutletWatch& outlet,
+double watch(const MonitorOptions& options, net::Receiver& receiver, MonitorRun& run, Watches& watches,
              std::chrono::steady_clock::time_point start) {
     using namespace std::chrono;
     // Lines report a verdict or a pose without delay.
@@ -272,12 +292,17 @@ double watch(const MonitorOptions& options, const net::Receiver& receiver, Monit
         const log::KernelCounters kernel = receiver.totals().kernel;
         run.session().setKernel(kernel);
         run.follow(now, receiver.isHeldUp());
-        outlet.look();
+        watches.outlet.look();
+        if (watches.metrics != nullptr && watches.metrics->isDue(now)) {
+            watches.metrics->update(run.session(),
+                                    {receiver.takeBufferFill(), receiver.totals().refusedDatagrams,
+                                     system::processCpuSeconds(), system::processMemoryBytes()});
+        }
         run.show(factsOf(receiver, elapsed.count()), now);
-        recording.look(now);
-        inputs.look(run.session(), kernel, now);
-        const bool isInVain = options.record == "-" && recording.hasFailed();
-        if (run.isOver() || outlet.isOver() || isInVain || (hasEnd && left.count() <= 0)) {
+        watches.recording.look(now);
+        watches.inputs.look(run.session(), kernel, now);
+        const bool isInVain = options.record == "-" && watches.recording.hasFailed();
+        if (run.isOver() || watches.outlet.isOver() || isInVain || (hasEnd && left.count() <= 0)) {
             return elapsed.count();
         }
         std::this_thread::sleep_for(hasEnd ? std::min(pause, left) : pause);
@@ -349,24 +374,22 @@ ExitStatus monitorNetwork(const MonitorOptions& options, Console& console) {
         tellInputs(*receiver, console);
     }
     const auto start = std::chrono::steady_clock::now();
-    RecordingWatch recording(run, console);
-    if (!options.record.empty() && !recording.start(options)) { // now that there is something to record
+    Watches watches{{run, console}, {*receiver, console}, {run, console}, nullptr};
+    // A recording is begun once there is something to record.
+    if (!serveMetrics(options, watches, console) ||
+        (!options.record.empty() && !watches.recording.start(options)) ||
+        !watches.outlet.start(options, clock, receiver->inputs())) {
         return ExitStatus::Unusable;
     }
-    InputWatch inputs(*receiver, console);
-    OutletWatch outlet(run, console);
-    if (!outlet.start(options, clock, receiver->inputs())) {
-        return ExitStatus::Unusable;
-    }
-    const double elapsedS = watch(options, *receiver, run, recording, inputs, outlet, start);
-    outlet.end();
+    const double elapsedS = watch(options, *receiver, run, watches, start);
+    watches.outlet.end();
     const log::Stamp over = run.log().timeline().now(clock);
     exporting::MonitorFacts facts = factsOf(*receiver, elapsedS);
-    facts.exceeded = inputs.silent();
-    inputs.end();
+    facts.exceeded = watches.inputs.silent();
+    watches.inputs.end();
     receiver.reset(); // what is in the sockets still comes into the log
     const log::Stamp end = run.followToEnd(over);
-    const ExitStatus recorded = recording.stop(run.receptionOf(facts), end);
+    const ExitStatus recorded = watches.recording.stop(run.receptionOf(facts), end);
     return run.conclude(facts, recorded, end);
 }
 
