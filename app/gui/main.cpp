@@ -12,6 +12,7 @@
 #include "app/gui/window/guide.h"
 #include "app/gui/window/main_window.h"
 #include "app/gui/window/opening.h"
+#include "app/outlets/metrics.h"
 #include "app/system/interruption.h"
 #include "app/system/process_figures.h"
 #include "app/system/standard_streams.h"
@@ -27,6 +28,7 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <memory>
 #include <utility>
 
 namespace {
@@ -107,6 +109,26 @@ void openComparison(MainWindow& window, const Options& options, const Settings& 
                        "with a recording takes another one.")
                        .arg(file));
     }
+}
+
+/// Serves the figures of what is received; null if the options do not ask for it.
+net::NetResult<std::unique_ptr<outlets::Metrics>> serveMetrics(SessionDriver& driver, const QString& place) {
+    if (place.isEmpty()) {
+        return nullptr;
+    }
+    auto served = outlets::Metrics::serve(place.toStdString(), std::string(usage::version()));
+    if (served) {
+        std::fprintf(stderr, "posewire: metrics are at %s\n", (*served)->address().c_str());
+        QObject::connect(&driver, &SessionDriver::tableTick, &driver, [&driver, &metrics = **served] {
+            const model::SessionView& live = driver.commands().live();
+            if (metrics.isDue(live.now())) {
+                metrics.update(live, {driver.health().health().bufferFill,
+                                      driver.receiving().state().refusedDatagrams,
+                                      system::processCpuSeconds(), system::processMemoryBytes()});
+            }
+        });
+    }
+    return served;
 }
 
 /// What takes its time waits until the window can be seen.
@@ -237,6 +259,10 @@ int main(int argc, char** argv) {
     const log::SystemClock clock;
     SessionDriver driver(clock, QStandardPaths::writableLocation(QStandardPaths::CacheLocation));
     driver.commands().setUsual({.up = model::upNamed(options->up)});
+    const auto metrics = serveMetrics(driver, options->metrics);
+    if (!metrics) {
+        return usage::end({2, "posewire: --metrics: " + metrics.error().text + '\n'});
+    }
     MainWindow window(driver, file, settings);
     if (options->size.isValid()) {
         window.resize(options->size);

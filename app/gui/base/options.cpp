@@ -173,6 +173,9 @@ struct Declared {
                        "for a shared folder; 0600 by default");
         arguments.flag("--forget-history", options.forgetsHistory,
                        "at the end, remove what earlier runs have left of the history on disk, too");
+        arguments.read("--metrics [ADDRESS:]PORT", into(options.metrics),
+                       "serve the figures of what is received there for Prometheus, at "
+                       "http://ADDRESS:PORT/metrics; PORT alone is for this computer only");
         arguments.verbose(options.isVerbose, "inputs, files, settings and OpenGL");
         arguments.flag("--startup-time", options.printsStartupTime,
                        "print how long it took until the window was on screen");

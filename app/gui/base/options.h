@@ -33,7 +33,8 @@ struct Options {
     bool replaces = false; ///< that file, where it exists
     double screenshotAfterSeconds = 3.0;
     std::optional<double> seekSeconds; ///< from the beginning of the file
-    QString language;                  ///< empty for the system's
+    QString metrics;  ///< where figures are served: empty: nowhere; else see outlets::Metrics
+    QString language; ///< empty for the system's
     QSize size;
     std::optional<ThemeChoice> theme;
     QString screenshotPart; ///< name of the dock or bar that the picture is of; empty for the window

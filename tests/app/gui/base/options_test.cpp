@@ -56,6 +56,11 @@ TEST(Options, InputsAreShownWithTheirTransport) {
     EXPECT_EQ(displayText({"studio", 9764, Kind::TcpConnection}), "TCP to studio:9764");
 }
 
+TEST(Options, TakeAPlaceForMetrics) {
+    EXPECT_TRUE(parse({})->metrics.isEmpty());
+    EXPECT_EQ(parse({"--metrics", "127.0.0.1:9464"})->metrics, "127.0.0.1:9464");
+}
+
 TEST(Options, SeekIsATimeInAFile) {
     EXPECT_FALSE(parse({"take.pcapng"})->seekSeconds);
     EXPECT_EQ(parse({"take.pcapng", "--seek", "2.5"})->seekSeconds, 2.5);
