@@ -13,10 +13,11 @@ import struct
 import subprocess
 import sys
 import tempfile
+import urllib.request
 
 # Values and options, not keys.
 WORDS = {"none", "good", "warning", "bad", "provisional", "ongoing", "over", "encode", "--from", "--verbose", "MXTP", "sent", "solved", "assumed",
-         "(lastSample - firstSample) / step + 1 = samples + incomplete + lost"}
+         "tcp", "(lastSample - firstSample) / step + 1 = samples + incomplete + lost"}
 NOT_PROMISED = "memory"
 
 
@@ -93,6 +94,25 @@ def followed(cli):
         sending.wait()
 
 
+def scraped(cli):
+    """Names and labels of what a running monitor serves, with the values of labels that have only some."""
+    monitoring = subprocess.Popen([cli, "monitor", "--udp", "127.0.0.1:0", "--metrics", "127.0.0.1:0", "--json"], text=True,
+                                  stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+    try:
+        told = [monitoring.stderr.readline() for _ in range(2)]
+        port = re.search(r"listening on (127\.0\.0\.1:\d+)", told[0]).group(1)
+        output(cli, "send", "--to", port, "--rate", "60", "--duration", "2", "--drop", "0.05")
+        with urllib.request.urlopen(re.search(r"metrics are at (\S+)", told[1]).group(1), timeout=10) as answer:
+            text = answer.read().decode("utf-8")
+    finally:
+        monitoring.kill()
+        monitoring.communicate()
+    series = [line for line in text.splitlines() if not line.startswith(("#", "exposer_"))]
+    labels = set(re.findall(r'(\w+)="([^"]*)"', "\n".join(series)))
+    named = {value for label, value in labels if label in ("cause", "severity", "state", "transport")}
+    return {line.split("{")[0].split()[0] for line in series} | {label for label, _ in labels} | named - WORDS
+
+
 def main(page, cli, source):
     sys.path.insert(0, str(source / "tests" / "support"))
     import capture_writer  # pylint: disable=import-outside-toplevel,import-error
@@ -113,6 +133,7 @@ def main(page, cli, source):
     lines_only = {"monitor --json-lines": promised["monitor --json-lines"] | keys(report["verdict"]) | keys(report["incidents"])}
     compare("monitor --json-lines", lines_only, keys(told))
     compare("follow", promised, keys(followed(cli)))
+    compare("monitor --metrics", promised, scraped(cli))
     truth_only = {"send --truth": promised["send --truth"] | (keys(sent) & promised["monitor --json"])}
     compare("send --truth", truth_only, keys(sent))
     return 0
