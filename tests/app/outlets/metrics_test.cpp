@@ -13,9 +13,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <QTcpSocket>
+
+#include <atomic>
 #include <map>
 #include <set>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace posewire::outlets {
@@ -234,12 +238,51 @@ TEST_F(MetricsTest, KeepToTheConventionsOfNames) {
     }
 }
 
+/// What a scrape gets.
+std::string scrape(const std::string& place) {
+    const auto endpoint = *net::parseEndpoint(place);
+    QTcpSocket socket;
+    socket.connectToHost(QString::fromStdString(endpoint.host), endpoint.port);
+    socket.write("GET /metrics HTTP/1.1\r\nHost: here\r\nConnection: close\r\n\r\n");
+    std::string text;
+    while (socket.waitForReadyRead(5'000)) {
+        text += socket.readAll().toStdString();
+    }
+    return text;
+}
+
+std::string placeOf(const Metrics& metrics) {
+    const std::string address = metrics.address();
+    return address.substr(7, address.rfind('/') - 7);
+}
+
+TEST_F(MetricsTest, AreScrapedWhileTheyAreUpdated) {
+    const auto served = Metrics::serve("0", "1.2.3");
+    ASSERT_TRUE(served);
+    performer::Performer performer(settingsOf(1));
+    receive(performer, "10.0.0.5:50000", 10);
+    EXPECT_TRUE((*served)->isDue(m_now));
+    (*served)->update(session(), {});
+    EXPECT_FALSE((*served)->isDue(m_now + 999ms));
+    EXPECT_TRUE((*served)->isDue(m_now + 1s));
+    std::atomic<bool> isOver = false;
+    std::thread scraping([&] {
+        for (int i = 0; i < 10; ++i) {
+            EXPECT_THAT(scrape(placeOf(**served)), testing::HasSubstr("\nposewire_characters 1\n"));
+        }
+        isOver = true;
+    });
+    while (!isOver) {
+        (*served)->update(session(), {});
+    }
+    scraping.join();
+}
+
 TEST(Metrics, SayWhyTheyCannotBeServed) {
     const auto served = Metrics::serve("0", "1.2.3");
     ASSERT_TRUE(served);
     EXPECT_THAT((*served)->address(), testing::MatchesRegex("http://127.0.0.1:[0-9]+/metrics"));
-    const std::string address = (*served)->address();
-    const std::string place = address.substr(7, address.rfind('/') - 7);
+    const std::string place = placeOf(**served);
     const auto again = Metrics::serve(place, "1.2.3");
     ASSERT_FALSE(again);
     EXPECT_EQ(again.error().kind, net::NetError::Kind::PortInUse);
