@@ -156,8 +156,9 @@ void HealthBar::showWaysOut(const std::vector<WayOutState>& ways) {
             const PropertyValue stage = wayOutStage(way);
             const bool isWorse = stage.health == Health::Error || level == Health::Good;
             level = stage.health != Health::Good && isWorse ? stage.health : level;
-            lines += tr("%1 to %2: %3, %4 sent")
-                         .arg(translatedText(way.form), displayText(way.target), stage.text, grouped(way.sent));
+            lines +=
+                tr("%1 to %2: %3, %4 sent")
+                    .arg(translatedText(way.form), displayText(way.target), stage.text, grouped(way.sent));
         }
     }
     m_waysOut->setVisible(!lines.isEmpty());
