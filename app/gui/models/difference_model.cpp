@@ -73,13 +73,13 @@ std::vector<DifferenceColumn> DifferenceModel::columns() {
     };
     return withHelpInCells(std::vector<DifferenceColumn>{
         std::move(name),
-        numbers(tr("Now mm"), tr("Between the origins of the segment, at the moment that is shown"), kNow,
+        numbers(tr("Shown mm"), tr("Between the origins of the segment, at the moment that is shown"), kNow,
                 kDistanceDecimals, 0),
         numbers(tr("Mean mm"), tr("Mean distance of the origins over the range"), kMean, kDistanceDecimals,
                 0),
         numbers(tr("Worst mm"), tr("Largest distance of the origins in the range"), kMost, kDistanceDecimals,
                 4),
-        numbers(tr("Now °"), tr("Turn from one orientation to the other, at the moment that is shown"),
+        numbers(tr("Shown °"), tr("Turn from one orientation to the other, at the moment that is shown"),
                 kNowTurn, kTurnDecimals, 3),
         numbers(tr("Mean °"), tr("Mean turn over the range"), kMeanTurn, kTurnDecimals, 2),
         numbers(tr("Worst °"), tr("Largest turn in the range"), kMostTurn, kTurnDecimals, 1),

@@ -83,7 +83,7 @@ PropertyValue shownValue(const model::SessionView& view, const MetadataRow& row)
             row.isEarlier ? QString() : tr("First sent at %1").arg(timeOfDay(view.wallOf(row.value->stamp)))};
 }
 
-/// Stamp of the newest message with a tag before the moment that is shown.
+/// Stamp of the newest message with a tag before the moment that is shown; 0 if that is no longer kept.
 log::Stamp lastSent(model::SessionView& view, const MetadataRow& row) {
     const auto key = shownCharacter(view);
     if (row.tag->lastSeen <= view.cursorStamp() || !key) {
@@ -91,7 +91,8 @@ log::Stamp lastSent(model::SessionView& view, const MetadataRow& row) {
     }
     const log::Stamp newest =
         view.messages().newestStamp({key->sender, key->character, wire::MetaData::kType});
-    return row.value != nullptr ? std::max(newest, row.value->stamp) : newest;
+    const log::Stamp known = row.value != nullptr ? std::max(newest, row.value->stamp) : newest;
+    return known < view.keptSince() ? log::Stamp() : known;
 }
 
 MetadataColumn sentColumn(model::SessionView& view) {
@@ -101,10 +102,12 @@ MetadataColumn sentColumn(model::SessionView& view) {
         }
         const log::Stamp sent = row.place != nullptr ? row.place->stamp : lastSent(view, row);
         const double age = log::secondsOf(view.cursorStamp() - sent);
-        return row.isEarlier ? timeOfDay(view.wallOf(row.value->stamp)) : duration(std::max(0.0, age));
+        return row.isEarlier          ? timeOfDay(view.wallOf(row.value->stamp))
+               : sent == log::Stamp() ? dash()
+                                      : duration(std::max(0.0, age));
     };
     const auto toolTip = [&view](const MetadataRow& row) {
-        return row.tag == nullptr || row.isEarlier
+        return row.tag == nullptr || row.isEarlier || lastSent(view, row) == log::Stamp()
                    ? QString()
                    : tr("Last sent at %1, changed or not. Earlier values are below the tag.")
                          .arg(timeOfDay(view.wallOf(lastSent(view, row))));

@@ -374,7 +374,7 @@ void ComparePanel::select(const QModelIndex& index) {
 
 QString ComparePanel::summary() const {
     const ComparisonState& state = comparison();
-    return state.isOpen && state.atCursor ? tr("now %1 mm").arg(fixed(state.atCursor->meanMillimetres(), 1))
+    return state.isOpen && state.atCursor ? tr("shown: %1 mm").arg(fixed(state.atCursor->meanMillimetres(), 1))
                                           : QString();
 }
 
