@@ -56,7 +56,8 @@ TEST(StreamFigures, AreReadFromTheAccounting) {
     EXPECT_DOUBLE_EQ(figures[Figure::LossShare], 2.0);
     EXPECT_NEAR(figures[Figure::RateWhole], 98, 0.1);
     EXPECT_NEAR(figures[Figure::SpacingMost], 20, 1e-6);
-    EXPECT_EQ(figures.trouble(Figure::Lost), FigureTrouble::Warning);
+    EXPECT_EQ(figures.trouble(Figure::Lost), FigureTrouble::Odd);
+    EXPECT_EQ(figures.trouble(Figure::LossShare), FigureTrouble::Warning);
     EXPECT_EQ(figures.trouble(Figure::Late), FigureTrouble::None);
     const TimeRange second{kBegin + 1s, kBegin + 2s};
     EXPECT_EQ(figuresOf(stream, second).count(Figure::Lost), 2U);
