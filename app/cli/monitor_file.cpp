@@ -309,7 +309,7 @@ Command addOutletCommand(CommandLine& program) {
     std::string places;
     for (const outlets::OutletKind& kind : outlets::outletKinds()) {
         kinds += (kinds.empty() ? "" : "; ") + std::string(kind.name) + ": " + kind.help;
-        if (kind.place.find(':') != std::string_view::npos) {
+        if (!kind.place.empty() && kind.place != "-") {
             places += "; " + std::string(kind.place) + " for " + std::string(kind.name);
         }
     }

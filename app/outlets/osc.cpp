@@ -5,22 +5,12 @@
 #include "core/model/body/spaces.h"
 #include "core/wire/type_table.h"
 
-#include <algorithm>
 #include <array>
-#include <cctype>
 #include <utility>
 #include <vector>
 
 namespace posewire::outlets {
 namespace {
-
-/// As part of an address, in which a name may not have spaces, wildcards and other than ASCII.
-std::string addressPart(std::string name) {
-    std::ranges::replace_if(
-        name, [](unsigned char c) { return c > 0x7f || (std::isalnum(c) == 0 && c != '-' && c != '.'); },
-        '_');
-    return name;
-}
 
 class OscWriter : public PoseWriter {
 public:
@@ -51,7 +41,7 @@ public:
 
 private:
     void write(const feed::PoseCharacter& character, const model::CharacterPose& pose) override {
-        const std::string own = "/posewire/" + addressPart(character.name.shown());
+        const std::string own = "/posewire/" + plainName(character.name.shown());
         const auto sender = m_log.senders().find(character.key.sender);
         m_sender.add(own + "/pose",
                      {std::int32_t{character.key.character}, static_cast<std::int32_t>(pose.sample),

@@ -4,6 +4,7 @@
 #include "app/outlets/follow.h"
 #ifndef _WIN32
 #include "app/outlets/osc.h"
+#include "app/outlets/ros.h"
 #endif
 
 #include <algorithm>
@@ -65,15 +66,17 @@ Started startPoses(const OutletChoice& choice, const OutletPlace& place) {
 }
 
 constexpr OutletKind kKinds[] = {
-    {"datagrams", "Datagrams", "", false, false, "datagram", "what is received, unchanged, by UDP",
+    {"datagrams", "Datagrams", "", false, false, true, "datagram", "what is received, unchanged, by UDP",
      RelayedDatagrams::start},
-    {"follow", "JSON lines", "-", true, false, "line", "poses as lines of JSON, to all who connect",
+    {"follow", "JSON lines", "-", true, false, false, "line", "poses as lines of JSON, to all who connect",
      startPoses<followAt>},
 #ifndef _WIN32
-    {"osc", "OSC", "127.0.0.1:9000", true, false, "datagram", "poses as Open Sound Control, by UDP",
+    {"osc", "OSC", "127.0.0.1:9000", true, false, true, "datagram", "poses as Open Sound Control, by UDP",
      startPoses<oscTo>},
-    {"vmc", "VMC", "127.0.0.1:39539", true, true, "datagram",
+    {"vmc", "VMC", "127.0.0.1:39539", true, true, true, "datagram",
      "poses of one character by the VMC protocol, by UDP", startPoses<vmcTo>},
+    {"ros2", "ROS 2", "0", true, false, false, "message",
+     "poses as /tf and /joint_states of ROS 2, in a domain of DDS", startPoses<rosIn>},
 #endif
 };
 

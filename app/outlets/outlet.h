@@ -66,6 +66,7 @@ struct OutletKind {
     std::string_view place; ///< where it goes if none is chosen; empty: one has to be
     bool hasPoses;
     bool isOfOne;          ///< character
+    bool needsHost;        ///< else a number alone is a place
     std::string_view unit; ///< what is sent: "line"
     const char* help;
     net::NetResult<std::unique_ptr<Outlet>> (*start)(const OutletChoice& choice, const OutletPlace& place);

@@ -6,11 +6,20 @@
 
 #include <QEventLoop>
 
+#include <algorithm>
+#include <cctype>
 #include <future>
 #include <utility>
 #include <vector>
 
 namespace posewire::outlets {
+
+std::string plainName(std::string name) {
+    std::ranges::replace_if(
+        name, [](unsigned char c) { return c > 0x7f || (std::isalnum(c) == 0 && c != '-' && c != '.'); },
+        '_');
+    return name;
+}
 
 PoseOutlet::PoseOutlet(const log::PacketLog& log, const log::Clock& clock) : m_log(log), m_clock(clock) {}
 

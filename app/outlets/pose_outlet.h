@@ -27,6 +27,9 @@ public:
 };
 using MakeWriter = std::function<net::NetResult<std::unique_ptr<PoseWriter>>(const log::PacketLog& log)>;
 
+/// A name as part of an address or a frame: "_" for all but ASCII letters, digits, "-" and ".".
+[[nodiscard]] std::string plainName(std::string name);
+
 /// Hands the poses of all characters to a writer as they are received.
 class PoseOutlet final : public Outlet {
 public:

@@ -22,7 +22,7 @@ endif()
 if(MSVC)
   add_compile_options(/W4 /utf-8 /permissive-)
 else()
-  add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor)
+  add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion $<$<COMPILE_LANGUAGE:CXX>:-Wnon-virtual-dtor>)
 endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   add_compile_options(-Wno-restrict -Wno-stringop-overflow -Wno-stringop-overread -Wno-array-bounds) # GCC 12 warns of its own std::string (bug 105651)
@@ -61,7 +61,7 @@ endif()
 # Where everything is compiled anew, headers cost more than code: several sources of a target make one unit then. Who
 # works on a part compiles its sources one by one. Types of an unnamed namespace are not those of another unit.
 if(POSEWIRE_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-  add_compile_options(-Wno-subobject-linkage)
+  add_compile_options($<$<COMPILE_LANGUAGE:CXX>:-Wno-subobject-linkage>)
 endif()
 
 function(posewire_unite target)

@@ -95,11 +95,14 @@ InputChoices inputChoicesOf(const QJsonObject& object) {
     }
     for (const QJsonValue& value : object["relays"].toArray()) {
         const QJsonObject way = value.toObject();
-        const auto port = portOf(way["port"]);
+        const QString host = way["host"].toString();
         const QString kind = way["kind"].toString(WayOut().kind);
-        if (port && (kind == QStringLiteral("follow") || !way["host"].toString().isEmpty())) {
+        const bool isHere = host.isEmpty() && kind != WayOut().kind;
+        const auto port = isHere && way["port"].toInt(-1) == 0 ? std::optional<std::uint16_t>(0) // a domain
+                                                               : portOf(way["port"]);
+        if (port && (isHere || !host.isEmpty())) {
             choices.waysOut.push_back(
-                {way["host"].toString(), *port, way["on"].toBool(true), kind, way["character"].toString()});
+                {host, *port, way["on"].toBool(true), kind, way["character"].toString()});
         }
     }
     QStringList unreadable;

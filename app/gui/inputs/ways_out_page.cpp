@@ -72,6 +72,7 @@ void WaysOutPage::showKind() {
     m_kind->setToolTip(toolTipText(translatedText(kind.help)));
     m_target->setPlaceholderText(
         kind.place == "-"    ? tr("port of this computer alone, or address:port, such as 9800")
+        : !kind.needsHost    ? tr("domain; %1 if left empty").arg(QString::fromUtf8(kind.place))
         : kind.place.empty() ? tr("host:port, such as 192.168.1.40:%1").arg(kDefaultPort)
                              : tr("host:port; %1 if left empty").arg(QString::fromUtf8(kind.place)));
     setProblem({});
@@ -86,7 +87,7 @@ tl::expected<WayOut, QString> WaysOutPage::read() const {
     const QString typed = m_target->text().trimmed();
     const bool isDefault = typed.isEmpty() && kind.place != "-";
     const std::string place = isDefault ? std::string(kind.place) : typed.toStdString();
-    const auto target = kind.place == "-" ? net::parseEndpoint(place) : net::parseTarget(place);
+    const auto target = kind.needsHost ? net::parseTarget(place) : net::parseEndpoint(place);
     if (!target) {
         return tl::unexpected(QString::fromStdString(target.error().text));
     }

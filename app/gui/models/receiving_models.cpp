@@ -225,8 +225,8 @@ PropertyValue wayOutStage(const WayOutState& way) {
     case WayOutState::Stage::Refused:
         return {way.problem, Health::Error, way.problem};
     case WayOutState::Stage::Forwarding:
-        return !way.problem.isEmpty()         ? PropertyValue{way.problem, Health::Warning, way.problem}
-               : way.target.kind != u"follow" ? PropertyValue{tr("forwarding"), Health::Good}
+        return !way.problem.isEmpty()       ? PropertyValue{way.problem, Health::Warning, way.problem}
+               : !way.target.host.isEmpty() ? PropertyValue{tr("forwarding"), Health::Good}
                : way.receivers == 0
                    ? PropertyValue{tr("nobody has connected")}
                    : PropertyValue{tr("%n connected", nullptr, static_cast<int>(way.receivers)),

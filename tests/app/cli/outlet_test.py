@@ -2,10 +2,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Reads what `outlet` sends, by readers of others, and compares it with the lines of `follow`.
 
-usage: outlet_test.py POSEWIRE_CLI
+usage: outlet_test.py POSEWIRE_CLI [ROS_READER]
 """
 import contextlib
 import json
+import math
+import os
 import pathlib
 import signal
 import socket
@@ -16,6 +18,11 @@ import time
 POSES = 60
 CLOSE = 1e-4
 BUNDLE = 1472  # bytes, at most
+DOMAIN = "87"  # of ROS
+# DDS without multicast and beyond this computer.
+LOOPBACK = ('<CycloneDDS><Domain><General><Interfaces><NetworkInterface name="lo"/></Interfaces><AllowMulticast>false'
+            '</AllowMulticast></General><Discovery><ParticipantIndex>auto</ParticipantIndex><Peers><Peer address='
+            '"127.0.0.1"/></Peers></Discovery></Domain></CycloneDDS>')
 
 
 def free_port():
@@ -105,19 +112,20 @@ def told(segment):
 class Stage:
     """Performers who send both to an outlet and to `follow`."""
 
-    def __init__(self, cli, *outlet):
-        self.cli, self.outlet = cli, outlet
+    def __init__(self, cli, *outlet, reader=()):
+        self.cli, self.outlet, self.reader = cli, outlet, reader
 
     def run(self, poses):
-        """Whatever poses(bundles) makes of what the outlet sent, and the poses of follow by ID and sample."""
+        """Whatever poses(lines of the reader) makes of what the outlet sent, and the poses of follow by ID and sample."""
         ports = [free_port(), free_port()]
-        reader = [str(pathlib.Path(__file__).with_name("osc_reader.pl"))]
+        perl = ["perl", str(pathlib.Path(__file__).with_name("osc_reader.pl"))]
         with contextlib.ExitStack() as all_of_them:
-            reading = all_of_them.enter_context(running(["perl", *reader]))
-            to = "127.0.0.1:" + reading.stdout.readline().strip()
+            reading = all_of_them.enter_context(running(self.reader or perl))
+            to = DOMAIN if self.reader else "127.0.0.1:" + reading.stdout.readline().strip()
             follow = all_of_them.enter_context(running([self.cli, "follow", "--udp", f"127.0.0.1:{ports[0]}"]))
             outlet = all_of_them.enter_context(
-                running([self.cli, "outlet", *self.outlet, "--udp", f"127.0.0.1:{ports[1]}", "--to", to]))
+                running([self.cli, "outlet", *self.outlet, "--udp", f"127.0.0.1:{ports[1]}", "--to", to],
+                        env=dict(os.environ, CYCLONEDDS_URI=LOOPBACK)))
             assert to in outlet.stderr.readline()
             all_of_them.enter_context(
                 running([self.cli, "send", *(f"--to=127.0.0.1:{port}" for port in ports), "--rate", "60", "--characters",
@@ -160,9 +168,54 @@ def by_vmc(cli):
                    key=lambda pose: sum(abs(a - b) for a, b in zip(hips, pose["Pelvis"])))
         for name, chain in chains.items():
             mine = world_of(bones, chain)
-            theirs = twin[name]
-            same = close(mine[:3], theirs[:3]) and (close(mine[3:], theirs[3:]) or close(mine[3:], [-part for part in theirs[3:]]))
-            assert same, (name, mine, theirs)
+            assert same(mine, twin[name]), (name, mine, twin[name])
+
+
+def ros_poses(lines):
+    """{(name, time): ({segment: numbers in the world}, {joint: angles})}, of those of which both have come."""
+    transforms, joints = {}, {}
+    for line in lines:
+        if "tf" in line:
+            frames = {"world": ([0, 0, 0], [1, 0, 0, 0])}
+            for each in line["tf"]:
+                place, turn = frames[each["frame"]]
+                x, y, z, qx, qy, qz, qw = each["transform"]
+                frames[each["child"]] = ([a + b for a, b in zip(place, turned(turn, [x, y, z]))],
+                                         product(turn, [qw, qx, qy, qz]))
+            name = line["tf"][0]["child"].split("/")[0]
+            key = name, *line["tf"][0]["stamp"]
+            transforms[key] = {frame.split("/")[1]: place + turn for frame, (place, turn) in frames.items() if "/" in frame}
+        else:
+            assert line["others"] == 0 and len(line["joints"]) == 66, line
+            name = next(iter(line["joints"])).split("/")[0]
+            key = name, *line["stamp"]
+            joints[key] = {joint.split("/")[1]: angle for joint, angle in line["joints"].items()}
+        if key in transforms and key in joints:
+            yield key, (transforms.pop(key), joints.pop(key))
+
+
+def about(axis, angle):
+    return [math.cos(angle / 2), *(math.sin(angle / 2) if place == axis else 0 for place in range(3))]
+
+
+def same(mine, theirs):
+    """Places and turns, of which each has two signs."""
+    return close(mine[:3], theirs[:3]) and (close(mine[3:], theirs[3:]) or close(mine[3:], [-part for part in theirs[3:]]))
+
+
+def by_ros(cli, reader):
+    got, sent = Stage(cli, "ros2", reader=[reader, DOMAIN]).run(lambda lines: first(POSES, ros_poses(lines)))
+    for key, (segments, joints) in got:
+        twin = min(sent.values(), key=lambda pose: sum(abs(a - b) for a, b in zip(segments["Pelvis"], pose["Pelvis"])))
+        assert len(segments) == 63, (key, len(segments))
+        for name, numbers in segments.items():
+            assert same(numbers, twin[name]), (key, name, numbers, twin[name])
+        knee = [1, 0, 0, 0]
+        for axis in range(3):
+            knee = product(knee, about(axis, joints["jRightKnee_rot" + "xyz"[axis]]))
+        shank = product(twin["RightUpperLeg"][3:], knee)
+        assert same([0, 0, 0, *shank], [0, 0, 0, *twin["RightLowerLeg"][3:]]), (key, shank, twin["RightLowerLeg"])
+    assert len({key[0] for key, _ in got}) > 1, got
 
 
 def by_datagrams(cli):
@@ -182,7 +235,7 @@ def refusals(cli):
     port = free_port()
     place = f"127.0.0.1:{port}"
     for arguments, named in ((["nothing"], "nothing"), (["datagrams"], "--to"), (["osc", "--to", "nowhere:x"], "nowhere:x"),
-                             (["osc", "--to", "-"], "--to"), (["datagrams", "--to", place], place)):
+                             (["osc", "--to", "-"], "--to"), (["ros2", "--to", "233"], "233"), (["datagrams", "--to", place], place)):
         refused = subprocess.run([cli, "outlet", *arguments, "--udp", place, "--duration", "1"], capture_output=True,
                                  text=True, timeout=20, check=False)
         assert refused.returncode == 2 and named in refused.stderr, (arguments, refused)
@@ -191,9 +244,13 @@ def refusals(cli):
     assert alone.returncode == 0, alone
 
 
-def main(cli):
+def main(cli, ros_reader=""):
     refusals(cli)
     by_datagrams(cli)
+    if ros_reader:
+        by_ros(cli, ros_reader)
+    else:
+        print("Fast DDS (libfastrtps-dev) is not here: ROS 2 was not read")
     if subprocess.run(["perl", "-MProtocol::OSC", "-e1"], stderr=subprocess.DEVNULL, check=False).returncode != 0:
         print("Protocol::OSC (libprotocol-osc-perl) is not here: OSC and VMC were not read")
         return 0

@@ -120,6 +120,9 @@ TEST_F(PoseOutletTest, EveryKindHandsOnWhatComesAndStops) {
     QUdpSocket receiver;
     ASSERT_TRUE(receiver.bind(QHostAddress::LocalHost));
     for (const OutletKind& kind : outletKinds()) {
+        if (kind.name == "ros2") {
+            continue; // DDS starts threads of its own, and looks for others: cli.outlet
+        }
         const std::string place = "127.0.0.1:" + std::to_string(kind.place == "-" ? 0 : receiver.localPort());
         const auto outlet = kind.start({place, {}}, {m_origin.log(), m_clock, {}, {}});
         ASSERT_TRUE(outlet) << kind.name;
