@@ -108,7 +108,7 @@ TEST_F(ComparePanelTest, SumsUpTheRange) {
         << qPrintable(label("figures"));
     EXPECT_TRUE(label("figures").endsWith("most in Head"));
     EXPECT_EQ(label("counts"), "115 pairs · 5 outside the common time");
-    EXPECT_EQ(m_panel.summary(), "now 0.6 mm");
+    EXPECT_EQ(m_panel.summary(), "shown: 0.6 mm");
 }
 
 TEST_F(ComparePanelTest, ARowSelectsItsSegmentAndFollowsTheSelection) {
