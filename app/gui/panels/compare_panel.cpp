@@ -374,8 +374,9 @@ void ComparePanel::select(const QModelIndex& index) {
 
 QString ComparePanel::summary() const {
     const ComparisonState& state = comparison();
-    return state.isOpen && state.atCursor ? tr("shown: %1 mm").arg(fixed(state.atCursor->meanMillimetres(), 1))
-                                          : QString();
+    return state.isOpen && state.atCursor
+               ? tr("shown: %1 mm").arg(fixed(state.atCursor->meanMillimetres(), 1))
+               : QString();
 }
 
 QJsonObject ComparePanel::state() const {
