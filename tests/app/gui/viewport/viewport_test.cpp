@@ -130,12 +130,12 @@ TEST_F(Viewport, ShowsTheValuesOfWhatThePointerRestsOn) {
     ASSERT_TRUE(
         QTest::qWaitFor([this] { return viewport.overlay().labels().at(0).anchor.x() > 400; }, 20'000));
     restOn(middleOfFigure());
-    EXPECT_TRUE(QTest::qWaitFor([&] { return card->facts().has_value(); }));
+    EXPECT_TRUE(QTest::qWaitFor([&] { return card->facts().has_value(); }, 20'000));
     restOn(QPoint(5, viewport.height() - 5));
-    EXPECT_TRUE(QTest::qWaitFor([&] { return !card->facts().has_value(); }));
+    EXPECT_TRUE(QTest::qWaitFor([&] { return !card->facts().has_value(); }, 20'000));
     stage.session.setSelection({stage.sender(), stage.key(), model::segment::kHead});
     viewport.refresh();
-    EXPECT_TRUE(QTest::qWaitFor([&] { return card->facts() && card->facts()->segment == "Head"; }));
+    EXPECT_TRUE(QTest::qWaitFor([&] { return card->facts() && card->facts()->segment == "Head"; }, 20'000));
 }
 
 TEST_F(Viewport, AClickShowsTheValuesOfWhatIsClicked) {
