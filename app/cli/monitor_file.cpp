@@ -237,7 +237,7 @@ void addLimits(Arguments arguments, Limits& limits) {
     }
 }
 
-/// What all commands have that hand on what is received.
+/// Declares what all commands have that hand on what is received.
 Command withOutlet(const std::string& name, Arguments arguments,
                    const std::shared_ptr<MonitorOptions>& options) {
     options->isQuiet = true;

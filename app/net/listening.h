@@ -27,7 +27,7 @@ namespace posewire::net {
 /// Listens at "ADDRESS:PORT", or "PORT" for this computer alone; port 0 is one that is free.
 [[nodiscard]] NetResult<void> listenTcp(QTcpServer& server, const std::string& place);
 
-/// Such a place for a library that listens by itself: "127.0.0.1:9464", where nobody listens yet.
+/// Returns such a place for a library that listens by itself: "127.0.0.1:9464", where no program listens yet.
 [[nodiscard]] NetResult<std::string> freeTcpPlace(const std::string& place);
 
 /// Connects to such a place and leaves at once: whoever waits there for connections wakes up.

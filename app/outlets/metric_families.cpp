@@ -30,7 +30,7 @@ using State = model::TakeVerdict::State;
 constexpr std::array<const char*, model::kLossCauses> kCauseLabels{"this_computer", "network", "sender",
                                                                    "unknown"};
 
-/// A counter if its name says so.
+/// Makes a counter if the name ends in _total, else a gauge.
 MetricFamily family(std::string_view name, std::string_view help) {
     const bool isCounter = name.ends_with("_total");
     return {std::string(name), std::string(help), isCounter ? MetricType::Counter : MetricType::Gauge, {}};

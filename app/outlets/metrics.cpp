@@ -56,7 +56,7 @@ struct Metrics::Parts {
 Metrics::Metrics(std::unique_ptr<Parts> parts, std::string place)
     : m_parts(std::move(parts)), m_place(std::move(place)) {}
 
-/// By itself the library looks only every 2 s whether it is to end.
+/// Wakes the library, which by itself looks only every 2 s whether it is to end.
 Metrics::~Metrics() {
     auto ended = std::async(std::launch::async, [this] { m_parts.reset(); });
     while (ended.wait_for(std::chrono::milliseconds(10)) != std::future_status::ready) {

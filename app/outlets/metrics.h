@@ -16,7 +16,7 @@ class SessionView;
 
 namespace posewire::outlets {
 
-/// What the session does not know of the program that receives for it.
+/// Figures of the program itself, which the session does not know.
 struct OwnFigures {
     std::optional<double> bufferFill{}; ///< share of the fullest receive buffer, the most since before
     std::uint64_t refusedDatagrams = 0; ///< from hosts that are not listened to

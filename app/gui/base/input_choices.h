@@ -34,7 +34,7 @@ struct WayOut {
     QString kind = QStringLiteral("datagrams"); ///< of outlets::outletKinds()
     QString character{};                        ///< of those that take one: a name or ID
 
-    /// Whether both are the same, on or off.
+    /// Returns true if both are the same, on or off.
     [[nodiscard]] bool isLike(const WayOut& other) const {
         return host == other.host && port == other.port && kind == other.kind && character == other.character;
     }

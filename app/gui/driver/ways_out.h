@@ -11,8 +11,8 @@
 
 namespace posewire::gui {
 
-/// Where the operator has handed on what is received, each on or off. Belongs to the window's thread; names
-/// are looked up beside it, and its end waits for those that still are.
+/// Hands what is received on to where the operator wants it, each on or off. Belongs to the window's thread;
+/// names are looked up beside it, and its end waits for those that still are.
 class WaysOut {
 public:
     /// Both must outlive it.
@@ -27,7 +27,7 @@ public:
 
     /// To be called each time after the session of what is received has followed the log.
     void update(const model::SessionView& session);
-    /// Whether update() is waited for.
+    /// Returns true if an outlet waits for update(): one of poses that is on.
     [[nodiscard]] bool hasPoses() const;
     /// Reads counters. `inputs` is what is listened to now: a target that would come back by one of them is
     /// stopped and says so.
@@ -44,7 +44,7 @@ public:
 
 private:
     using Started = net::NetResult<std::unique_ptr<outlets::Outlet>>;
-    /// Beside each state.
+    /// What belongs to each state.
     struct Work {
         std::future<Started> answer; ///< while the name is looked up
         std::unique_ptr<outlets::Outlet> outlet;

@@ -13,8 +13,7 @@
 
 namespace posewire::gui {
 
-/// Where what is received is handed on, and in which form, with what they got; adds, switches and removes
-/// them.
+/// Lists the ways out with their form and what they got; adds, switches and removes them.
 class WaysOutPage final : public QWidget {
     Q_OBJECT
 

@@ -42,7 +42,7 @@ QString countText(const FaultRow& row, int column) {
     return column == FaultModel::kLost && lost != 0 ? healthText(Health::Warning, text) : text;
 }
 
-/// Loudest is the sum, and what this computer itself lost.
+/// Only the sum has a colour, and what this computer itself lost.
 QVariant countColour(const FaultRow& row, int column) {
     const bool isHere = causeIn(column) == model::LossCause::ThisComputer;
     return lostIn(row, column) == 0      ? QVariant(theme().dim)

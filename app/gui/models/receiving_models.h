@@ -28,8 +28,7 @@ public:
 /// "listening", "connected from 10.0.0.5:50123", or what is wrong.
 [[nodiscard]] PropertyValue inputState(const PortState& state);
 
-/// Where what is received is handed on, in the order in which they were added. Each is switched on and off
-/// by its box.
+/// The ways out, in the order in which they were added. Each is switched on and off by its box.
 class WaysOutModel : public TableModel<WayOutState> {
     Q_OBJECT
 

@@ -31,7 +31,7 @@ QToolButton* buttonOf(QAction* action, QWidget* parent) {
     return button;
 }
 
-/// What a button says moves nothing.
+/// Keeps room for the widest of its texts, so that another one moves nothing.
 void keepRoom(QToolButton& button, const QStringList& texts) {
     int widest = 0;
     for (const QString& text : texts) {

@@ -135,7 +135,7 @@ enum class FigureSum : std::uint8_t {
     Mean, ///< weighted by the samples expected
 };
 
-/// Counts of losses are no more than odd: their share is the warning.
+/// A count of losses is Odd, its share a Warning, so that one loss is said once in colour.
 enum class FigureTrouble : std::uint8_t { None, Odd, Warning, Error };
 
 /// Only streams that count samples, or messages (types 10 to 13) as well.
