@@ -162,6 +162,9 @@ void HealthBar::showWaysOut(const std::vector<WayOutState>& ways) {
         }
     }
     m_waysOut->setVisible(!lines.isEmpty());
+    if (lines.isEmpty()) {
+        return;
+    }
     m_waysOut->setContent(level, tr("⇉ %n ways out", nullptr, static_cast<int>(lines.size())));
     m_waysOut->setToolTip(toolTipText(lines.join(QLatin1Char('\n'))));
 }
