@@ -88,14 +88,15 @@ void Headline::setLarge(bool isLarge) {
     }
 }
 
-QFont Headline::fontFor(int width) const {
+QFont Headline::fontFor(int width, bool& fits) const {
+    constexpr double kHinting = 0.96; // letters do not grow in step with their size
     QFont font = this->font();
     font.setWeight(QFont::DemiBold);
+    const double times =
+        (width - fontMetrics().height()) / std::max(1.0, QFontMetricsF(font).horizontalAdvance(line()));
+    fits = times >= 1;
     if (m_isLarge) {
-        constexpr double kHinting = 0.96; // letters do not grow in step with their size
-        const double fits = kHinting * (width - fontMetrics().height()) /
-                            std::max(1.0, QFontMetricsF(font).horizontalAdvance(line()));
-        font.setPointSizeF(font.pointSizeF() * std::clamp(fits, 1.0, kLarge));
+        font.setPointSizeF(font.pointSizeF() * std::clamp(kHinting * times, 1.0, kLarge));
     }
     return font;
 }
@@ -122,7 +123,8 @@ void Headline::paintEvent(QPaintEvent* /*event*/) {
                      : underMouse() ? theme().raised
                                     : theme().panel);
     painter.drawRoundedRect(QRectF(rect()).adjusted(1, 1, -1, -1), 4, 4);
-    painter.setFont(fontFor(width()));
+    bool fits = true;
+    painter.setFont(fontFor(width(), fits));
     QRect room = rect().adjusted(fontMetrics().height() / 2, 0, -fontMetrics().height() / 2, 0);
     if (isColoured) {
         painter.setPen(healthColour(m_level));
@@ -130,10 +132,9 @@ void Headline::paintEvent(QPaintEvent* /*event*/) {
         room.setLeft(room.left() + painter.fontMetrics().horizontalAdvance(healthText(m_level, {})));
     }
     painter.setPen(isColoured ? theme().text : theme().dim);
-    const QFontMetrics metrics = painter.fontMetrics();
-    const bool fits = metrics.horizontalAdvance(text()) <= room.width();
     painter.drawText(room, Qt::AlignVCenter | Qt::AlignLeft,
-                     fits ? text() : metrics.elidedText(m_narrow, Qt::ElideRight, room.width()));
+                     fits ? text()
+                          : painter.fontMetrics().elidedText(m_narrow, Qt::ElideRight, room.width()));
 }
 
 VerdictBar::VerdictBar(model::SessionView& live, const Actions& actions, QWidget* parent)

@@ -35,8 +35,8 @@ protected:
 
 private:
     [[nodiscard]] QString line() const { return healthText(m_level, text()); }
-    /// As large as it should be, or as there is room for.
-    [[nodiscard]] QFont fontFor(int width) const;
+    /// As large as it should be, or as there is room for; `fits`: there is room for all of it.
+    [[nodiscard]] QFont fontFor(int width, bool& fits) const;
 
     Health m_level = Health::Unknown;
     model::TakeVerdict m_verdict;
