@@ -34,6 +34,7 @@ QToolButton* buttonOf(QAction* action, QWidget* parent) {
 /// Keeps room for the widest of its texts, so that another one moves nothing.
 void keepRoom(QToolButton& button, const QStringList& texts) {
     int widest = 0;
+    button.ensurePolished();
     for (const QString& text : texts) {
         button.setText(text);
         widest = std::max(widest, button.sizeHint().width());
@@ -155,11 +156,12 @@ void TransportBar::restyle() {
     font.setPointSizeF(font.pointSizeF() * kTimeScale);
     m_time->setFont(font);
     m_detail->setFont(tabularFont());
+    m_time->setMinimumWidth(QFontMetrics(font).horizontalAdvance(QStringLiteral("00:00:00.000")));
+    m_record->setIcon(themedIcon(QStringLiteral("record"), theme().error));
+    showMode(Mode::Paused); // the widest
     keepRoom(*m_live, {tr("● LIVE"), tr("○ WAITING"), tr("○ NO INPUT"), tr("Go live   L")});
     keepRoom(*m_pause, {tr("Play   Space"), tr("Pause   Space")});
     keepRoom(*m_record, {tr("REC %1:%2").arg(QStringLiteral("000"), QStringLiteral("00")), tr("Record   R")});
-    m_time->setMinimumWidth(QFontMetrics(font).horizontalAdvance(QStringLiteral("00:00:00.000")));
-    m_record->setIcon(themedIcon(QStringLiteral("record"), theme().error));
     showMode(modeNow());
 }
 

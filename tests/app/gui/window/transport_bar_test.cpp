@@ -7,6 +7,10 @@
 #include <QAction>
 #include <QLabel>
 #include <QMenu>
+#include <QTest>
+
+#include <array>
+#include <vector>
 
 namespace posewire::gui {
 namespace {
@@ -51,6 +55,32 @@ TEST_F(TransportBarTest, TheClockGoesOnWhereOnlyThePoseOfTheFirstCharacterIsNotS
     m_bar.refresh();
     EXPECT_EQ(m_bar.findChild<QLabel*>("transportTime")->text(),
               timeOfDay(m_stage.session.wallOf(m_stage.now)));
+}
+
+TEST_F(TransportBarTest, PausingAndRecordingMoveNothing) {
+    performer::Performer one(sending(1, {2}, 60.0));
+    m_stage.perform(one, 0, 120);
+    m_stage.follow();
+    m_bar.resize(1280, 40);
+    m_bar.show();
+    m_bar.refresh();
+    const std::array parts{"timeControls", "modeButton", "transportTime"};
+    const auto places = [&] {
+        QTest::qWait(1); // the layout follows
+        std::vector<int> all;
+        for (const char* part : parts) {
+            all.push_back(m_bar.findChild<QWidget*>(part)->x());
+        }
+        return all;
+    };
+    const std::vector<int> live = places();
+    m_stage.session.setCursor({model::Cursor::Mode::Paused, m_stage.session.end() - 1});
+    m_bar.refresh();
+    EXPECT_EQ(places(), live);
+    for (const double seconds : {3.0, 83.0, 5'999.0}) {
+        m_bar.showTake(TakeState{"take.pcapng", seconds, {}});
+        EXPECT_EQ(places(), live) << seconds;
+    }
 }
 
 } // namespace
