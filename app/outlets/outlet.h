@@ -23,7 +23,7 @@ struct OutletState {
     std::size_t receivers = 0; ///< now
     std::uint64_t poses = 0;   ///< handed to the writer
     std::uint64_t sent = 0;    ///< lines or datagrams, of all receivers
-    std::uint64_t refused = 0; ///< by this system, or by nobody who listens there
+    std::uint64_t refused = 0; ///< by this system, or because no program listens there
     std::uint64_t skipped = 0; ///< left out for receivers that did not read in time, or for fear of a loop
     std::uint64_t behind = 0;  ///< packets that wait to be handed on
     std::uint64_t missed = 0;  ///< packets that the log had dropped before the outlet read them
@@ -51,7 +51,7 @@ struct OutletChoice {
     std::string character; ///< a name or ID, of those that take one; empty: the first that is listed
 };
 
-/// What an outlet stands in. Log and clock must outlive it.
+/// The surroundings of an outlet. Log and clock must outlive it.
 struct OutletPlace {
     const log::PacketLog& log;
     const log::Clock& clock;

@@ -26,7 +26,7 @@ struct InputAddress {
     friend bool operator==(const InputAddress&, const InputAddress&) = default;
 };
 
-/// Where something is handed on, and in which form.
+/// A target that received data is handed on to, and its form.
 struct WayOut {
     QString host; ///< empty: all who connect to that port of this computer
     std::uint16_t port = kDefaultPort;

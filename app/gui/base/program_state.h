@@ -28,7 +28,7 @@ struct WayOutState {
     enum class Stage : std::uint8_t { Off, LookingUp, Forwarding, Refused };
     WayOut target;
     Stage stage = Stage::Off;
-    QString problem{};      ///< why it was refused, or the newest datagrams were; that nobody listens there
+    QString problem{};      ///< why it or its newest datagrams were refused, or that no program listens there
     std::uint64_t sent = 0; ///< datagrams or lines
     std::uint64_t refused = 0; ///< datagrams that this system did not take, or nobody there
     std::uint64_t skipped = 0; ///< datagrams left out: fallen too far behind, or for fear of a loop

@@ -230,7 +230,9 @@ void SessionDriver::tick() {
     while (live.follow(now, kPacketsAtOnce) && m_clock.monotonic() - begin < kFollowTime) {
     }
     const bool hasNew = live.end() != endBefore;
-    m_receiving.waysOut().update(live);
+    if (hasNew) {
+        m_receiving.waysOut().update(live);
+    }
     m_health.addFollow(m_clock.monotonic() - begin, live.end() - endBefore);
     m_isChanged = m_playback.follow() || m_isChanged;
     m_isChanged = m_files.follow(kFollowTime) || m_isChanged;

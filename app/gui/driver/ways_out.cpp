@@ -17,7 +17,7 @@ bool WaysOut::add(const WayOut& choice, std::size_t row) {
     m_states.insert(
         m_states.begin() + static_cast<std::ptrdiff_t>(row),
         WayOutState{.target = choice, .form = kind != nullptr ? kind->title : choice.kind.toStdString()});
-    m_work.insert(m_work.begin() + static_cast<std::ptrdiff_t>(row), Work{});
+    m_work.insert(m_work.begin() + static_cast<std::ptrdiff_t>(row), Work{.kind = kind});
     if (choice.isOn) {
         begin(row);
     }
@@ -44,7 +44,7 @@ void WaysOut::setOn(std::size_t row, bool isOn) {
 
 void WaysOut::begin(std::size_t row) {
     WayOutState& state = m_states[row];
-    const outlets::OutletKind* kind = outlets::findOutletKind(state.target.kind.toStdString());
+    const outlets::OutletKind* kind = m_work[row].kind;
     if (kind == nullptr) {
         refuse(row, "this version knows no " + state.target.kind.toStdString());
         return;
@@ -91,10 +91,8 @@ void WaysOut::update(const model::SessionView& session) {
 }
 
 bool WaysOut::hasPoses() const {
-    return std::ranges::any_of(m_states, [](const WayOutState& state) {
-        const outlets::OutletKind* kind = outlets::findOutletKind(state.target.kind.toStdString());
-        return state.stage == WayOutState::Stage::Forwarding && kind != nullptr && kind->hasPoses;
-    });
+    return std::ranges::any_of(
+        m_work, [](const Work& work) { return work.outlet != nullptr && work.kind->hasPoses; });
 }
 
 void WaysOut::measure(const std::vector<net::InputStatus>& inputs) {
@@ -162,7 +160,7 @@ void WaysOut::heedInputs(const std::vector<net::InputStatus>& inputs) {
                 stop(row);
                 refuse(row, problem->text);
             }
-        } else if (work.answer.valid()) {
+        } else if (work.answer.valid() && !work.kind->hasPoses) {
             m_abandoned.push_back(std::move(work.answer)); // it was asked about other inputs
             begin(row);
         } else if (m_states[row].stage == WayOutState::Stage::Refused && m_states[row].target.isOn) {

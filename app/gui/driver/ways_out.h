@@ -44,11 +44,12 @@ public:
 
 private:
     using Started = net::NetResult<std::unique_ptr<outlets::Outlet>>;
-    /// What belongs to each state.
+    /// The outlet of a row, beside its state.
     struct Work {
-        std::future<Started> answer; ///< while the name is looked up
-        std::unique_ptr<outlets::Outlet> outlet;
-        WayOutState before; ///< counted until it was last switched off
+        const outlets::OutletKind* kind = nullptr; ///< null if this version does not know it
+        std::future<Started> answer{};             ///< while the name is looked up
+        std::unique_ptr<outlets::Outlet> outlet{};
+        WayOutState before{}; ///< counted until it was last switched off
     };
 
     void begin(std::size_t row);

@@ -12,7 +12,7 @@ class ConnectionPage;
 class WaysOutPage;
 class InputsPage;
 
-/// What is received and passed on: inputs, ways out, connection help. Stays open beside the window and
+/// The dialog of inputs, ways out and connection help. Stays open beside the window and
 /// shows what happens.
 class InputsDialog final : public QDialog {
     Q_OBJECT

@@ -194,7 +194,8 @@ void WaysOutPage::setProblem(const QString& problem) {
     showNote();
 }
 
-/// What is wrong with what is typed, else with the selected target: the table has no room for sentences.
+/// Explains a mistake in the fields, else the state of the selected target: the table has no room for
+/// sentences.
 void WaysOutPage::showNote() {
     if (m_problem.isEmpty()) {
         m_note->explain(m_table->currentIndex().siblingAtColumn(WaysOutModel::kState).data().toString());

@@ -228,7 +228,7 @@ PropertyValue wayOutStage(const WayOutState& way) {
         return !way.problem.isEmpty()       ? PropertyValue{way.problem, Health::Warning, way.problem}
                : !way.target.host.isEmpty() ? PropertyValue{tr("forwarding"), Health::Good}
                : way.receivers == 0
-                   ? PropertyValue{tr("nobody has connected")}
+                   ? PropertyValue{tr("no program connected")}
                    : PropertyValue{tr("%n connected", nullptr, static_cast<int>(way.receivers)),
                                    Health::Good};
     case WayOutState::Stage::Off:

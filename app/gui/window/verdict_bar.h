@@ -75,7 +75,7 @@ public:
     void showRecovery(const QString& text);
     /// `hasInputs`: there is something to be live with. `blocked`: why nothing can come from any of them.
     void refresh(const ShownFile& file, bool hasInputs, const QString& blocked = {});
-    /// What a click on the headline does.
+    /// Asks for the evidence, as a click on the headline does.
     void showEvidence() { emit evidenceRequested(m_headline->incident(), m_isOfFile); }
     /// As last refreshed.
     [[nodiscard]] const model::TakeVerdict& verdict() const { return m_verdict; }
