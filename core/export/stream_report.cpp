@@ -91,10 +91,7 @@ std::string percent(double ratio) {
 /// The verdict of the window and of the JSON, on the range that the report is about.
 Finding verdictFinding(const model::SessionView& session, const std::optional<model::TimeRange>& range) {
     using State = model::TakeVerdict::State;
-    const log::Stamp end = session.knownUntil() + log::Duration(1);
-    const model::VerdictSpan span =
-        range ? model::VerdictSpan{range->from, std::min(range->to, end)} : model::VerdictSpan{};
-    const model::TakeVerdict verdict = verdictOf(session, span);
+    const model::TakeVerdict verdict = verdictOf(session, model::spanOf(session, range));
     const auto severity = verdict.state == State::Good      ? IncidentSeverity::Info
                           : verdict.state == State::Warning ? IncidentSeverity::Warning
                                                             : IncidentSeverity::Error;

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/panels/range_bar.h"
 
+#include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
 #include "app/gui/panels/cell_delegate.h"
 #include "app/gui/theme/theme.h"
 #include "app/gui/theme/widgets.h"
 #include "core/model/accounting/count_history.h"
+#include "core/model/session/verdict.h"
 
 #include <QHelpEvent>
 #include <QMouseEvent>
@@ -210,17 +212,31 @@ bool RangeStrip::event(QEvent* event) {
 
 RangeBar::RangeBar(model::SessionView& view, Commands& commands, QWidget* parent)
     : QWidget(parent),
+      m_view(view),
       m_strip(new RangeStrip(view, commands, this)),
       m_span(new SpanBar(view, commands, this)) {
     const int margin = CellDelegate::margin(fontMetrics());
-    auto* row = spacedRow({margin, margin / 2, margin, margin / 2}, margin / 2, this);
+    auto* column = tightColumn(this);
+    auto* row = spacedRow({margin, margin / 2, margin, margin / 2}, margin / 2);
     row->addWidget(m_strip, 1);
     row->addWidget(m_span);
+    column->addLayout(row);
+    column->addWidget(m_verdict);
+    m_verdict->setObjectName(QStringLiteral("rangeVerdict"));
+    m_verdict->setContentsMargins(margin, 0, margin, margin / 2);
+    m_verdict->setWordWrap(true);
 }
 
 void RangeBar::refresh() {
     m_strip->refresh();
     m_span->refresh();
+    const auto& range = m_view.choices().range.fixed;
+    m_verdict->setVisible(range.has_value());
+    if (range) {
+        const PropertyValue verdict = verdictState(verdictOf(m_view, model::spanOf(m_view, range)));
+        m_verdict->setText(healthText(verdict.health, verdict.toolTip));
+        setTextColour(*m_verdict, healthColour(verdict.health));
+    }
 }
 
 void paintOverview(QPainter& painter, const RangeOverview& overview, const QRectF& rect) {

@@ -3,6 +3,7 @@
 
 #include "app/gui/base/commands.h"
 #include "app/gui/models/statistics_model.h"
+#include "app/gui/theme/widgets.h"
 #include "core/log/time.h"
 #include "core/model/session/session_view.h"
 
@@ -20,8 +21,7 @@ namespace posewire::gui {
 void paintOverview(QPainter& painter, const RangeOverview& overview, const QRectF& rect);
 
 /// The whole history as a small picture, datagrams a second with the losses marked, in which a range is
-/// dragged: by the mouse, or by the arrow keys (they move it, with Shift its end, with Ctrl ten times as far;
-/// Escape takes it away). Dragging an edge moves that edge.
+/// dragged. Dragging an edge moves that edge.
 class RangeStrip : public QWidget {
     Q_OBJECT
 
@@ -87,7 +87,7 @@ private:
     std::vector<Button> m_buttons;
 };
 
-/// The strip of the history, and the choice of the time that figures are of.
+/// The strip of the history, and the choice of the time that figures are of; the verdict of a range.
 class RangeBar : public QWidget {
     Q_OBJECT
 
@@ -97,8 +97,10 @@ public:
     void refresh();
 
 private:
+    model::SessionView& m_view;
     RangeStrip* m_strip;
     SpanBar* m_span;
+    QLabel* m_verdict = plainLabel(this);
 };
 
 } // namespace posewire::gui

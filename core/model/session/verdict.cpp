@@ -29,16 +29,18 @@ int gravityOf(const Incident& incident) {
     return incident.kind == IncidentKind::Outage ? 2 : isUnusable ? 1 : 0;
 }
 
-/// By how bad it is: what goes on before what is over.
-auto rankOf(const ListedIncident& listed) {
+bool isBad(const ListedIncident& listed) {
+    return listed.state == State::Ongoing && listed.incident.severity() == IncidentSeverity::Error;
+}
+
+/// By how bad it is: what goes on before what is over; in a range, which is all over, what took most.
+auto rankOf(const ListedIncident& listed, bool isInRange) {
     const Incident& incident = listed.incident;
-    const bool isOngoing = listed.state == State::Ongoing;
-    const bool isGrave = isOngoing && incident.severity() == IncidentSeverity::Error;
     const auto size = std::bit_width(incident.samples); // so that two alike do not take turns
     const bool isKnown = incident.cause && incident.cause != LossCause::Unknown;
-    return std::tuple(listed.state != State::Over, isOngoing, incident.severity(),
-                      isGrave ? gravityOf(incident) : 0, incident.group() != IncidentGroup::Limit, size,
-                      isKnown, incident.number);
+    return std::tuple(listed.state != State::Over || isInRange, listed.state == State::Ongoing && !isInRange,
+                      incident.severity(), isInRange ? size : 0, isBad(listed) ? gravityOf(incident) : 0,
+                      incident.group() != IncidentGroup::Limit, size, isKnown, incident.number);
 }
 
 /// Which character a verdict is on: itself and all that it took over from; none for all together.
@@ -60,20 +62,20 @@ bool concerns(const Incident& incident, const Line& line) {
 
 /// `together`: the worst one, and those beside it that are reported with it.
 TakeVerdict fromIncidents(const SessionView& session, const std::vector<ListedIncident>& together,
-                          RecentLosses& losses) {
+                          bool isNotGood, RecentLosses& losses) {
     using K = words::Kind;
     const ListedIncident& worst = together.front();
-    const bool isBad = worst.state == State::Ongoing && worst.incident.severity() == IncidentSeverity::Error;
+    const bool isPast = worst.state == State::Over;
     words::Fact reason = together.size() > 1 ? factOf(session, together) : factOf(session, worst);
     if (auto recent = losses.amountOf(worst)) {
         set(reason, "amount", *std::move(recent));
     }
     TakeVerdict verdict;
-    verdict.state = isBad ? TakeVerdict::State::Bad : TakeVerdict::State::Warning;
-    verdict.isOver = worst.state == State::Over;
-    verdict.said = {isBad ? K::NotGood : K::NotQuiteGood,
+    verdict.state = isNotGood ? TakeVerdict::State::Bad : TakeVerdict::State::Warning;
+    verdict.isOver = isPast && !isNotGood;
+    verdict.said = {isNotGood ? K::NotGood : K::NotQuiteGood,
                     {{"reason", std::move(reason)}, {"when", whenOf(session, worst)}}};
-    if (verdict.isOver || !(session.isRecording() || worst.rangeEnd)) {
+    if (isPast ? !isNotGood : !(session.isRecording() || worst.rangeEnd)) {
         set(verdict.said, "lasts", words::Fact{verdict.isOver ? K::Over : K::GoingOn});
     }
     verdict.since = worst.incident.firstStamp;
@@ -280,21 +282,28 @@ public:
             line = line.empty() ? Line{*character} : line;
         }
         std::optional<ListedIncident> worst;
+        bool isAnyBad = false;
+        const auto rank = [&](const ListedIncident& one) {
+            return rankOf(one, m_span.isClosed() || m_session.isRecording());
+        };
         for (const ListedIncident& one : m_listed) {
             if (!concerns(one.incident, line)) {
                 continue;
             }
             ListedIncident mine = character ? ofOne(m_session, one, line) : ofLasting(m_session, one);
             easeTo(m_span, m_losses, mine.incident);
-            const bool isMeant = !character || !isPast(mine, m_span);
-            if (isMeant && (!worst || rankOf(*worst) < rankOf(mine))) {
+            if (character && isPast(mine, m_span)) {
+                continue;
+            }
+            isAnyBad = isAnyBad || isBad(mine);
+            if (!worst || rank(*worst) < rank(mine)) {
                 worst = std::move(mine);
             }
         }
         if (worst && !character) {
             worst->incident = graveOf(*worst);
         }
-        return worst ? fromIncidents(m_session, besides(*worst, character.has_value()), m_losses)
+        return worst ? fromIncidents(m_session, besides(*worst, character.has_value()), isAnyBad, m_losses)
                      : withoutIncident(m_session, m_span, character, endOfTheLast(line));
     }
 
@@ -397,6 +406,11 @@ std::string_view nameOf(TakeVerdict::State state) {
 
 VerdictSpan recentSpan(const SessionView& session) {
     return {std::max(session.choices().reset, session.now() - VerdictSpan::kRecent), log::Stamp::max()};
+}
+
+VerdictSpan spanOf(const SessionView& session, const std::optional<TimeRange>& range) {
+    const log::Stamp end = session.knownUntil() + log::Duration(1);
+    return range ? VerdictSpan{range->from, std::min(range->to, end)} : VerdictSpan{};
 }
 
 TakeVerdict verdictOf(const SessionView& session, const VerdictSpan& span,

@@ -44,6 +44,9 @@ struct VerdictSpan {
 /// The last moments of what is on the wire, but nothing before the reset.
 [[nodiscard]] VerdictSpan recentSpan(const SessionView& session);
 
+/// A range as far as it is known; all there is without one.
+[[nodiscard]] VerdictSpan spanOf(const SessionView& session, const std::optional<TimeRange>& range);
+
 struct TakeVerdicts {
     TakeVerdict all;
     std::map<CharacterKey, TakeVerdict> characters;

@@ -6,6 +6,7 @@
 
 #include <QContextMenuEvent>
 #include <QHeaderView>
+#include <QLabel>
 #include <QMenu>
 #include <QTest>
 #include <QToolButton>
@@ -73,6 +74,20 @@ TEST_F(StatisticsPanelTest, ShowsAsManyColumnsAsFitOrThoseThatWereChosen) {
     m_panel->resize(380, 400);
     EXPECT_FALSE(table().isColumnHidden(columnOf(Column::Drift)));
     EXPECT_EQ(m_panel->state()["columns"].toArray().size(), 2);
+}
+
+TEST_F(StatisticsPanelTest, SaysTheVerdictOfARange) {
+    perform(10); // without sample 520
+    open();
+    const auto* verdict = m_panel->findChild<QLabel*>("rangeVerdict");
+    EXPECT_FALSE(verdict->isVisible());
+    m_stage.commands.selectRange({.fixed = model::TimeRange{Stage::kStart + 1s, Stage::kStart + 3s}});
+    refresh();
+    EXPECT_TRUE(verdict->isVisible());
+    EXPECT_TRUE(verdict->text().startsWith(QStringLiteral("● "))) << qPrintable(verdict->text());
+    m_stage.commands.selectRange({.fixed = model::TimeRange{Stage::kStart + 4s, Stage::kStart + 6s}});
+    refresh();
+    EXPECT_TRUE(verdict->text().startsWith(QStringLiteral("▲ "))) << qPrintable(verdict->text());
 }
 
 TEST_F(StatisticsPanelTest, FoldsASenderThatAnotherTookOverFromOnce) {

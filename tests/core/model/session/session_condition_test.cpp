@@ -177,6 +177,30 @@ TEST_F(ConditionTest, OfARangeIsThatOfTheRangeAlone) {
     EXPECT_GE(lost.since, at(107s));
 }
 
+TEST_F(ConditionTest, OfARangeNamesWhatTookMostOfItAndIsNotBetterForIt) {
+    Thresholds limits;
+    limits.jitterMs = limits.gapMs = limits.ageS = limits.ratePercent = 0;
+    m_session.setThresholds(limits);
+    const auto lossy = [this](std::uint32_t first) { // 20 %
+        for (std::uint32_t sample = first; sample < first + 500; sample += 10, m_at += 20ms) {
+            poses(sample, 8);
+        }
+    };
+    lossy(1);   // 100 s to 105 s
+    m_at += 2s; // to 107 s
+    lossy(701); // to 112 s
+    while (m_session.followFile(m_at)) {
+    }
+    m_session.endFile();
+    const TakeVerdict all = verdictOf(m_session, {at(101s), at(111s)});
+    EXPECT_NEAR(silence(all, "silence"), 2, 0.05);
+    EXPECT_EQ(all.state, State::Bad) << "as it loses to the end: " << all.said;
+    EXPECT_FALSE(all.isOver);
+    const TakeVerdict after = verdictOf(m_session, {at(108s), at(111s)});
+    EXPECT_EQ(partOf(after.said, "reason").kind, words::Kind::Loss);
+    EXPECT_EQ(after.state, State::Bad) << after.said;
+}
+
 TEST_F(ConditionTest, FindsAContradictionAtTheSamePacketHoweverMuchIsFollowedAtOnce) {
     poses(1, 100);
     poses(101, 100, wire::HeaderEra::Reserved);
