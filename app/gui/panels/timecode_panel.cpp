@@ -107,10 +107,10 @@ TimecodePanel::TimecodePanel(model::SessionView& view, Commands& commands, QWidg
     layout->addWidget(m_table);
     m_table->showFacts(m_facts);
     connect(m_large, &ClockWidget::fullScreenToggled, this, [this] { setFullScreen(true); });
-    // In a low dock the clock keeps a third of the height, and what else there is to know of it is scrolled.
+    // In a low dock the clock keeps half the height, and what else there is to know of it is scrolled.
     new EventWatch(this, QEvent::Resize, [this, choices] {
-        constexpr int kLeastRows = 2;
-        const int room = height() - choices->sizeHint().height() - height() / 3;
+        constexpr int kLeastRows = 1;
+        const int room = height() - choices->sizeHint().height() - height() / 2;
         const int rows = room / m_table->heightForRows(1);
         const int all = m_table->model()->rowCount();
         m_table->setFixedHeight(m_table->heightForRows(std::clamp(rows, kLeastRows, all)));

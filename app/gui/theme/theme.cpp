@@ -183,7 +183,7 @@ QCheckBox::indicator:checked { background: @accent; border-color: @accent; image
 QCheckBox::indicator:hover, QCheckBox::indicator:focus { border-color: @text; }
 
 QTabBar::tab { background: @header; color: @dim; border: none; border-right: 1px solid @line;
-  border-top: 2px solid transparent; padding: @menuv 12px; }
+  border-top: 2px solid transparent; padding: @menuv 8px; }
 QTabBar::tab:selected { background: @panel; color: @text; border-top-color: @accent; }
 QTabBar::tab:hover:!selected { color: @text; }
 QTabBar::tab:selected:focus { background: @selection; }

@@ -17,12 +17,14 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace posewire::gui {
 
 namespace {
 
 constexpr double kTimeScale = 1.3;
+constexpr int kWide = 160; ///< characters; in a narrower bar buttons are without their keys
 
 QToolButton* buttonOf(QAction* action, QWidget* parent) {
     QToolButton* button = framedButton({}, action->toolTip(), parent);
@@ -123,7 +125,7 @@ TransportBar::TransportBar(model::SessionView& session, const Actions& actions, 
     setObjectName(QStringLiteral("transport"));
     m_live->setToolButtonStyle(Qt::ToolButtonTextOnly);
     m_live->setProperty("framed", false);
-    m_add->setText(tr("Input"));
+    m_add->setAccessibleName(tr("Input"));
     m_time->setObjectName(QStringLiteral("transportTime"));
     m_time->setAccessibleDescription(tr("Time of day shown"));
     auto* row = spacedRow({12, 6, 12, 7}, 10, this);
@@ -139,8 +141,13 @@ TransportBar::TransportBar(model::SessionView& session, const Actions& actions, 
     row->addWidget(m_add);
     paintAsBar(this);
     new EventWatch(this, QEvent::PaletteChange, [this] { restyle(); });
-    new EventWatch(this, QEvent::Resize,
-                   [this] { m_detail->setVisible(width() > 100 * fontMetrics().averageCharWidth()); });
+    new EventWatch(this, QEvent::Resize, [this] {
+        const bool isWide = width() > kWide * fontMetrics().averageCharWidth();
+        if (std::exchange(m_isWide, isWide) != isWide) {
+            m_detail->setVisible(isWide);
+            restyle();
+        }
+    });
     m_record->setCheckable(true);
     setFocusProxy(m_pause);
     m_record->setObjectName(QStringLiteral("recordButton"));
@@ -152,6 +159,7 @@ TransportBar::TransportBar(model::SessionView& session, const Actions& actions, 
 
 void TransportBar::restyle() {
     m_add->setIcon(themedIcon(QStringLiteral("add")));
+    m_add->setText(m_isWide ? tr("Input") : QString());
     QFont font = monospaceFont();
     font.setPointSizeF(font.pointSizeF() * kTimeScale);
     m_time->setFont(font);
@@ -159,10 +167,16 @@ void TransportBar::restyle() {
     m_time->setMinimumWidth(QFontMetrics(font).horizontalAdvance(QStringLiteral("00:00:00.000")));
     m_record->setIcon(themedIcon(QStringLiteral("record"), theme().error));
     showMode(Mode::Paused); // the widest
-    keepRoom(*m_live, {tr("● LIVE"), tr("○ WAITING"), tr("○ NO INPUT"), tr("Go live   L")});
-    keepRoom(*m_pause, {tr("Play   Space"), tr("Pause   Space")});
-    keepRoom(*m_record, {tr("REC %1:%2").arg(QStringLiteral("000"), QStringLiteral("00")), tr("Record   R")});
+    keepRoom(*m_live, {tr("● LIVE"), tr("○ WAITING"), tr("○ NO INPUT"), fitting(tr("Go live   L"))});
+    keepRoom(*m_pause, {fitting(tr("Play   Space")), fitting(tr("Pause   Space"))});
+    keepRoom(*m_record,
+             {tr("REC %1:%2").arg(QStringLiteral("000"), QStringLiteral("00")), fitting(tr("Record   R"))});
     showMode(modeNow());
+}
+
+/// Without its key in a narrow bar.
+QString TransportBar::fitting(const QString& text) const {
+    return m_isWide ? text : text.section(QStringLiteral("   "), 0, 0);
 }
 
 void TransportBar::showTake(const std::optional<TakeState>& take) {
@@ -174,7 +188,7 @@ void TransportBar::showTake(const std::optional<TakeState>& take) {
         m_record->style()->polish(m_record);
     }
     if (!take) {
-        m_record->setText(tr("Record   R"));
+        m_record->setText(fitting(tr("Record   R")));
         m_record->setToolTip(tr("Record what is received to a file (R)"));
         m_record->setAccessibleName(tr("Record"));
         return;
@@ -212,7 +226,7 @@ void TransportBar::showMode(Mode mode) {
     m_mode = mode;
     const bool isStopped = mode == Mode::Paused;
     m_pause->setIcon(themedIcon(isStopped ? QStringLiteral("play") : QStringLiteral("pause")));
-    m_pause->setText(isStopped ? tr("Play   Space") : tr("Pause   Space"));
+    m_pause->setText(fitting(isStopped ? tr("Play   Space") : tr("Pause   Space")));
     m_pause->setAccessibleName(isStopped ? tr("Play") : tr("Pause"));
     const std::array texts{tr("● LIVE"), tr("○ WAITING"), tr("○ NO INPUT"), tr("Go live   L"),
                            tr("Go live   L")};
@@ -222,7 +236,7 @@ void TransportBar::showMode(Mode mode) {
                            tr("There is nothing to listen to. Add an input (Input > Inputs)."),
                            tr("The display is paused; receiving continues. Click to follow again (L)."),
                            tr("Playing the past; receiving continues. Click to follow again (L).")};
-    m_live->setText(texts[static_cast<std::size_t>(mode)]);
+    m_live->setText(fitting(texts[static_cast<std::size_t>(mode)]));
     m_live->setAccessibleName(names[static_cast<std::size_t>(mode)]);
     m_live->setToolTip(toolTipText(helps[static_cast<std::size_t>(mode)]));
     m_live->setProperty("live", mode == Mode::Live);

@@ -57,6 +57,7 @@ private:
 
     [[nodiscard]] Mode modeNow() const;
     void restyle();
+    [[nodiscard]] QString fitting(const QString& text) const;
     void showMode(Mode mode);
     void followMode();
     [[nodiscard]] const model::CharacterPose* timedPose();
@@ -74,6 +75,7 @@ private:
     std::vector<ColourText*> m_pills; ///< of the inputs; a click tells more
     std::vector<InputAddress> m_inputs;
     Mode m_mode = Mode::Waiting;
+    bool m_isWide = true;
 };
 
 } // namespace posewire::gui

@@ -8,6 +8,7 @@
 #include <QLabel>
 #include <QMenu>
 #include <QTest>
+#include <QToolButton>
 
 #include <array>
 #include <vector>
@@ -55,6 +56,19 @@ TEST_F(TransportBarTest, TheClockGoesOnWhereOnlyThePoseOfTheFirstCharacterIsNotS
     m_bar.refresh();
     EXPECT_EQ(m_bar.findChild<QLabel*>("transportTime")->text(),
               timeOfDay(m_stage.session.wallOf(m_stage.now)));
+}
+
+TEST_F(TransportBarTest, ButtonsAreWithoutTheirKeysInANarrowBar) {
+    m_bar.resize(2000, 40);
+    m_bar.show();
+    auto* record = m_bar.findChild<QToolButton*>("recordButton");
+    EXPECT_TRUE(record->text().endsWith("   R")) << qPrintable(record->text());
+    const int wide = m_bar.minimumSizeHint().width();
+    m_bar.resize(800, 40);
+    EXPECT_EQ(record->text(), "Record");
+    EXPECT_LT(m_bar.minimumSizeHint().width(), wide);
+    m_bar.resize(2000, 40);
+    EXPECT_TRUE(record->text().endsWith("   R"));
 }
 
 TEST_F(TransportBarTest, PausingAndRecordingMoveNothing) {
