@@ -164,13 +164,16 @@ void CameraMotion::follow(std::span<const render::Bounds> boxes, float aspect, d
 
 QJsonObject stateOf(const CameraMotion& motion) {
     const render::Camera& camera = motion.camera();
-    return {{"target", QJsonArray{camera.target.x, camera.target.y, camera.target.z}},
-            {"yaw", camera.yaw},
-            {"pitch", camera.pitch},
-            {"distance", camera.distance},
-            {"orthographic", camera.projection == render::Projection::Orthographic},
-            {"standardView", motion.standardView() ? static_cast<int>(*motion.standardView()) : -1},
-            {"following", motion.isFollowing()}};
+    QJsonObject state{{"yaw", camera.yaw},
+                      {"pitch", camera.pitch},
+                      {"orthographic", camera.projection == render::Projection::Orthographic},
+                      {"standardView", motion.standardView() ? static_cast<int>(*motion.standardView()) : -1},
+                      {"following", motion.isFollowing()}};
+    if (!motion.isFollowing()) { // else they follow from the characters, and change with them
+        state["target"] = QJsonArray{camera.target.x, camera.target.y, camera.target.z};
+        state["distance"] = camera.distance;
+    }
+    return state;
 }
 
 void restore(CameraMotion& motion, const QJsonObject& state) {

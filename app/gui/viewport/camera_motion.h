@@ -27,6 +27,7 @@ public:
         m_camera = camera;
         m_isFollowing = isFollowing;
         m_standardView = standardView;
+        m_framed = 0;
     }
     /// That it was turned to, until it is turned by hand.
     [[nodiscard]] std::optional<render::StandardView> standardView() const { return m_standardView; }

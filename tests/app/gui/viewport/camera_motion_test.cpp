@@ -163,6 +163,16 @@ TEST(CameraState, IsReadBackAsItWas) {
     EXPECT_LT(glm::distance(other.camera().eye(), motion.camera().eye()), 1e-4F);
 }
 
+TEST(CameraState, OfOneThatFollowsChangesWithTheOperatorAlone) {
+    CameraMotion motion;
+    motion.follow(std::array{personAt(0, 0)}, kAspect, 1);
+    const QJsonObject before = stateOf(motion);
+    motion.follow(std::array{personAt(20, 20)}, kAspect, 1);
+    EXPECT_EQ(stateOf(motion), before) << "settings are written when they change";
+    motion.orbit({120, -40});
+    EXPECT_NE(stateOf(motion), before);
+}
+
 TEST(CameraState, ThatMakesNoSenseIsHeldToWhatAnOperatorCanReach) {
     CameraMotion motion;
     restore(motion, QJsonObject{{"target", QJsonArray{1e30, "x"}},
