@@ -130,7 +130,7 @@ QString rangeText(model::SessionView& view, const model::TimeRange& range) {
     }
     for (const model::Stream* stream :
          character != nullptr ? character->streams : decltype(character->streams)()) {
-        samples = std::max(samples, view.messages().samplesIn(stream->key, range));
+        samples = std::max(samples, stream->accounting.counts(range).samples);
     }
     return tr("Selected: %1 to %2, %n sample(s)", nullptr, static_cast<int>(samples))
         .arg(timeOfDay(view.wallOf(range.from)), timeOfDay(view.wallOf(range.to - log::Duration(1))));

@@ -265,20 +265,6 @@ std::vector<std::uint64_t> Messages::wholeBefore(const log::StreamKey& key, std:
     return {};
 }
 
-std::uint64_t Messages::samplesIn(const log::StreamKey& key, const TimeRange& range) const {
-    const log::StreamEntries* entries = m_moment.entriesOf(key);
-    if (entries == nullptr || !countsSamples(key.type)) {
-        return 0;
-    }
-    const auto before = entries->atOrBeforeStamp(range.from - log::Duration(1));
-    std::uint64_t samples = 0;
-    for (std::size_t i = before ? *before + 1 : 0; i < entries->size() && (*entries)[i].stamp < range.to;
-         ++i) {
-        samples += i == 0 || (*entries)[i].sample != (*entries)[i - 1].sample ? 1 : 0;
-    }
-    return samples;
-}
-
 double Messages::ageSeconds(const CharacterKey& key) const {
     const Character* character = m_roster.find(key);
     if (character == nullptr) {

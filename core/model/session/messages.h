@@ -67,8 +67,6 @@ public:
     /// The datagrams of the newest whole message of types 10 to 13 before a packet.
     [[nodiscard]] std::vector<std::uint64_t> wholeBefore(const log::StreamKey& key,
                                                          std::uint64_t packet) const;
-    /// Sample counters of which something came in a range, of those that are kept; 0 of types without any.
-    [[nodiscard]] std::uint64_t samplesIn(const log::StreamKey& key, const TimeRange& range) const;
     /// From the type 12 messages of a character, or of its predecessor if it has sent none itself. Empty if
     /// there is no such character.
     [[nodiscard]] const Metadata& metadata(const CharacterKey& key) const;
