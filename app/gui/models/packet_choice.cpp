@@ -247,9 +247,14 @@ std::optional<log::Stamp> timeTarget(model::SessionView& view, const QString& te
         if (const QTime time = QTime::fromString(compact, QLatin1String(format)); time.isValid()) {
             const auto newest = view.packet(view.end() - 1);
             const log::Stamp stamp = newest ? newest->stamp : view.now();
+            const auto stampOn = [&](const QDate& day) {
+                const log::WallTime wanted(milliseconds(QDateTime(day, time).toMSecsSinceEpoch()));
+                return view.log().timeline().stampOf(wanted);
+            };
             const QDate day = dateTimeOf(view.wallOf(stamp)).date();
-            const log::WallTime wanted(milliseconds(QDateTime(day, time).toMSecsSinceEpoch()));
-            return view.log().timeline().stampOf(wanted);
+            const bool isOfTheDayBefore =
+                stampOn(day) > stamp && stampOn(day.addDays(-1)) >= view.firstStamp();
+            return stampOn(isOfTheDayBefore ? day.addDays(-1) : day);
         }
     }
     if (!compact.endsWith(QLatin1Char('s'))) {

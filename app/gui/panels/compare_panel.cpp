@@ -299,9 +299,9 @@ void ComparePanel::showFigures() {
     if (state.range != nullptr && state.range->worst() != nullptr) {
         const auto& all = state.range->all.millimetres;
         text = tr("Mean %1 mm, %2 °").arg(fixed(all.mean, 1), fixed(state.range->all.degrees.mean, 2));
-        more = tr(" · median %1 · 95 % below %2 · worst %3 mm at %4 · most in %5")
-                   .arg(fixed(all.median, 1), fixed(all.p95, 1), fixed(all.most, 1),
-                        timeOfDay(m_view.wallOf(all.mostAt)), segmentOfSlot(state.range->worst()->slot));
+        more = tr(" · most in %1 · worst %2 mm at %3 · 95 % below %4 · median %5")
+                   .arg(segmentOfSlot(state.range->worst()->slot), fixed(all.most, 1),
+                        timeOfDay(m_view.wallOf(all.mostAt)), fixed(all.p95, 1), fixed(all.median, 1));
     }
     m_figures->setText(text, more);
     m_legend->setScale(scaleOf(state));

@@ -323,7 +323,7 @@ QString IncidentsPanel::summary() const {
     if (counts.all == 0) {
         return {};
     }
-    const QString text = tr("%1 current · %2").arg(grouped(counts.current), grouped(counts.all));
+    const QString text = tr("%1 now · %2").arg(grouped(counts.current), grouped(counts.all));
     return counts.unseen == 0 || counts.unseen == counts.all
                ? text
                : text + QStringLiteral(" · ") + tr("%1 new").arg(grouped(counts.unseen));

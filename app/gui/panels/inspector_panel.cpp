@@ -126,9 +126,9 @@ void InspectorPanel::layOut() {
     m_problems->setTextInteractionFlags(Qt::LinksAccessibleByMouse | Qt::LinksAccessibleByKeyboard);
     m_problems->setObjectName(QStringLiteral("problems"));
     m_problems->setAccessibleName(tr("What is wrong with the packet"));
-    layout->addWidget(m_problems);
+    layout->addWidget(m_splitter, 1); // what is wrong comes below it: fields stay in their place
     layout->addWidget(m_problemLine);
-    layout->addWidget(m_splitter, 1);
+    layout->addWidget(m_problems);
     m_splitter->addWidget(m_fields);
     m_splitter->addWidget(m_bytes);
     m_splitter->setStretchFactor(0, 3);

@@ -23,6 +23,8 @@ namespace posewire::gui {
 
 namespace {
 
+constexpr int kMostElsewhere = 8; ///< lines
+
 /// The words by which a part of a row is found: its own and those of all widgets in it.
 QString wordsOf(QWidget* widget) {
     QStringList words;
@@ -61,15 +63,16 @@ QWidget* fieldFor(const std::vector<Command>& commands) {
 
 class PreferencesDialog final : public QDialog {
 public:
-    PreferencesDialog(MainWindow& window, PreferencesSection section) : QDialog(&window) {
+    PreferencesDialog(MainWindow& window, PreferencesSection section)
+        : QDialog(&window), m_all(commandsOf(*window.menuBar())) {
         setWindowTitle(tr("Preferences"));
         m_search->setPlaceholderText(tr("Search preferences"));
         m_search->setAccessibleName(m_search->placeholderText());
         m_search->setClearButtonEnabled(true);
         connect(m_search, &QLineEdit::textChanged, this, &PreferencesDialog::filter);
         m_rows->setContentsMargins(0, 0, fontMetrics().height(), 0);
-        m_rows->addRow(dimLabel(tr("Nothing found"), m_page));
-        addSections(window, commandsOf(*window.menuBar()));
+        m_rows->addRow(m_elsewhere);
+        addSections(window);
         for (QWidget* part : m_page->findChildren<QWidget*>()) {
             part->installEventFilter(this);
             if (part->focusPolicy() == Qt::WheelFocus) {
@@ -112,20 +115,20 @@ protected:
     }
 
 private:
-    void addSections(MainWindow& window, const std::vector<Command>& all) {
+    void addSections(MainWindow& window) {
         begin(tr("Appearance"), HelpTopic::Preferences);
-        addEntries(all, QStringLiteral("themeSystem|themeDark|themeLight"));
+        addEntries(QStringLiteral("themeSystem|themeDark|themeLight"));
         begin(tr("Viewport"), HelpTopic::Viewport);
-        addEntries(all, QStringLiteral("axesOfAll|axesOfSelected|axesOfNone interpolation orthographic "
-                                       "relativeViews splitOne|splitTwo|splitFour scale segmentCard"));
+        addEntries(QStringLiteral("axesOfAll|axesOfSelected|axesOfNone interpolation orthographic "
+                                  "relativeViews splitOne|splitTwo|splitFour scale segmentCard"));
         for (const OverlayEntry& overlay : kOverlayTable) {
-            addEntries(all, QLatin1String(overlay.key));
+            addEntries(QLatin1String(overlay.key));
         }
         begin(tr("Lists"), HelpTopic::Preferences);
-        addEntries(all, QStringLiteral("timeSinceFirst|timeOfDay deltaInStream|deltaToRowAbove troubleFirst "
-                                       "characterDetail currentIncidents|incidentHistory listErrors "
-                                       "listWarnings listNotes listSenderIncidents listLossIncidents "
-                                       "listContentIncidents listLimitIncidents"));
+        addEntries(QStringLiteral("timeSinceFirst|timeOfDay deltaInStream|deltaToRowAbove troubleFirst "
+                                  "characterDetail currentIncidents|incidentHistory listErrors "
+                                  "listWarnings listNotes listSenderIncidents listLossIncidents "
+                                  "listContentIncidents listLimitIncidents"));
         Settings& kept = window.kept();
         SessionDriver& driver = window.driver();
         begin(tr("Recording"), HelpTopic::RecordingOptions, "recordingOptions");
@@ -155,10 +158,10 @@ private:
     }
 
     /// Adds a check box for each entry of the menus, and a list for entries that are joined by |.
-    void addEntries(const std::vector<Command>& all, const QString& ids) {
+    void addEntries(const QString& ids) {
         for (const QString& row : ids.split(u' ')) {
             std::vector<Command> commands;
-            std::ranges::copy_if(all, std::back_inserter(commands), [&](const Command& one) {
+            std::ranges::copy_if(m_all, std::back_inserter(commands), [&](const Command& one) {
                 return row.split(u'|').contains(one.action->objectName());
             });
             const Command& first = commands.front();
@@ -176,7 +179,8 @@ private:
     void filter(const QString& typed) {
         int heading = 0;
         QString group;
-        m_rows->setRowVisible(0, true); // nothing found
+        m_rows->setRowVisible(0, true);
+        m_elsewhere->setText(elsewhere(typed));
         for (int row = 1; row < m_rows->rowCount(); ++row) {
             QWidget* field = fieldAt(row);
             QWidget* label = m_rows->labelForField(field);
@@ -201,15 +205,29 @@ private:
         m_area->verticalScrollBar()->setValue(0);
     }
 
+    /// Where in the menus what was searched is found, if it is no preference.
+    [[nodiscard]] QString elsewhere(const QString& typed) const {
+        QStringList lines{tr("Nothing found")};
+        for (const Command& one : m_all) {
+            if (isMeant(one, typed)) {
+                lines[0] = tr("No preference, but in the menus:");
+                lines << one.menu + QStringLiteral(" › ") + one.name + QStringLiteral("   ") + one.keys;
+            }
+        }
+        return lines.mid(0, kMostElsewhere).join(u'\n');
+    }
+
     [[nodiscard]] QWidget* fieldAt(int row) const {
         return m_rows->itemAt(row, QFormLayout::FieldRole)->widget();
     }
 
+    std::vector<Command> m_all;
     QWidgetList m_headings;
     int m_labelWidth = 0;
     QLineEdit* m_search = new QLineEdit(this);
     QScrollArea* m_area = new QScrollArea(this);
     QWidget* m_page = new QWidget(this);
+    QLabel* m_elsewhere = dimLabel({}, m_page);
     QFormLayout* m_rows = new QFormLayout(m_page);
 };
 

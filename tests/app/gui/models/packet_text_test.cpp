@@ -106,6 +106,15 @@ TEST_F(PacketTextTest, ReadsTimesBetweenPackets) {
     }
 }
 
+TEST_F(PacketTextTest, ATimeOfDayIsOfTheDayBeforeWhereItsOwnIsStillToCome) {
+    const log::Stamp first = m_stage.session.firstStamp();
+    m_stage.sendMetadata("name:Mira Lindqvist\n", Stage::kStart + 3h);
+    m_stage.follow();
+    EXPECT_EQ(timeTarget(m_stage.session, "00:13:20"), first + 2h);
+    EXPECT_EQ(timeTarget(m_stage.session, "22:13:21"), first + 1s);
+    EXPECT_EQ(timeTarget(m_stage.session, "01:13:21"), first + 3h + 1s) << "after the newest packet";
+}
+
 TEST_F(PacketTextTest, FindsTextAndBytesInBothDirectionsAndAround) {
     const auto find = [&](const QString& text, bool isHexadecimal, std::uint64_t from, bool isForward) {
         return PacketSearch(m_stage.log, {*parsePattern(text, isHexadecimal), from, isForward, {}}).wait();

@@ -154,7 +154,7 @@ TEST_F(IncidentsPanelTest, ListsTheIncidentsOfACharacterEachTimeTheyAreAskedFor)
 
 TEST_F(IncidentsPanelTest, SummaryTellsWhatGoesOnAndWhatIsNew) {
     const QString summary = m_panel.summary();
-    EXPECT_TRUE(summary.contains(QStringLiteral(" current · "))) << summary.toStdString();
+    EXPECT_TRUE(summary.contains(QStringLiteral(" now · "))) << summary.toStdString();
     EXPECT_FALSE(summary.contains(QStringLiteral("new")));
     m_panel.markSeen();
     sendForeign(1);

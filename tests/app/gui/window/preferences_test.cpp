@@ -100,6 +100,12 @@ TEST_F(PreferencesTest, SearchShowsTheRowsThatAreMeantAndNoOthers) {
     EXPECT_TRUE(labelled<QWidget>("New file every")->isVisible()) << "whatever the letter to press";
     type("dark every");
     EXPECT_EQ(shownTexts(), QStringList{"Nothing found"});
+    type("multicast udp cable");
+    ASSERT_EQ(shownTexts().size(), 1) << "no preference";
+    EXPECT_EQ(shownTexts()[0], "Nothing found");
+    type("cable");
+    ASSERT_EQ(shownTexts().size(), 1) << "no preference";
+    EXPECT_TRUE(shownTexts()[0].contains("Input › ")) << "but in the menus";
     type({});
     EXPECT_TRUE(field("segmentNames")->isVisible());
     EXPECT_FALSE(shownTexts().contains("Nothing found"));
