@@ -182,9 +182,7 @@ const std::vector<FieldInfo>& fieldTable() {
             info.isJudged = row.isJudged;
             fields.push_back(std::move(info));
         }
-        for (FieldInfo& field : wireFields()) {
-            fields.push_back(std::move(field));
-        }
+        std::ranges::move(wireFields(), std::back_inserter(fields));
         return fields;
     }();
     return table;

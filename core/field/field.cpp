@@ -213,9 +213,7 @@ std::string nearestField(std::string_view name) {
     const bool hasComponent = name.size() > last.size() && (last.size() == 1 || componentAt(4, last));
     const std::string_view base = hasComponent ? name.substr(0, name.size() - last.size() - 1) : name;
     std::vector<std::string_view> names{"tag"};
-    for (const FieldInfo& field : fieldTable()) {
-        names.push_back(field.name);
-    }
+    std::ranges::transform(fieldTable(), std::back_inserter(names), &FieldInfo::name);
     const std::string found = nearestOf(base, names);
     const auto completed = found + '.' + std::string(last);
     return hasComponent && !findFields(completed).fields.empty() ? completed : found;

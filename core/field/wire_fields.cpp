@@ -399,9 +399,8 @@ std::span<const std::string_view> namesOf(Kind kind) {
     }();
     static const auto joints = [] {
         std::vector<std::string_view> all;
-        for (const model::JointDefinition& joint : model::jointDefinitions()) {
-            all.push_back(joint.name);
-        }
+        std::ranges::transform(model::jointDefinitions(), std::back_inserter(all),
+                               &model::JointDefinition::name);
         return all;
     }();
     return kind == Kind::Segment ? std::span(segments)

@@ -22,12 +22,9 @@ constexpr std::array kKinds{std::pair{Kind::Udp, "udp"}, std::pair{Kind::TcpList
                             std::pair{Kind::TcpConnection, "tcp"}};
 
 std::optional<Kind> kindOf(const QString& name) {
-    for (const auto& [kind, text] : kKinds) {
-        if (name == QLatin1String(text)) {
-            return kind;
-        }
-    }
-    return std::nullopt;
+    const auto* found =
+        std::ranges::find_if(kKinds, [&](const auto& each) { return name == QLatin1String(each.second); });
+    return found != kKinds.end() ? std::optional(found->first) : std::nullopt;
 }
 
 std::optional<std::uint16_t> portOf(const QJsonValue& value) {

@@ -239,12 +239,9 @@ QString themeName(ThemeChoice choice) {
 }
 
 std::optional<ThemeChoice> themeNamed(const QString& name) {
-    for (const auto& [choice, text] : kThemes) {
-        if (name == QLatin1String(text)) {
-            return choice;
-        }
-    }
-    return std::nullopt;
+    const auto* found =
+        std::ranges::find_if(kThemes, [&](const auto& each) { return name == QLatin1String(each.second); });
+    return found != kThemes.end() ? std::optional(found->first) : std::nullopt;
 }
 
 std::vector<InputAddress> inputsToOpen(const Options& options, const InputChoices& choices) {

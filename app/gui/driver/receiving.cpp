@@ -24,9 +24,7 @@ net::Endpoint endpointOf(const InputAddress& port) {
 
 net::UdpInput udpOf(const InputAddress& port) {
     net::UdpInput input{endpointOf(port), {}};
-    for (const QString& group : port.groups) {
-        input.groups.push_back(group.toStdString());
-    }
+    std::ranges::transform(port.groups, std::back_inserter(input.groups), &QString::toStdString);
     return input;
 }
 
@@ -160,9 +158,7 @@ void Receiving::listenTo(const QStringList& allowed) {
     qCInfo(inputsLog).noquote() << "listening to"
                                 << (allowed.isEmpty() ? QStringLiteral("everyone") : allowed.join(u' '));
     std::vector<std::string> entries;
-    for (const QString& entry : allowed) {
-        entries.push_back(entry.toStdString());
-    }
+    std::ranges::transform(allowed, std::back_inserter(entries), &QString::toStdString);
     m_state.allowedProblem.clear();
     m_receiver.listenTo(net::AllowList::withoutNames(entries));
     if (m_lookUp.valid()) {
@@ -249,12 +245,8 @@ void Receiving::examine(const model::SessionView& session, log::Stamp now) {
 
 InputChoices Receiving::choices() const {
     InputChoices choices{std::vector<InputAddress>{}, {}};
-    for (const PortState& state : m_state.ports) {
-        choices.inputs->push_back(state.port);
-    }
-    for (const WayOutState& way : m_waysOut.states()) {
-        choices.waysOut.push_back(way.target);
-    }
+    std::ranges::transform(m_state.ports, std::back_inserter(*choices.inputs), &PortState::port);
+    std::ranges::transform(m_waysOut.states(), std::back_inserter(choices.waysOut), &WayOutState::target);
     choices.allowed = m_allowed;
     return choices;
 }

@@ -7,6 +7,7 @@
 #include <QTextDocument>
 
 #include <algorithm>
+#include <ranges>
 #include <utility>
 
 namespace posewire::gui {
@@ -111,9 +112,7 @@ void HelpPages::readChapters() {
 std::vector<HelpHit> HelpPages::search(const QString& words) const {
     constexpr double kWholeTitle = 30;
     std::vector<QRegularExpression> wanted;
-    for (const QString& word : searchedWords(words)) {
-        wanted.push_back(beginning(word));
-    }
+    std::ranges::transform(searchedWords(words), std::back_inserter(wanted), beginning);
     std::vector<std::pair<double, HelpHit>> found;
     for (const HelpPage& page : m_pages) {
         double weight = wanted.empty() ? 0 : 1;
@@ -129,9 +128,7 @@ std::vector<HelpHit> HelpPages::search(const QString& words) const {
     }
     std::ranges::stable_sort(found, std::ranges::greater(), &std::pair<double, HelpHit>::first);
     std::vector<HelpHit> hits;
-    for (const auto& [weight, hit] : found) {
-        hits.push_back(hit);
-    }
+    std::ranges::copy(std::views::values(found), std::back_inserter(hits));
     return hits;
 }
 

@@ -164,9 +164,7 @@ QString boardSpanText(const model::SessionView& view) {
 
 std::vector<model::CharacterKey> boardOf(const model::SessionView& view, BoardOrder order) {
     std::vector<model::CharacterKey> keys;
-    for (const model::Character* character : view.atNow().roster().listed()) {
-        keys.push_back(character->key);
-    }
+    std::ranges::transform(view.atNow().roster().listed(), std::back_inserter(keys), &model::Character::key);
     if (order == BoardOrder::TroubleFirst) {
         using State = model::TakeVerdict::State;
         std::ranges::stable_sort(keys, {}, [&view](const model::CharacterKey& key) {

@@ -269,9 +269,7 @@ PacketsBehind packetsBehind(model::SessionView& view, const StatisticsModel& mod
         figure ? std::ranges::find(model::kFigureOfCause, *figure) : model::kFigureOfCause.end();
     if (cause != model::kFigureOfCause.end()) {
         std::vector<log::StreamKey> streams;
-        for (const model::Stream* stream : model.streamsOf(index)) {
-            streams.push_back(stream->key);
-        }
+        std::ranges::transform(model.streamsOf(index), std::back_inserter(streams), &model::Stream::key);
         return lossesBehind(view, {std::move(streams),
                                    static_cast<model::LossCause>(cause - model::kFigureOfCause.begin()),
                                    model.range()});

@@ -227,9 +227,7 @@ PacketsBehind FaultModel::packetsBehind(const QModelIndex& index) const {
 QString FaultModel::csv() const {
     const auto line = [](std::initializer_list<QString> words, const auto& numbers) {
         std::vector<std::string> cells;
-        for (const QString& word : words) {
-            cells.push_back(word.toStdString());
-        }
+        std::ranges::transform(words, std::back_inserter(cells), &QString::toStdString);
         std::ranges::copy(numbers, std::back_inserter(cells));
         return exporting::csvLine(cells);
     };

@@ -195,9 +195,7 @@ void TrackerHistory::computeMedians() {
     std::vector<float> sorted;
     for (auto& [id, lately] : m_trackers) {
         sorted.clear();
-        for (const Norm& norm : lately.norms) {
-            sorted.push_back(norm.norm);
-        }
+        std::ranges::transform(lately.norms, std::back_inserter(sorted), &Norm::norm);
         const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
         std::ranges::nth_element(sorted, middle);
         lately.median = sorted.size() >= kLeastNorms ? std::optional(*middle) : std::nullopt;

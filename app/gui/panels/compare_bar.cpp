@@ -143,9 +143,8 @@ void CompareBar::layOut() {
 
 void CompareBar::fillPartners(const ComparisonState& state) {
     std::vector<model::CharacterKey> keys;
-    for (const model::Character* one : state.second->atNow().roster().listed()) {
-        keys.push_back(one->key);
-    }
+    std::ranges::transform(state.second->atNow().roster().listed(), std::back_inserter(keys),
+                           &model::Character::key);
     QStringList names;
     for (const model::CharacterKey& key : keys) {
         names += tr("with %1").arg(characterName(*state.second, key));

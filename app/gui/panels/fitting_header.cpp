@@ -146,11 +146,8 @@ void FittingHeader::restore(const QJsonObject& state) {
 
 void FittingHeader::setChosen(const QStringList& columns) {
     m_chosen.clear();
-    for (const QString& name : m_names) {
-        if (columns.contains(name)) {
-            m_chosen += name;
-        }
-    }
+    std::ranges::copy_if(m_names, std::back_inserter(m_chosen),
+                         [&](const QString& name) { return columns.contains(name); });
     fit();
 }
 

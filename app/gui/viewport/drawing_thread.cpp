@@ -87,9 +87,7 @@ private:
             return;
         }
         std::vector<render::Pane> panes;
-        for (const SceneFrame& pane : frame.panes) {
-            panes.push_back(pane.place());
-        }
+        std::ranges::transform(frame.panes, std::back_inserter(panes), &SceneFrame::place);
         m_renderer.render(panes, [&](std::size_t pane) { return sceneOf(frame.panes[pane], hasFewAxes); },
                           {frame.width, frame.height, 0, frame.pixelRatio});
     }

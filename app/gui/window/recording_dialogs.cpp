@@ -369,9 +369,7 @@ void ReplayDialog::begin() {
 
 bool ReplayDialog::isMeant(const net::Endpoint& target) {
     std::vector<net::InputStatus> inputs;
-    for (const PortState& port : m_receiving.state().ports) {
-        inputs.push_back(port.status);
-    }
+    std::ranges::transform(m_receiving.state().ports, std::back_inserter(inputs), &PortState::status);
     const QHostAddress address(target.host == "localhost" ? QStringLiteral("127.0.0.1")
                                                           : QString::fromStdString(target.host));
     if (!net::loopProblem(target, address, inputs)) {

@@ -8,6 +8,7 @@
 #include "core/model/body/spaces.h"
 #include "core/wire/codec.h"
 
+#include <algorithm>
 #include <array>
 #include <span>
 #include <vector>
@@ -72,9 +73,7 @@ template <class Items>
 std::vector<std::uint32_t> idsOf(const Items& items) {
     std::vector<std::uint32_t> ids;
     ids.reserve(items.size());
-    for (const auto& item : items) {
-        ids.push_back(item.id);
-    }
+    std::ranges::transform(items, std::back_inserter(ids), [](const auto& item) { return item.id; });
     return ids;
 }
 
