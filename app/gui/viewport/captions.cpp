@@ -10,9 +10,7 @@
 #include "core/model/session/roster.h"
 
 #include <algorithm>
-#include <chrono>
 #include <span>
-#include <string>
 
 namespace posewire::gui {
 

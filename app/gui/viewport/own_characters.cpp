@@ -15,7 +15,6 @@
 
 #include <algorithm>
 #include <span>
-#include <utility>
 
 namespace posewire::gui {
 

@@ -17,7 +17,6 @@
 #include "app/gui/window/main_window.h"
 #include "app/gui/window/preferences.h"
 #include "app/gui/window/verdict_bar.h"
-#include "core/model/session/roster.h"
 
 #include <QAction>
 #include <QApplication>

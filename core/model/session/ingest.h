@@ -10,7 +10,6 @@
 #include "core/model/session/counting.h"
 #include "core/model/session/roll.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 

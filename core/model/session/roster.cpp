@@ -6,8 +6,6 @@
 #include "core/model/session/ingest.h"
 
 #include <algorithm>
-#include <string>
-#include <utility>
 
 namespace posewire::model {
 Roster::Roster(const Moment& moment) : m_moment(moment), m_roll(moment.ingest().roll()) {}
