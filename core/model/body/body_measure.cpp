@@ -16,12 +16,6 @@ Vector3d referenceBone(std::size_t segment) {
     return referenceOrigins()[segment] - referenceOrigins()[parentOf(segment)];
 }
 
-/// Nobody is a quarter or thrice the size of the reference body.
-bool isPlausible(std::size_t segment, double length) {
-    const double reference = referenceBone(segment).norm();
-    return length > 0.25 * reference && length < 3.0 * reference;
-}
-
 } // namespace
 
 void BodyMeasure::add(const wire::Datagram& datagram, LengthUnit unit) {
@@ -43,11 +37,12 @@ void BodyMeasure::addBone(std::size_t segment, const Vector3d& bone) {
     constexpr double kSameWay = 0.8; // cosine: some files turn the frames of arms
     const Vector3d reference = referenceBone(segment);
     const double length = bone.norm();
-    if (!isPlausible(segment, length)) {
-        return;
+    const double usual = reference.norm();
+    if (!(length > 0.25 * usual && length < 3.0 * usual)) {
+        return; // nobody is a quarter or thrice the size of the reference body
     }
-    const bool isSameWay = bone.dot(reference) > kSameWay * length * reference.norm();
-    m_bones[segment].sum += isSameWay ? bone : Vector3d(reference * (length / reference.norm()));
+    const bool isSameWay = bone.dot(reference) > kSameWay * length * usual;
+    m_bones[segment].sum += isSameWay ? bone : Vector3d(reference * (length / usual));
     ++m_bones[segment].count;
 }
 

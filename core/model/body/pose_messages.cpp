@@ -54,12 +54,6 @@ PoseMessages ofOneSample(const PoseMessages& parts, const Message& slowest, cons
     return first;
 }
 
-/// A character whose place in the world is not known.
-void standInRow(std::uint8_t character, CharacterPose& pose) {
-    constexpr double kApart = 1.0; // metres
-    pose.move({0, kApart * character, 0});
-}
-
 } // namespace
 
 PoseMessages choosePose(const PoseMessages& newest, const FindPoseMessage& find) {
@@ -110,7 +104,8 @@ bool assemble(const PoseMessages& chosen, const std::array<LengthUnit, kPoseType
     pose.packet = newest.packet;
     pose.stamp = newest.stamp;
     if (pose.isPlaceAssumed) {
-        standInRow(newest.datagram.header.character, pose);
+        constexpr double kApart = 1.0; // metres: they stand in a row
+        pose.move({0, kApart * newest.datagram.header.character, 0});
     }
     return true;
 }

@@ -59,13 +59,9 @@ std::deque<Incident>::iterator Incidents::placeOf(std::uint64_t number) {
     return std::ranges::lower_bound(m_incidents, number, {}, &Incident::number);
 }
 
-std::uint64_t Incidents::numberNow(std::uint64_t number) const {
-    const auto joined = m_joined.find(number);
-    return joined == m_joined.end() ? number : joined->second;
-}
-
 const Incident* Incidents::find(std::uint64_t number) const {
-    number = numberNow(number);
+    const auto joined = m_joined.find(number);
+    number = joined == m_joined.end() ? number : joined->second;
     const auto place = std::ranges::lower_bound(m_incidents, number, {}, &Incident::number);
     return place != m_incidents.end() && place->number == number ? &*place : nullptr;
 }

@@ -93,7 +93,6 @@ private:
     Incident::Part* partOf(Incident& incident, const Incident::Part& one);
     [[nodiscard]] Incident* findOwn(std::uint64_t number) { return const_cast<Incident*>(find(number)); }
     [[nodiscard]] std::deque<Incident>::iterator placeOf(std::uint64_t number);
-    [[nodiscard]] std::uint64_t numberNow(std::uint64_t number) const;
     void join(std::uint64_t to, std::uint64_t from);
     void changed(Incident& incident) { incident.version = ++m_version; }
     void erase(std::uint64_t number);

@@ -40,12 +40,6 @@ constexpr std::array kRows{
                  "So that a figure that hovers about its limit alerts once", 1 / kPercent, 1, kPercent},
 };
 
-/// Seconds between samples as they usually come; 0 if that is not known.
-double usualIntervalS(const Stream& stream, const RangeFigures& read) {
-    const double meanMs = std::fmax(0, rowOf(Figure::SpacingMean).read(read));
-    return stream.usualHz > 0 ? 1 / stream.usualHz : meanMs / 1000;
-}
-
 /// Of a stream in a window, without what silences took, and what is of another cause. What has just begun
 /// would have brought as much in all of it: a few samples of its first second are no share of anything.
 LossShare shareIn(const Stream& stream, const TimeRange& window, LossCause cause,
@@ -157,7 +151,8 @@ void ThresholdWatch::check(Stream& stream, log::Stamp stamp, Incidents& incident
     const TimeRange window = windowBefore(stamp);
     const double ageS = log::secondsOf(stamp - accounting.lastStamp());
     const RangeFigures read = countedFigures(accounting, window);
-    const double intervalS = usualIntervalS(stream, read);
+    const double meanMs = std::fmax(0, rowOf(Figure::SpacingMean).read(read)); // 0 if it is not known
+    const double intervalS = stream.usualHz > 0 ? 1 / stream.usualHz : meanMs / 1000;
     if (stream.isEstablished()) {
         hold(stream, {IncidentKind::AgeLimit, ageS, slackened(m_thresholds.ageS, intervalS)}, stamp,
              incidents);
