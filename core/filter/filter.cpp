@@ -10,6 +10,16 @@
 #include <cmath>
 
 namespace posewire::filter {
+namespace {
+
+/// `part` is in lower case.
+bool containsAnyCase(std::string_view text, std::string_view part) {
+    return std::search(text.begin(), text.end(), part.begin(), part.end(),
+                       [](char a, char b) { return wire::lower(a) == b; }) != text.end() ||
+           part.empty();
+}
+
+} // namespace
 
 bool Test::holds(const Value& value) const {
     return op == Operator::IsThere || (comparesText ? holdsText(value.text) : holdsNumber(value.number));
@@ -51,8 +61,7 @@ bool Test::holdsText(std::string_view text) const {
     case Operator::NotEqual:
         return text != texts.front();
     case Operator::Contains:
-        // What is looked for is in lower case.
-        return texts.front().empty() || !std::ranges::search(text, texts.front(), {}, wire::lower).empty();
+        return containsAnyCase(text, texts.front());
     case Operator::Matches:
         return re2::RE2::PartialMatch(re2::StringPiece(text.data(), text.size()), *pattern);
     default:
