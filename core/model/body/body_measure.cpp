@@ -39,7 +39,7 @@ void BodyMeasure::addBone(std::size_t segment, const Vector3d& bone) {
     const double length = bone.norm();
     const double usual = reference.norm();
     if (!(length > 0.25 * usual && length < 3.0 * usual)) {
-        return; // nobody is a quarter or thrice the size of the reference body
+        return; // no person is a quarter or thrice the size of the reference body
     }
     const bool isSameWay = bone.dot(reference) > kSameWay * length * usual;
     m_bones[segment].sum += isSameWay ? bone : Vector3d(reference * (length / usual));
