@@ -209,7 +209,7 @@ private:
     [[nodiscard]] QString elsewhere(const QString& typed) const {
         QStringList lines{tr("Nothing found")};
         for (const Command& one : m_all) {
-            if (isMeant(one, typed)) {
+            if (!typed.isEmpty() && isMeant(one, typed)) {
                 lines[0] = tr("No preference, but in the menus:");
                 lines << one.menu + QStringLiteral(" › ") + one.name + QStringLiteral("   ") + one.keys;
             }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/session/messages.h"
 
+#include "core/model/accounting/sample_window.h"
 #include "core/model/accounting/stream_figures.h"
 #include "core/model/body/null_pose_findings.h"
 #include "core/model/session/decoded.h"
@@ -41,6 +42,19 @@ std::size_t visitFirsts(const Moment& moment, const log::StreamKey& key, log::St
         visited += entry.datagram == 0 && visitor(entry) ? 1 : 0;
     }
     return visited;
+}
+
+/// As many of the first `count` entries as there are up to the newest sample: a few may have come late, after
+/// it.
+std::size_t upToNewest(const log::StreamEntries& entries, std::size_t count) {
+    constexpr std::size_t kMostLate = 8;
+    constexpr std::int32_t kFarthest = 4'096; // else the counter was set back
+    std::size_t end = count;
+    for (std::size_t i = count; i-- > (count > kMostLate ? count - kMostLate : 0);) {
+        const std::int32_t ahead = distance(entries[i].sample, entries[end - 1].sample);
+        end = ahead > 0 && ahead <= kFarthest ? i + 1 : end;
+    }
+    return end;
 }
 
 } // namespace
@@ -125,7 +139,7 @@ bool Messages::readMessage(const log::StreamEntries& entries, std::size_t count,
 const Message* Messages::message(const CharacterKey& key, std::uint8_t type) const {
     const log::StreamKey streamKey{key.sender, key.character, type};
     const log::StreamEntries* stream = m_moment.entriesOf(streamKey);
-    const std::size_t count = stream != nullptr ? m_moment.countOf(*stream) : 0;
+    const std::size_t count = stream != nullptr ? upToNewest(*stream, m_moment.countOf(*stream)) : 0;
     if (count == 0) {
         const Character* before = m_roster.predecessor(key);
         return before != nullptr ? message(before->key, type) : nullptr;

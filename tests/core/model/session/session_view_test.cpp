@@ -133,6 +133,20 @@ TEST_F(ViewTest, ShowsTheStateOfEveryPacketWhateverTheOrderOfLooking) {
     EXPECT_EQ(pelvisX(), 100);
 }
 
+TEST_F(ViewTest, KeepsTheNewestSampleWhenAnEarlierOneComesLate) {
+    poses(1, 10, at(1s));
+    poses(3, 2, at(2s)); // packets 10 and 11
+    poses(5, 1, at(3s));
+    follow();
+    EXPECT_EQ(pelvisX(), 10);
+    pauseAt(10);
+    EXPECT_EQ(pelvisX(), 10);
+    goOn();
+    poses(1, 8, at(4s)); // the counter is set back
+    follow();
+    EXPECT_EQ(pelvisX(), 8);
+}
+
 TEST_F(ViewTest, KnowsTheStateOfATypeThatIsSentRarely) {
     send(wire::MetaData{true, "name:Ana\n"}, 0, at(1s));
     poses(1, 50, at(2s));
