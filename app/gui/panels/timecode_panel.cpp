@@ -17,6 +17,8 @@ namespace posewire::gui {
 
 namespace {
 
+constexpr double kMostInDock = 3.6; ///< against the desktop's font: the verdict comes first
+
 /// Pixel size at which `text` fits into `size`.
 int fittingPixelSize(QFont font, const QString& text, const QSizeF& size) {
     constexpr int kProbe = 100;
@@ -65,7 +67,8 @@ void ClockWidget::paintEvent(QPaintEvent* event) {
     if (const QRect figures(below.left(), below.left() / 2, below.width(), below.top() - below.left() / 2);
         event->rect().intersects(figures)) {
         QFont large = monospaceFont();
-        large.setPixelSize(fittingPixelSize(large, m_text, figures.size()));
+        const int most = isWindow() ? figures.height() : qRound(kMostInDock * fontMetrics().height());
+        large.setPixelSize(std::min(fittingPixelSize(large, m_text, figures.size()), most));
         painter.setFont(large);
         painter.setPen(m_run == Run::Running ? theme().text : theme().dim);
         painter.drawText(figures, Qt::AlignCenter, m_text);
