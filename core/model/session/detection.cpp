@@ -13,7 +13,7 @@ namespace posewire::model {
 namespace {
 
 template <class Position>
-double distance(const Position& a, const Position& b) {
+double apart(const Position& a, const Position& b) {
     return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }
 
@@ -22,7 +22,7 @@ template <class Item>
 double reachOf(const std::vector<Item>& segments) {
     double reach = 0;
     for (std::size_t i = 1; i < std::min<std::size_t>(segments.size(), kBodySegmentCount); ++i) {
-        const double next = distance(segments[i].position, segments[0].position);
+        const double next = apart(segments[i].position, segments[0].position);
         reach = std::isfinite(next) ? std::max(reach, next) : reach;
     }
     return reach;
