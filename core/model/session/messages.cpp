@@ -44,15 +44,16 @@ std::size_t visitFirsts(const Moment& moment, const log::StreamKey& key, log::St
     return visited;
 }
 
-/// As many of the first `count` entries as there are up to the newest sample: a few may have come late, after
-/// it.
+/// As many of the first `count` entries as there are up to the newest sample: of those that are whole in a
+/// datagram a few may have come late, after it.
 std::size_t upToNewest(const log::StreamEntries& entries, std::size_t count) {
     constexpr std::size_t kMostLate = 8;
     constexpr std::int32_t kFarthest = 4'096; // else the counter was set back
     std::size_t end = count;
     for (std::size_t i = count; i-- > (count > kMostLate ? count - kMostLate : 0);) {
         const std::int32_t ahead = distance(entries[i].sample, entries[end - 1].sample);
-        end = ahead > 0 && ahead <= kFarthest ? i + 1 : end;
+        const bool isWhole = entries[i].isLast && entries[i].datagram == 0;
+        end = isWhole && ahead > 0 && ahead <= kFarthest ? i + 1 : end;
     }
     return end;
 }
