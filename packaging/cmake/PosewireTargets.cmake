@@ -37,9 +37,7 @@ if(POSEWIRE_SANITIZER OR POSEWIRE_FUZZ)
   add_compile_options(-O1 -g1) # a finding needs names and lines, and units compile in half the time
 endif()
 # What only tests say is run once: compiling it well takes longer than running it.
-if(POSEWIRE_SANITIZER)
-  set(test_options -O0)
-elseif(CMAKE_BUILD_TYPE STREQUAL "Release")
+if(CMAKE_BUILD_TYPE STREQUAL "Release")
   set(test_options -O1)
 endif()
 # What is shipped reads whatever a network holds: a write past a buffer ends the program instead of taking it over.
