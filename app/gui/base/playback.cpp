@@ -148,8 +148,8 @@ void Playback::setRangeEdge(bool isEnd) {
     if (session.end() == 0) {
         return;
     }
-    model::TimeRange range =
-        session.choices().range.fixed.value_or(model::TimeRange{session.keptSince(), session.now()});
+    model::TimeRange range = session.choices().range.fixed.value_or(
+        model::TimeRange{session.keptSince(), newestMoment(session) + log::Duration(1)});
     const log::Stamp after = session.cursorStamp() + log::Duration(1);
     if (isEnd) {
         range = {range.from < after ? range.from : session.keptSince(), after};

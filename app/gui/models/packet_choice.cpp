@@ -147,9 +147,11 @@ Target nearestProblem(model::SessionView& view, const PacketModel& list, bool is
     const auto step = [&](std::uint64_t from) {
         return isForward ? digests.nextProblem(from) : digests.previousProblem(from);
     };
+    const model::Cursor& cursor = view.choices().cursor;
+    const bool isAmidst = cursor.mode == model::Cursor::Mode::Paused && cursor.packet + 1 < digests.end();
     // The first packet comes after the one before it.
-    auto found =
-        step(view.choices().selection.packet.value_or(isForward ? digests.begin() - 1 : digests.end()));
+    const std::uint64_t from = isAmidst ? cursor.packet : isForward ? digests.begin() - 1 : digests.end();
+    auto found = step(view.choices().selection.packet.value_or(from));
     for (WalkBounds bounds; found && bounds.look(); found = step(*found)) {
         if (list.rowOf(*found) >= 0 && (!isOfOne || isOf(view, *character, *found))) {
             return *found;

@@ -411,7 +411,8 @@ QString InspectorPanel::summary() const {
         return {};
     }
     const QString number = tr("packet %1").arg(grouped(m_document->number));
-    return m_view.choices().selection.packet ? number : tr("following · %1").arg(number);
+    const bool isPaused = m_view.choices().cursor.mode == model::Cursor::Mode::Paused;
+    return isPaused || m_view.choices().selection.packet ? number : tr("following · %1").arg(number);
 }
 
 /// A part of the panel, so that its entries reach what is private there.

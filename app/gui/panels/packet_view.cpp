@@ -257,6 +257,15 @@ void PacketView::scrollContentsBy(int dx, int /*dy*/) {
     viewport()->update();
 }
 
+void PacketView::focusInEvent(QFocusEvent* event) {
+    if (event->reason() == Qt::ActiveWindowFocusReason || event->reason() == Qt::PopupFocusReason) {
+        QAbstractScrollArea::focusInEvent(event);
+        viewport()->update();
+    } else {
+        QAbstractItemView::focusInEvent(event);
+    }
+}
+
 void PacketView::paintEvent(QPaintEvent* event) {
     if (rowCount() == 0) {
         drawEmptyText(*viewport(), m_emptyText);

@@ -48,6 +48,8 @@ signals:
     void menuRequested(const QPoint& globalPosition);
 
 protected:
+    /// Selects no row, as the base does, where a dialog or a menu is closed.
+    void focusInEvent(QFocusEvent* event) override;
     void paintEvent(QPaintEvent* event) override;
     void contextMenuEvent(QContextMenuEvent* event) override;
     void scrollContentsBy(int dx, int dy) override;

@@ -166,7 +166,11 @@ QString PacketsPanel::summary() const {
     if (m_filter.missed() != 0) {
         count += tr(" · %1 not looked at in time").arg(grouped(m_filter.missed()));
     }
-    return m_list->isFollowing() ? tr("following · %1").arg(count) : count;
+    if (!m_list->isFollowing() || m_view.isRecording()) {
+        return count;
+    }
+    const bool isPaused = m_view.choices().cursor.mode == model::Cursor::Mode::Paused;
+    return (isPaused ? tr("now · %1") : tr("following · %1")).arg(count);
 }
 
 void PacketsPanel::say(const QString& text) {

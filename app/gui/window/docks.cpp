@@ -392,6 +392,11 @@ void Docks::uncover() {
     }
 }
 
+void Docks::enter(const QString& name) {
+    show(name);
+    mainStop(find(name)->panel)->setFocus();
+}
+
 QAction* Docks::actionFor(const QString& name) {
     QDockWidget* dock = find(name)->dock;
     auto* action = new QAction(dock->windowTitle(), dock);
@@ -403,8 +408,7 @@ QAction* Docks::actionFor(const QString& name) {
         if (toggled->isInSight()) {
             toggled->dock->close();
         } else {
-            show(name);
-            mainStop(toggled->panel)->setFocus();
+            enter(name);
         }
         showState();
     });

@@ -98,7 +98,7 @@ void findCommand(Window& window) {
     palette.exec();
     QAction* chosen = palette.chosen();
     if (const auto* dock = chosen != nullptr ? qobject_cast<QDockWidget*>(chosen->parent()) : nullptr) {
-        window.docks().show(dock->objectName()); // one that is open is wanted too
+        window.docks().enter(dock->objectName()); // one that is open is wanted too
     } else if (chosen != nullptr) {
         chosen->trigger();
     }

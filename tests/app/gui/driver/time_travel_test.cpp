@@ -200,6 +200,13 @@ TEST_F(TimeTravelTest, ARangeBeginsAndEndsWithTheSampleThatIsShown) {
     EXPECT_EQ(m_driver.commands().session().packetFrom(m_driver.commands().session().range()->from), 0U);
 }
 
+TEST_F(TimeTravelTest, ARangeThatIsBegunEndsWithTheNewestPacket) {
+    const model::SessionView& session = m_driver.commands().session();
+    m_driver.playback().showMoment(momentOf(60));
+    m_driver.playback().setRangeEdge(false);
+    EXPECT_EQ(session.range()->to, session.packet(session.end() - 1)->stamp + log::Duration(1));
+}
+
 TEST_F(TimeTravelTest, TheEdgeThatWasSetLastIsTrimmedBySamples) {
     Playback& playback = m_driver.playback();
     const auto first = [&] {
