@@ -7,6 +7,7 @@
 #include "core/model/session/verdict.h"
 
 #include <algorithm>
+#include <ranges>
 
 namespace posewire::gui {
 
@@ -37,11 +38,6 @@ QString fromTo(const model::SessionView& view, const IncidentLine& line) {
                                                                                : tr("now (it may go on)"));
 }
 
-/// "12 not yet here", of one of the streams of an incident.
-QString pendingWords(const model::Incident::Part& part) {
-    return part.samples != 0 ? tr("%1 not yet here").arg(grouped(part.samples)) : tr("no data");
-}
-
 /// What happened, as far as it is settled, and what is still missing.
 QString wordsOf(model::SessionView& view, const IncidentLine& line, words::Form form) {
     QStringList parts;
@@ -49,7 +45,8 @@ QString wordsOf(model::SessionView& view, const IncidentLine& line, words::Form 
         parts += said(line.incident().fact(*line.settledPart), words::Form::Line);
     }
     if (line.isPart && line.pendingPart != nullptr) {
-        parts += pendingWords(*line.pendingPart);
+        const std::uint64_t samples = line.pendingPart->samples;
+        parts += samples != 0 ? tr("%1 not yet here").arg(grouped(samples)) : tr("no data");
     }
     if (!line.isPart && line.settled != nullptr) {
         parts +=
@@ -262,9 +259,7 @@ bool IncidentModel::readUnsettled() {
 void IncidentModel::refresh() {
     const model::Incidents& incidents = m_view.verdicts().incidents();
     std::vector<Key> changed;
-    for (const auto& [key, one] : m_pending) {
-        changed.push_back(key);
-    }
+    std::ranges::copy(std::views::keys(m_pending), std::back_inserter(changed));
     if (!readUnsettled() && incidents.version() == m_version && !m_isFilterNew) {
         return;
     }

@@ -55,19 +55,14 @@ void StatisticsPanel::refresh() {
     m_range->refresh();
     m_filterToRange->setEnabled(m_view.range().has_value());
     m_streams.refresh();
-    foldEnded();
-    m_computer.refresh();
-}
-
-/// Once: who opens one again keeps it open.
-void StatisticsPanel::foldEnded() {
     for (int row = 0; row < m_streams.rowCount(); ++row) {
         const QModelIndex index = m_streams.index(row, 0);
         const auto sender = m_streams.sender(index);
         if (m_streams.isEnded(index) && m_folded.insert(*sender).second) {
-            m_table->collapse(index);
+            m_table->collapse(index); // once: who opens it again keeps it open
         }
     }
+    m_computer.refresh();
 }
 
 QString StatisticsPanel::summary() const {

@@ -37,7 +37,6 @@ public:
     void filterToRange();
 
 private:
-    void foldEnded();
     void select(const QModelIndex& index);
     void addActions(QMenu& menu, const QModelIndex& index);
 

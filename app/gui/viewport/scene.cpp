@@ -147,8 +147,11 @@ void SceneUpload::add(const Figure& figure, render::Renderer& renderer) {
     }
     const auto [entry, isNew] = m_meshes.try_emplace(figure.drawn());
     Meshes& meshes = entry->second;
-    if (isNew) {
-        meshes = uploaded(figure, renderer);
+    if (isNew && figure.own != nullptr) {
+        meshes = {renderer.uploadMesh(figure.own->mesh, figure.own->dress()), render::MeshId::None};
+    } else if (isNew) {
+        meshes = {renderer.uploadMesh(figure.body->mannequin->mesh),
+                  renderer.uploadMesh(figure.body->mannequin->lowMesh)};
     }
     m_instances.push_back({meshes.mesh, meshes.low, figure.drawnPalette(), figure.look, figure.fit()});
     render::CharacterLook look = figure.look; // where it is, is sent; whoever holds it is selected
@@ -160,14 +163,6 @@ void SceneUpload::add(const Figure& figure, render::Renderer& renderer) {
         mesh = mesh == render::MeshId::None ? renderer.uploadMesh(prop.shape) : mesh;
         m_instances.push_back({mesh, render::MeshId::None, prop.motion, look});
     }
-}
-
-SceneUpload::Meshes SceneUpload::uploaded(const Figure& figure, render::Renderer& renderer) {
-    if (figure.own != nullptr) {
-        return {renderer.uploadMesh(figure.own->mesh, figure.own->dress()), render::MeshId::None};
-    }
-    return {renderer.uploadMesh(figure.body->mannequin->mesh),
-            renderer.uploadMesh(figure.body->mannequin->lowMesh)};
 }
 
 void SceneUpload::releaseUnused(const SceneFrame& frame, render::Renderer& renderer) {

@@ -142,7 +142,6 @@ private:
         render::MeshId low = render::MeshId::None;
     };
     void add(const Figure& figure, render::Renderer& renderer);
-    [[nodiscard]] static Meshes uploaded(const Figure& figure, render::Renderer& renderer);
     void releaseUnused(const SceneFrame& frame, render::Renderer& renderer);
 
     std::map<std::shared_ptr<const void>, Meshes> m_meshes;        ///< by what is drawn

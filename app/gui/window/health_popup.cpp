@@ -124,13 +124,6 @@ public:
         setFixedWidth(fontMetrics().averageCharWidth() * 64);
     }
 
-    void focusFirst() {
-        const auto buttons = findChildren<QAbstractButton*>();
-        if (!buttons.isEmpty()) {
-            buttons.first()->setFocus(Qt::PopupFocusReason);
-        }
-    }
-
 protected:
     void paintEvent(QPaintEvent* /*event*/) override { paintFrame(*this); }
 
@@ -233,7 +226,9 @@ QWidget* showHealthPopup(model::SessionView& session, Commands& commands, const 
                          QWidget& anchor) {
     auto* popup = new HealthPopup(session, commands, key, &anchor);
     showAbove(*popup, anchor);
-    popup->focusFirst();
+    if (const auto buttons = popup->findChildren<QAbstractButton*>(); !buttons.isEmpty()) {
+        buttons.first()->setFocus(Qt::PopupFocusReason);
+    }
     return popup;
 }
 

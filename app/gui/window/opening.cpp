@@ -16,17 +16,6 @@
 
 namespace posewire::gui {
 
-namespace {
-
-/// The file of this computer that is dragged; empty for none and for several.
-QString droppedFile(const QMimeData& data) {
-    const QList<QUrl> urls = data.urls();
-    const QString path = urls.size() == 1 ? urls.first().toLocalFile() : QString();
-    return QFileInfo(path).isFile() ? path : QString();
-}
-
-} // namespace
-
 Opening::Opening(MainWindow& window)
     : QObject(&window),
       m_window(window),
@@ -100,12 +89,13 @@ bool Opening::eventFilter(QObject* /*window*/, QEvent* event) {
         return false;
     }
     auto* drop = static_cast<QDropEvent*>(event);
-    const QString path = droppedFile(*drop->mimeData());
-    if (!path.isEmpty()) {
+    const QList<QUrl> urls = drop->mimeData()->urls();
+    const QString path = urls.size() == 1 ? urls.first().toLocalFile() : QString();
+    if (QFileInfo(path).isFile()) { // of this computer
         drop->acceptProposedAction();
-    }
-    if (!path.isEmpty() && event->type() == QEvent::Drop) {
-        open(path);
+        if (event->type() == QEvent::Drop) {
+            open(path);
+        }
     }
     return true;
 }
