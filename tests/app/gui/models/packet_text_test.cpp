@@ -96,6 +96,20 @@ TEST_F(PacketTextTest, GoesToNumbersDistancesAndTimes) {
     EXPECT_FALSE(packetTarget(m_stage.session, "").has_value());
 }
 
+TEST_F(PacketTextTest, TheNextProblemIsAfterTheMomentThatIsShown) {
+    for (const std::uint32_t sample : {101, 102, 104, 105}) { // packets 101 to 104
+        m_stage.send(smallPose(), sample, sample * 10, Stage::kStart + sample * 10ms);
+    }
+    m_stage.follow();
+    m_model.refresh();
+    const auto next = [&] {
+        return nearestListed(m_stage.session, m_model, Landmark::Problem, Direction::Forward);
+    };
+    EXPECT_EQ(next().value_or(0), 101U) << "after sample 100, which is lost";
+    m_stage.session.setCursor({model::Cursor::Mode::Paused, 102});
+    EXPECT_EQ(next().value_or(0), 103U) << "after sample 103";
+}
+
 TEST_F(PacketTextTest, ReadsTimesBetweenPackets) {
     const log::Stamp first = m_stage.session.firstStamp();
     EXPECT_EQ(timeTarget(m_stage.session, " 0.255 s"), first + 255ms);

@@ -283,23 +283,6 @@ TEST_F(PacketsPanelTest, KeepsFiltersAndTimesFromOneRunToTheNext) {
     EXPECT_EQ(next.packets().deltaMode(), PacketModel::DeltaMode::RowAbove);
 }
 
-TEST_F(PacketsPanelTest, TheNextProblemIsAfterTheMomentThatIsShown) {
-    poses(0, 100);
-    poses(104, 200); // packet 100 follows a gap
-    poses(208, 300); // packet 196 does
-    m_stage.session.setCursor({model::Cursor::Mode::Paused, 150});
-    trigger("nextProblem");
-    EXPECT_EQ(selected(), 196U);
-}
-
-TEST_F(PacketsPanelTest, KeepsItsRowsWhenADialogIsClosed) {
-    poses(0, 100);
-    QFocusEvent back(QEvent::FocusIn, Qt::ActiveWindowFocusReason);
-    QCoreApplication::sendEvent(m_panel.findChild<PacketView*>(), &back);
-    EXPECT_FALSE(selected());
-    EXPECT_TRUE(m_panel.summary().startsWith("following")) << qPrintable(m_panel.summary());
-}
-
 TEST_F(PacketsPanelTest, GoesToProblemsMarksAndTheStreamsOtherPackets) {
     poses(0, 100);
     poses(104, 200); // packet 100 follows a gap

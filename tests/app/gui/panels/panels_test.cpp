@@ -2,6 +2,8 @@
 #include "app/gui/base/panel.h"
 #include "app/gui/panels/characters_panel.h"
 #include "app/gui/panels/metadata_panel.h"
+#include "app/gui/panels/packet_view.h"
+#include "app/gui/panels/packets_panel.h"
 #include "app/gui/panels/statistics_panel.h"
 #include "app/gui/panels/timecode_panel.h"
 #include "app/gui/panels/trackers_panel.h"
@@ -11,6 +13,7 @@
 
 #include <gmock/gmock.h>
 
+#include <QFocusEvent>
 #include <QHeaderView>
 #include <QTest>
 #include <QToolButton>
@@ -151,6 +154,16 @@ TEST_F(PanelsTest, ClickingACharacterSelectsItForAllPanels) {
     QTest::mouseDClick(view->viewport(), Qt::LeftButton, {}, view->visualRect(second).center());
     ASSERT_EQ(m_stage.asked.framed.size(), 1U);
     EXPECT_EQ(m_stage.asked.framed.front(), m_stage.key(1));
+}
+
+TEST_F(PanelsTest, ThePacketsGoOnWhenADialogOverThemIsClosed) {
+    performer::Performer performer(sending(1, {2}));
+    m_stage.perform(performer, 0, 100);
+    const auto panel = open<PacketsPanel>();
+    QFocusEvent back(QEvent::FocusIn, Qt::ActiveWindowFocusReason);
+    QCoreApplication::sendEvent(panel->findChild<PacketView*>(), &back);
+    EXPECT_FALSE(m_stage.session.choices().selection.packet);
+    EXPECT_EQ(panel->summary(), QStringLiteral("following · 100"));
 }
 
 TEST_F(PanelsTest, WhatIsOfTheSelectedCharacterSaysWhereNoneIs) {
