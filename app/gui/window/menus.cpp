@@ -96,11 +96,8 @@ void showAbout(Window& window) {
 void findCommand(Window& window) {
     CommandPalette palette(*window.menuBar(), &window);
     palette.exec();
-    QAction* chosen = palette.chosen();
-    if (const auto* dock = chosen != nullptr ? qobject_cast<QDockWidget*>(chosen->parent()) : nullptr) {
-        window.docks().enter(dock->objectName()); // one that is open is wanted too
-    } else if (chosen != nullptr) {
-        chosen->trigger();
+    if (QAction* chosen = palette.chosen()) {
+        carryOut(window, *chosen);
     }
 }
 
@@ -482,6 +479,14 @@ void Menus::showStates() {
         if (entry.action->isOn != nullptr) {
             m_actions[QLatin1String(entry.action->id)]->setChecked(entry.action->isOn(ownerOf(entry)));
         }
+    }
+}
+
+void carryOut(MainWindow& window, QAction& action) {
+    if (const auto* dock = qobject_cast<QDockWidget*>(action.parent())) {
+        window.docks().enter(dock->objectName());
+    } else {
+        action.trigger();
     }
 }
 

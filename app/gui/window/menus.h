@@ -61,6 +61,9 @@ private:
 
 [[nodiscard]] std::span<const ActionInfo> viewportEntries();
 
+/// Brings a dock to the front, whether it is open or not; triggers any other action.
+void carryOut(MainWindow& window, QAction& action);
+
 /// The menu at a path as in ActionInfo, new if need be.
 [[nodiscard]] QMenu* menuAt(QMenuBar& bar, const QString& path);
 

@@ -72,6 +72,11 @@ public:
         connect(m_search, &QLineEdit::textChanged, this, &PreferencesDialog::filter);
         m_rows->setContentsMargins(0, 0, fontMetrics().height(), 0);
         m_rows->addRow(m_elsewhere);
+        m_elsewhere->setTextInteractionFlags(Qt::LinksAccessibleByMouse | Qt::LinksAccessibleByKeyboard);
+        connect(m_elsewhere, &QLabel::linkActivated, this, [this, &window](const QString& place) {
+            accept();
+            carryOut(window, *m_all.at(place.toUInt()).action);
+        });
         addSections(window);
         for (QWidget* part : m_page->findChildren<QWidget*>()) {
             part->installEventFilter(this);
@@ -208,13 +213,17 @@ private:
     /// Where in the menus what was searched is found, if it is no preference.
     [[nodiscard]] QString elsewhere(const QString& typed) const {
         QStringList lines{tr("Nothing found")};
-        for (const Command& one : m_all) {
+        for (std::size_t i = 0; i < m_all.size(); ++i) {
+            const Command& one = m_all[i];
             if (!typed.isEmpty() && isMeant(one, typed)) {
+                const QString text = one.menu + QStringLiteral(" › ") + one.name;
                 lines[0] = tr("No preference, but in the menus:");
-                lines << one.menu + QStringLiteral(" › ") + one.name + QStringLiteral("   ") + one.keys;
+                lines << QStringLiteral("<a href=\"%1\">%2</a>   %3")
+                             .arg(i)
+                             .arg(text.toHtmlEscaped(), one.keys.toHtmlEscaped());
             }
         }
-        return lines.mid(0, kMostElsewhere).join(u'\n');
+        return lines.mid(0, kMostElsewhere).join(QStringLiteral("<br>"));
     }
 
     [[nodiscard]] QWidget* fieldAt(int row) const {
@@ -227,7 +236,7 @@ private:
     QLineEdit* m_search = new QLineEdit(this);
     QScrollArea* m_area = new QScrollArea(this);
     QWidget* m_page = new QWidget(this);
-    QLabel* m_elsewhere = dimLabel({}, m_page);
+    QLabel* m_elsewhere = richLabel(m_page); ///< what is in the menus instead
     QFormLayout* m_rows = new QFormLayout(m_page);
 };
 

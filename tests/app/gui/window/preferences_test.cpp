@@ -105,10 +105,23 @@ TEST_F(PreferencesTest, SearchShowsTheRowsThatAreMeantAndNoOthers) {
     EXPECT_EQ(shownTexts()[0], "Nothing found");
     type("cable");
     ASSERT_EQ(shownTexts().size(), 1) << "no preference";
-    EXPECT_TRUE(shownTexts()[0].contains("Input › ")) << "but in the menus";
+    EXPECT_TRUE(shownTexts()[0].contains("Input › Inputs")) << "but in the menus";
     type({});
     EXPECT_TRUE(field("segmentNames")->isVisible());
     EXPECT_FALSE(shownTexts().contains("Nothing found"));
+}
+
+TEST_F(PreferencesTest, WhatIsFoundInTheMenusCanBeChosen) {
+    type("units");
+    QLabel* found = nullptr;
+    for (QLabel* label : dialog->findChildren<QLabel*>()) {
+        found = label->isVisible() && label->text().contains("<a href=") ? label : found;
+    }
+    ASSERT_NE(found, nullptr);
+    const QString text = found->text();
+    emit found->linkActivated(text.section("href=\"", 1, 1).section('"', 0, 0));
+    EXPECT_FALSE(dialog != nullptr && dialog->isVisible());
+    EXPECT_TRUE(window->findChild<QDockWidget*>("metadata")->isVisible());
 }
 
 TEST_F(PreferencesTest, SearchKnowsTheOtherWordsThatCommandsHave) {
