@@ -106,11 +106,6 @@ model::Thresholds thresholdsOf(const Limits& limits) {
     return thresholds;
 }
 
-/// Links are found out by log::checkOutput().
-bool areSame(const std::string& a, const std::string& b) {
-    return !a.empty() && !b.empty() && log::pathOf(a).lexically_normal() == log::pathOf(b).lexically_normal();
-}
-
 log::OutputRules rulesOf(const MonitorOptions& options) {
     log::OutputRules rules{options.replaces, {}};
     if (!options.file.empty()) {
@@ -331,7 +326,9 @@ tl::expected<void, std::string> checkOutputs(const MonitorOptions& options) {
         return tl::unexpected(
             std::string("--record -: something else goes to standard output; name a file for one of them"));
     }
-    if (areSame(options.record, options.report)) {
+    // Links are found out by log::checkOutput().
+    if (!options.record.empty() &&
+        log::pathOf(options.record).lexically_normal() == log::pathOf(options.report).lexically_normal()) {
         return tl::unexpected(options.record + ": is both recording and report; name two files");
     }
     for (const std::string& path : {options.record, options.report}) {

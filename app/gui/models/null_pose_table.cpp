@@ -89,10 +89,6 @@ std::vector<PointRow> pointRows(const NullPoseReading& reading) {
     return rows;
 }
 
-std::vector<SegmentScale> scaleRows(const NullPoseReading& reading) {
-    return reading.scale() == nullptr ? std::vector<SegmentScale>() : reading.scale()->segments;
-}
-
 TableColumn<SegmentRow> positionColumn(const QString& title, const QString& help, int axis) {
     return coordinateColumn<SegmentRow>(
         title, help, axis, [](const SegmentRow& row, int place) { return row.segment.position[place]; });
@@ -265,6 +261,8 @@ NullPoseLengthModel::NullPoseLengthModel(const NullPoseReading& reading)
                     [](const NullPoseReading& shown) { return shown.measures().lengths; }) {}
 
 NullPoseScaleModel::NullPoseScaleModel(const NullPoseReading& reading)
-    : NullPoseTable(reading, scaleColumns(), scaleRows) {}
+    : NullPoseTable(reading, scaleColumns(), [](const NullPoseReading& shown) {
+          return shown.scale() == nullptr ? std::vector<SegmentScale>() : shown.scale()->segments;
+      }) {}
 
 } // namespace posewire::gui

@@ -234,9 +234,13 @@ void TrackerModel::refresh() {
     const auto* message = m_key ? m_view.messages().message(*m_key, wire::TrackerKinematics::kType) : nullptr;
     const auto* body =
         message == nullptr ? nullptr : std::get_if<wire::TrackerKinematics>(&message->datagram.body);
-    m_stale = body == nullptr ? QString() : staleTextAt(message->stamp);
+    m_stale.clear();
     std::vector<wire::Tracker> trackers;
     if (body != nullptr) {
+        const model::Stream* stream = m_view.roster().find(
+            log::StreamKey{m_key->sender, m_key->character, wire::TrackerKinematics::kType});
+        m_stale = gui::staleText(log::secondsOf(m_view.cursorStamp() - message->stamp),
+                                 stream == nullptr ? 0 : stream->statistics.rateHz());
         trackers.assign(body->trackers.begin(), body->trackers.end());
         m_hasInertialData = body->hasInertialData;
     }
@@ -249,13 +253,6 @@ void TrackerModel::refresh() {
     m_shownRow = std::clamp(m_shownRow, trackers.empty() ? -1 : 0, static_cast<int>(trackers.size()) - 1);
     m_history.follow(m_view, m_key, m_shownRow < 0 ? 0 : trackers[static_cast<std::size_t>(m_shownRow)].id);
     setRows(std::move(trackers));
-}
-
-QString TrackerModel::staleTextAt(log::Stamp newest) const {
-    const model::Stream* stream =
-        m_view.roster().find(log::StreamKey{m_key->sender, m_key->character, wire::TrackerKinematics::kType});
-    return gui::staleText(log::secondsOf(m_view.cursorStamp() - newest),
-                          stream == nullptr ? 0 : stream->statistics.rateHz());
 }
 
 const wire::Tracker* TrackerModel::shown() const {

@@ -103,8 +103,6 @@ public:
     [[nodiscard]] PropertyValue state(const wire::Tracker& tracker) const;
 
 private:
-    [[nodiscard]] QString staleTextAt(log::Stamp newest) const;
-
     model::SessionView& m_view;
     std::optional<model::CharacterKey> m_key;
     bool m_hasInertialData = true;
