@@ -80,6 +80,7 @@ MARKUP = re.compile(r"\b(setHtml|setMarkdown|insertHtml|appendHtml)\(|\brichLabe
 MARKUP_PLACES = PLAIN_TEXT_PLACES + ("app/gui/theme/widgets.h", "app/gui/panels/inspector_panel.cpp",
                                      "app/gui/panels/nullpose_panel.cpp", "app/gui/inputs/inputs_dialog.cpp",
                                      "app/gui/viewport/pose_banner.cpp", "app/gui/viewport/segment_card.cpp",
+                                     "app/gui/window/preferences.cpp",
                                      # Texts of the program itself: the guide and the reference.
                                      "app/gui/help/help_pages.cpp", "app/gui/help/help_window.cpp")
 PANEL_HEADER = re.compile(r'"app/gui/panels/(\w+_panel)\.h"')
