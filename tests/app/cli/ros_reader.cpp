@@ -119,6 +119,7 @@ int main(int, char** arguments) {
     Subscriber* subscriber = participant->create_subscriber(SUBSCRIBER_QOS_DEFAULT);
     DataReaderQos qos = DATAREADER_QOS_DEFAULT; // as `ros2 topic echo`
     qos.reliability().kind = RELIABLE_RELIABILITY_QOS;
+    qos.history().depth = 100; // as programs that listen to /tf: several characters come at once
     std::vector<DataReader*> readers;
     for (const auto& [topic, type, read] :
          {std::tuple{"rt/tf", "tf2_msgs::msg::dds_::TFMessage_", &transformsOf},
