@@ -254,9 +254,9 @@ std::optional<log::Stamp> timeTarget(model::SessionView& view, const QString& te
                 return view.log().timeline().stampOf(wanted);
             };
             const QDate day = dateTimeOf(view.wallOf(stamp)).date();
-            const bool isOfTheDayBefore =
-                stampOn(day) > stamp && stampOn(day.addDays(-1)) >= view.firstStamp();
-            return stampOn(isOfTheDayBefore ? day.addDays(-1) : day);
+            const log::Stamp before = stampOn(day.addDays(-1));
+            const log::Stamp wanted = stampOn(day);
+            return wanted > stamp && before >= view.firstStamp() ? before : wanted;
         }
     }
     if (!compact.endsWith(QLatin1Char('s'))) {

@@ -48,7 +48,7 @@ signals:
     void menuRequested(const QPoint& globalPosition);
 
 protected:
-    /// Selects no row, as the base does, where a dialog or a menu is closed.
+    /// When a dialog or a menu is closed the base selects a row; this selects none.
     void focusInEvent(QFocusEvent* event) override;
     void paintEvent(QPaintEvent* event) override;
     void contextMenuEvent(QContextMenuEvent* event) override;

@@ -44,7 +44,7 @@ public:
 
     /// Brings a dock to the front, by its object name.
     void show(const QString& name);
-    /// And gives it the keyboard.
+    /// Brings a dock to the front and gives it the keyboard.
     void enter(const QString& name);
     /// A dock, bar or part of them by its object name, in the front; null if there is none.
     [[nodiscard]] QWidget* showPart(const QString& name);

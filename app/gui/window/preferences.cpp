@@ -23,8 +23,6 @@ namespace posewire::gui {
 
 namespace {
 
-constexpr int kMostElsewhere = 8; ///< lines
-
 /// The words by which a part of a row is found: its own and those of all widgets in it.
 QString wordsOf(QWidget* widget) {
     QStringList words;
@@ -185,7 +183,6 @@ private:
         int heading = 0;
         QString group;
         m_rows->setRowVisible(0, true);
-        m_elsewhere->setText(elsewhere(typed));
         for (int row = 1; row < m_rows->rowCount(); ++row) {
             QWidget* field = fieldAt(row);
             QWidget* label = m_rows->labelForField(field);
@@ -207,23 +204,27 @@ private:
                 }
             }
         }
+        if (m_rows->isRowVisible(0)) {
+            m_elsewhere->setText(elsewhere(typed));
+        }
         m_area->verticalScrollBar()->setValue(0);
     }
 
-    /// Where in the menus what was searched is found, if it is no preference.
+    /// Lists the entries of the menus that match, as links.
     [[nodiscard]] QString elsewhere(const QString& typed) const {
+        constexpr int kMost = 8;
         QStringList lines{tr("Nothing found")};
         for (std::size_t i = 0; i < m_all.size(); ++i) {
             const Command& one = m_all[i];
-            if (!typed.isEmpty() && isMeant(one, typed)) {
+            if (isMeant(one, typed)) {
                 const QString text = one.menu + QStringLiteral(" › ") + one.name;
                 lines[0] = tr("No preference, but in the menus:");
-                lines << QStringLiteral("<a href=\"%1\">%2</a>   %3")
+                lines << QStringLiteral("<a href=\"%1\">%2</a> %3")
                              .arg(i)
                              .arg(text.toHtmlEscaped(), one.keys.toHtmlEscaped());
             }
         }
-        return lines.mid(0, kMostElsewhere).join(QStringLiteral("<br>"));
+        return lines.mid(0, kMost).join(QStringLiteral("<br>"));
     }
 
     [[nodiscard]] QWidget* fieldAt(int row) const {

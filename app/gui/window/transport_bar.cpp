@@ -174,7 +174,7 @@ void TransportBar::restyle() {
     showMode(modeNow());
 }
 
-/// Without its key in a narrow bar.
+/// Returns the text without its key in a narrow bar.
 QString TransportBar::fitting(const QString& text) const {
     return m_isWide ? text : text.section(QStringLiteral("   "), 0, 0);
 }

@@ -104,7 +104,7 @@ bool assemble(const PoseMessages& chosen, const std::array<LengthUnit, kPoseType
     pose.packet = newest.packet;
     pose.stamp = newest.stamp;
     if (pose.isPlaceAssumed) {
-        constexpr double kApart = 1.0; // metres: they stand in a row
+        constexpr double kApart = 1.0; // metres between characters in a row
         pose.move({0, kApart * newest.datagram.header.character, 0});
     }
     return true;

@@ -44,8 +44,8 @@ std::size_t visitFirsts(const Moment& moment, const log::StreamKey& key, log::St
     return visited;
 }
 
-/// As many of the first `count` entries as there are up to the newest sample: of those that are whole in a
-/// datagram a few may have come late, after it.
+/// Returns how many of the first `count` entries there are up to the newest sample: a few that are whole in a
+/// datagram may have come late, after it.
 std::size_t upToNewest(const log::StreamEntries& entries, std::size_t count) {
     constexpr std::size_t kMostLate = 8;
     constexpr std::int32_t kFarthest = 4'096; // else the counter was set back

@@ -283,9 +283,7 @@ public:
         }
         std::optional<ListedIncident> worst;
         bool isAnyBad = false;
-        const auto rank = [&](const ListedIncident& one) {
-            return rankOf(one, m_span.isClosed() || m_session.isRecording());
-        };
+        const bool isInRange = m_span.isClosed() || m_session.isRecording();
         for (const ListedIncident& one : m_listed) {
             if (!concerns(one.incident, line)) {
                 continue;
@@ -296,7 +294,7 @@ public:
                 continue;
             }
             isAnyBad = isAnyBad || isBad(mine);
-            if (!worst || rank(*worst) < rank(mine)) {
+            if (!worst || rankOf(*worst, isInRange) < rankOf(mine, isInRange)) {
                 worst = std::move(mine);
             }
         }

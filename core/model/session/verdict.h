@@ -44,7 +44,7 @@ struct VerdictSpan {
 /// The last moments of what is on the wire, but nothing before the reset.
 [[nodiscard]] VerdictSpan recentSpan(const SessionView& session);
 
-/// A range as far as it is known; all there is without one.
+/// Returns the part of a range that is known; all there is without a range.
 [[nodiscard]] VerdictSpan spanOf(const SessionView& session, const std::optional<TimeRange>& range);
 
 struct TakeVerdicts {
