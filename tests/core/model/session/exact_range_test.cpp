@@ -16,7 +16,7 @@ class ExactRange : public SessionTest {
 protected:
     void SetUp() override {
         const double frame = 1e9 / 60;
-        std::optional<std::uint32_t> held;
+        std::uint32_t held = 0; // sample, 0 for none
         for (std::uint32_t sample = 0; sample < 60 * kLength / 1s; ++sample) {
             const log::Stamp stamp = at(1000s + log::Duration(static_cast<std::int64_t>(frame * sample)));
             const auto fate = static_cast<std::uint32_t>(m_random() % 200);
@@ -24,14 +24,14 @@ protected:
             if (fate < 6 || isPause) {
                 continue;
             }
-            if (fate == 6 && !held) {
+            if (fate == 6 && held == 0) {
                 held = sample;
                 continue;
             }
             sendSample(sample, stamp);
-            if (held) {
-                sendSample(*held, stamp + 1ms);
-                held.reset();
+            if (held != 0) {
+                sendSample(held, stamp + 1ms);
+                held = 0;
             }
             if (fate == 7) {
                 sendSample(sample, stamp + 2ms);
