@@ -65,6 +65,20 @@ std::uint64_t sentBy(const ProgramRun& run) {
     return place == std::string::npos ? 0 : std::stoull(run.out.substr(place + 5));
 }
 
+/// Waits until the recording has packets: a busy machine may begin it after its port is open.
+void waitForPackets(const std::filesystem::path& recording) {
+    constexpr std::uintmax_t kHeader = 2000; // is smaller
+    std::error_code failed;
+    for (int i = 0; i < 1000; ++i) {
+        const std::uintmax_t size = std::filesystem::file_size(recording, failed);
+        if (!failed && size > kHeader) {
+            return;
+        }
+        QThread::msleep(10);
+    }
+    ADD_FAILURE() << recording << " gets no packets";
+}
+
 TEST(MonitorNetwork, CountsEveryDatagramThatWasSentAndRecordsIt) {
     const std::string recording = newPath();
     Monitor monitor({"--record", QString::fromStdString(recording)});
@@ -96,6 +110,7 @@ TEST(MonitorNetwork, GoesOnInAnotherFileIfThatOfTheRecordingIsGone) {
         Monitor monitor({"--record", QString::fromStdString((folder / "take.pcapng").string())});
         const ProgramRun sender = runProgram({"send", "--to", monitor.place(), "--duration", "0.3"});
         ASSERT_EQ(sender.status, 0) << sender.err;
+        waitForPackets(folder / "take.pcapng");
         fs::remove_all(folder);
         for (int i = 0; !isAtEnd && i < 500 && !fs::exists(next); ++i) {
             QThread::msleep(10);
@@ -118,6 +133,7 @@ TEST(MonitorNetwork, ClaimsNoRecordingThatIsNotThere) {
     Monitor monitor({"--record", QString::fromStdString((folder / "take.pcapng").string())});
     const ProgramRun sender = runProgram({"send", "--to", monitor.place(), "--duration", "0.1"});
     ASSERT_EQ(sender.status, 0) << sender.err;
+    waitForPackets(folder / "take.pcapng");
     fs::remove_all(folder);
     std::ofstream(folder) << "a file";
     const ProgramRun run = monitor.end();

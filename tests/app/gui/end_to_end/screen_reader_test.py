@@ -204,6 +204,7 @@ def check_live(window):
 def main(folder):
     port = free_port()
     Atspi.init()
+    Atspi.set_timeout(20000, 20000)  # ms: the first picture of a layout takes long on a busy machine
     Atspi.get_desktop(0).get_child_count()  # starts the registry
     time.sleep(1.5)
     sender = subprocess.Popen([sys.argv[2], "send", "--to", f"127.0.0.1:{port}", "--characters", "2", "--rate", "60",
