@@ -113,8 +113,8 @@ std::vector<const model::Gap*> gapsIn(const model::SessionView& session, const R
 
 /// Samples of which nothing or not all came, over time, in a colour for each cause.
 SvgPlot causePlot(const model::SessionView& session, const ReportSteps& steps) {
-    // Three colours and a grey: unknown is no culprit.
-    constexpr std::array<std::size_t, model::kLossCauses> kColours{1, 0, 3, 6};
+    // Colours and a grey: unknown is no culprit.
+    constexpr std::array<std::size_t, model::kLossCauses> kColours{1, 0, 3, 2, 6};
     SvgPlot plot{"Samples lost, by cause", SvgPlot::Form::StackedBars, plottedS(steps), {}, 1};
     for (std::size_t cause = 0; cause < model::kLossCauses; ++cause) {
         plot.series.push_back({std::string(model::nameOf(static_cast<model::LossCause>(cause))),

@@ -26,7 +26,7 @@ JsonValue causeJson(const std::optional<model::LossCause>& cause) {
         return {};
     }
     constexpr std::array<std::string_view, model::kLossCauses> kNames{"thisComputer", "network", "sender",
-                                                                      "unknown"};
+                                                                      "transport", "unknown"};
     return kNames[static_cast<std::size_t>(*cause)];
 }
 
@@ -56,7 +56,8 @@ JsonValue valueJson(const model::StreamFigures& figures, const model::FigureRow&
 JsonValue streamJson(const model::StreamFigures& figures) {
     JsonValue json{{"type", wire::typeDigits(figures.key().type)}};
     for (const model::FigureRow& row : model::figureTable()) {
-        if (row.key.empty()) {
+        const bool isOfProbes = row.figure == model::Figure::LostOnWay;
+        if (row.key.empty() || (isOfProbes && figures.count(row.figure) == 0)) {
             continue;
         }
         if (row.figure == model::Figure::Skew) {
@@ -103,15 +104,19 @@ JsonValue charactersJson(const model::SessionView& session, const model::Sender&
 
 JsonValue senderJson(const model::SessionView& session, const model::Sender& sender,
                      const model::TakeVerdicts& verdicts) {
-    return {{"address", sender.info.address},
-            {"transport", log::nameOf(sender.info.transport)},
-            {"datagrams", sender.datagrams - sender.malformed - sender.foreign},
-            {"bytes", sender.bytes - sender.skippedBytes - sender.foreignBytes},
-            {"malformed", sender.malformed},
-            {"skippedBytes", sender.skippedBytes},
-            {"characters", charactersJson(session, sender, verdicts)},
-            {"localPort", sender.info.localPort},
-            {"kernelDropped", sender.kernelDrops}};
+    JsonValue json{{"address", sender.info.address},
+                   {"transport", log::nameOf(sender.info.transport)},
+                   {"datagrams", sender.datagrams - sender.malformed - sender.foreign},
+                   {"bytes", sender.bytes - sender.skippedBytes - sender.foreignBytes},
+                   {"malformed", sender.malformed},
+                   {"skippedBytes", sender.skippedBytes},
+                   {"characters", charactersJson(session, sender, verdicts)},
+                   {"localPort", sender.info.localPort},
+                   {"kernelDropped", sender.kernelDrops}};
+    if (!sender.info.probe.empty()) {
+        json["probe"] = sender.info.probe;
+    }
+    return json;
 }
 
 JsonValue memoryJson(const model::MemoryFigures& memory) {

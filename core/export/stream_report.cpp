@@ -126,6 +126,7 @@ void addCauses(std::vector<Finding>& findings, const model::StreamFigures& sum) 
     std::vector<Share> shares{{sum.count(LostHere), "in this computer, which did not fetch them in time."},
                               {sum.count(LostOnNetwork), "on the network."},
                               {sum.count(LostAtSender), "at the sender."},
+                              {sum.count(LostOnWay), "between a probe and here."},
                               {sum.count(LostUnknown), "with no sign of where."}};
     std::ranges::stable_sort(shares, std::greater{}, &Share::lost);
     for (const Share& share : shares) {

@@ -26,11 +26,24 @@ inline constexpr std::array<std::string_view, 4> kTransportNames{"udp", "tcp", "
     return kTransportNames[static_cast<std::size_t>(transport)];
 }
 
-/// Where packets come from. Two packets have the same SenderId exactly if all three members are equal.
+/// What counters of dropped datagrams are of.
+struct ReceivingPort {
+    std::string probe; ///< that has it; empty for this computer
+    std::uint16_t number = 0;
+
+    friend bool operator==(const ReceivingPort&, const ReceivingPort&) = default;
+};
+
+/// Where packets come from. Two packets have the same SenderId exactly if all members are equal.
 struct SenderInfo {
     std::string address; ///< "127.0.0.1:40001", "[::1]:40001", a file name, the name of a performer
     Transport transport = Transport::Udp;
     std::uint16_t localPort = 0; ///< the port it arrived at; 0 if there is none
+    /// The probe whose computer received it; empty if that is this one. The same address elsewhere is another
+    /// sender, and what one computer drops explains no loss of another.
+    std::string probe{};
+
+    [[nodiscard]] ReceivingPort port() const { return {probe, localPort}; }
 
     friend bool operator==(const SenderInfo&, const SenderInfo&) = default;
 };
@@ -56,6 +69,10 @@ struct PacketFlags {
     /// came, and when, is no part of the recording.
     bool isFromBefore : 1 = false;
 
+    /// `kernelDropsBefore` were dropped by no computer: a probe had received them, and they did not come
+    /// here.
+    bool isLostOnWay : 1 = false;
+
     static constexpr std::uint8_t kMostShared = 7;
 
     friend bool operator==(const PacketFlags&, const PacketFlags&) = default;
@@ -76,7 +93,7 @@ struct DropSums {
     std::uint64_t records = 0;   ///< packets that are none, and only tell of that: PacketFlags::isDropRecord
 
     void add(std::uint32_t drops, PacketFlags flags) {
-        datagrams += drops;
+        datagrams += flags.isLostOnWay ? 0 : drops;
         records += flags.isDropRecord ? 1 : 0;
     }
     /// Datagrams that are missing with that many packets of the log, of which these are told: records are
@@ -96,6 +113,10 @@ struct Packet {
     PacketFlags flags{};
     std::span<const std::byte> bytes;
 
+    /// Datagrams that the computer dropped which received it.
+    [[nodiscard]] constexpr std::uint32_t droppedBefore() const {
+        return flags.isLostOnWay ? 0 : kernelDropsBefore;
+    }
     /// Behind that many more.
     constexpr void addDrops(std::uint64_t more) {
         kernelDropsBefore +=

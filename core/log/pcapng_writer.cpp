@@ -21,12 +21,16 @@ constexpr std::int64_t kEarly = -9'000'000'000;
 
 constexpr std::string_view kSignature = "Posewire: ";
 constexpr std::array<std::string_view, 4> kTransports{"UDP", "TCP", "file", "performer"};
-constexpr std::array<std::string_view, 5> kFlags{"; truncated", "; between datagrams", "; news of drops",
+constexpr std::array<std::string_view, 6> kFlags{"; truncated",
+                                                 "; between datagrams",
+                                                 "; news of drops",
                                                  "; first after the input was closed",
-                                                 "; from before the take"};
+                                                 "; from before the take",
+                                                 "; lost on the way from the probe"};
 constexpr std::string_view kShared = "; datagrams in its packet: ";
 constexpr std::string_view kStampedOnReading = "; stamped on reading";
 constexpr std::string_view kClockSet = "; clock set by ";
+constexpr std::string_view kProbe = "; received by probe ";
 constexpr std::string_view kFrom = "; from ";
 constexpr std::string_view kMarkNote = "Mark on packet ";
 constexpr std::string_view kPacketMark = "Mark";
@@ -164,8 +168,8 @@ RecordedOrigin originOf(const Packet& packet, const SenderInfo& sender, const En
     constexpr std::size_t ipv4Most = 65'507;
     const bool isMapped = !ends.sender.address.isIpv6 && packet.bytes.size() > ipv4Most;
     const bool isInHeaders = !isMapped && endpointText(ends.sender) == sender.address;
-    return {sender.transport, packet.flags, isInHeaders ? std::nullopt : std::optional(sender.address),
-            setBy};
+    return {sender.transport, packet.flags, isInHeaders ? std::nullopt : std::optional(sender.address), setBy,
+            sender.probe};
 }
 
 } // namespace
@@ -174,8 +178,8 @@ std::string originText(const RecordedOrigin& origin) {
     std::string text(kSignature);
     text += kTransports[static_cast<std::size_t>(origin.transport)];
     const PacketFlags& flags = origin.flags;
-    const std::array said{flags.truncated, flags.skipped, flags.isDropRecord, flags.afterClosed,
-                          flags.isFromBefore};
+    const std::array said{flags.truncated,   flags.skipped,      flags.isDropRecord,
+                          flags.afterClosed, flags.isFromBefore, flags.isLostOnWay};
     for (std::size_t i = 0; i < kFlags.size(); ++i) {
         text += said[i] ? kFlags[i] : "";
     }
@@ -185,6 +189,9 @@ std::string originText(const RecordedOrigin& origin) {
     }
     if (origin.setBy != Duration::zero()) {
         text.append(kClockSet).append(secondsText(origin.setBy)).append(" s");
+    }
+    if (!origin.probe.empty()) {
+        text.append(kProbe).append(origin.probe);
     }
     if (origin.address) {
         text.append(kFrom).append(*origin.address); // last, as it may hold anything
@@ -210,7 +217,8 @@ std::optional<RecordedOrigin> parseOrigin(std::string_view comment) {
                     .skipped = said[1],
                     .isDropRecord = said[2],
                     .afterClosed = said[3],
-                    .isFromBefore = said[4]};
+                    .isFromBefore = said[4],
+                    .isLostOnWay = said[5]};
     if (takes(comment, kShared) && !comment.empty()) {
         origin.flags.shared = static_cast<unsigned>(comment.front() - '0') & PacketFlags::kMostShared;
         comment.remove_prefix(1);
@@ -221,6 +229,10 @@ std::optional<RecordedOrigin> parseOrigin(std::string_view comment) {
             return std::nullopt;
         }
         origin.setBy = *setBy;
+    }
+    if (takes(comment, kProbe)) {
+        origin.probe = comment.substr(0, comment.find(';'));
+        comment.remove_prefix(origin.probe.size());
     }
     if (takes(comment, kFrom)) {
         origin.address = comment;
@@ -384,7 +396,7 @@ PcapngWriter::Result PcapngWriter::add(const Packet& packet, const SenderInfo& s
     }
     block.finish();
     ++m_packets;
-    m_kernelDrops += packet.kernelDropsBefore;
+    m_kernelDrops += packet.droppedBefore();
     if (!isEarly) { // the statistics are of the first interface
         m_firstTime = std::min(m_firstTime, time);
         m_lastTime = std::max(m_lastTime, time);

@@ -52,6 +52,7 @@ struct RecordedOrigin {
     PacketFlags flags{.stampedByKernel = true};
     std::optional<std::string> address{}; ///< empty if the headers have it
     Duration setBy{};                     ///< what the clock had been set by since the recording began
+    std::string probe{};                  ///< that received it, see SenderInfo; has no semicolon
 
     friend bool operator==(const RecordedOrigin&, const RecordedOrigin&) = default;
 };

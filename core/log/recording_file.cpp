@@ -156,6 +156,7 @@ public:
             record.flags = m_origin->flags;
             record.setBy = m_origin->setBy;
             record.sender->transport = m_origin->transport;
+            record.sender->probe = m_origin->probe;
             record.sender->address = m_origin->address.value_or(record.sender->address);
         }
     }

@@ -12,7 +12,7 @@ namespace {
 struct Hash {
     std::size_t operator()(const SenderInfo* info) const {
         return std::hash<std::string>{}(info->address) + std::size_t{31} * info->localPort +
-               static_cast<std::size_t>(info->transport);
+               static_cast<std::size_t>(info->transport) + std::hash<std::string>{}(info->probe);
     }
 };
 

@@ -35,6 +35,7 @@ enum class Kind : std::uint16_t {
     CauseThisComputer,
     CauseNetwork,
     CauseSender,
+    CauseTransport,
     CauseUnknown,
     // When something happened.
     Since,
@@ -99,6 +100,7 @@ enum class Kind : std::uint16_t {
     DroppedHere,
     NotListening,
     OvertakenBetween,
+    LostOnWay,
     SampleDamaged,
     PartOfSample,
     PartOfMessage,

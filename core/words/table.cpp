@@ -33,6 +33,7 @@ constexpr std::array kTable{
     Wording{.kind = K::CauseThisComputer, .headline = {"this computer"}},
     Wording{.kind = K::CauseNetwork, .headline = {"network"}},
     Wording{.kind = K::CauseSender, .headline = {"sender's side"}},
+    Wording{.kind = K::CauseTransport, .headline = {"the way from the probe"}},
     Wording{.kind = K::CauseUnknown, .headline = {"cause unknown"}, .sentence = {"unknown"}},
     // When something happened.
     Wording{.kind = K::Since, .headline = {"since {from}"}},
@@ -370,6 +371,8 @@ constexpr std::array kTable{
             {"This computer did not listen to the port for a while: its input was removed and added again."}},
     Wording{.kind = K::OvertakenBetween,
             .headline = {"This computer did not look at {packets} between packets {from} and {to} in time."}},
+    Wording{.kind = K::LostOnWay,
+            .headline = {"The probe had received {packets} that did not come here, before packet {to}."}},
     Wording{.kind = K::SampleDamaged, .headline = {"Sample {sample} arrived truncated or damaged."}},
     Wording{.kind = K::PartOfSample, .headline = {"Only a part of sample {sample} arrived."}},
     Wording{.kind = K::PartOfMessage, .headline = {"Only a part of a message arrived."}},

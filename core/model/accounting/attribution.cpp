@@ -106,8 +106,8 @@ void Attribution::retire(log::SenderId sender) {
     }
 }
 
-void Attribution::takePacket(const log::Packet& packet, std::uint16_t localPort) {
-    m_evidence.takePacket(packet, localPort); // first: it may be why something before it is due
+void Attribution::takePacket(const log::Packet& packet, const log::SenderInfo& from) {
+    m_evidence.takePacket(packet, from); // first: it may be why something before it is due
     judgeDue(packet.stamp, packet.number);
     m_lastPacket = packet.number;
 }

@@ -67,7 +67,7 @@ public:
     void retire(log::SenderId sender);
 
     /// Each packet, before its content: notes drops and judges what is due.
-    void takePacket(const log::Packet& packet, std::uint16_t localPort);
+    void takePacket(const log::Packet& packet, const log::SenderInfo& from);
     /// Nothing more comes: judges all.
     void settle() { judgeDue({}, m_lastPacket + 1, true); }
     /// Time passes without packets: judges what is due.

@@ -38,8 +38,8 @@ void LossEvidence::addStream(const Stream& stream, const log::SenderInfo& info) 
     Sender& sender = place->second;
     if (isNew) {
         sender.transport = info.transport;
-        sender.localPort = info.localPort;
-        sender.host = m_hosts.try_emplace(std::string(log::hostOf(info.address))).first;
+        sender.port = info.port();
+        sender.host = m_hosts.try_emplace(info.probe + '/' + std::string(log::hostOf(info.address))).first;
         ++sender.host->second.senders;
     }
     if (countsSamples(stream.key.type)) {
@@ -60,18 +60,33 @@ void LossEvidence::retire(log::SenderId sender) {
     }
 }
 
-void LossEvidence::takePacket(const log::Packet& packet, std::uint16_t localPort) {
+void LossEvidence::takePacket(const log::Packet& packet, const log::SenderInfo& from) {
+    using enum Gap::Evidence;
     if (packet.kernelDropsBefore != 0) {
-        keepNewest(m_drops, {packet.number, packet.stamp, std::uint64_t{packet.kernelDropsBefore}, localPort},
+        keepNewest(m_drops,
+                   {packet.number, packet.stamp, packet.kernelDropsBefore,
+                    packet.flags.isLostOnWay ? OnWay : Dropped, from.port()},
                    kMostDrops);
     }
     if (packet.flags.afterClosed) {
-        keepNewest(m_drops, {packet.number, packet.stamp, 0, localPort, true}, kMostDrops);
+        keepNewest(m_drops, {packet.number, packet.stamp, 0, NotListening, from.port()}, kMostDrops);
     }
 }
 
 void LossEvidence::takeOvertaken(std::uint64_t packet, std::uint64_t count, log::Stamp stamp) {
-    keepNewest(m_drops, {packet, stamp, count, std::nullopt}, kMostDrops);
+    keepNewest(m_drops, {packet, stamp, count, Gap::Evidence::Overtaken}, kMostDrops);
+}
+
+template <class Visit>
+void LossEvidence::forEachDrop(std::uint64_t fromPacket, std::uint64_t toPacket,
+                               const log::ReceivingPort& port, const Visit& visit) const {
+    for (auto drop = m_drops.rbegin(); drop != m_drops.rend() && drop->packet > fromPacket; ++drop) {
+        const bool isOfAll = drop->evidence == Gap::Evidence::Overtaken ||
+                             (drop->evidence == Gap::Evidence::OnWay && drop->port.probe == port.probe);
+        if (drop->packet <= toPacket && (isOfAll || drop->port == port)) {
+            visit(*drop);
+        }
+    }
 }
 
 void LossEvidence::takeSampled(log::SenderId sender, log::Stamp stamp, std::uint32_t sample) {
@@ -126,9 +141,13 @@ LossCause LossEvidence::causeOfPartial(const log::StreamKey& stream, std::uint64
     }
     // What was dropped just before the first part counts too: it may have been another part.
     const std::uint64_t before = fromPacket == 0 ? 0 : fromPacket - 1;
-    const LostHere lost = lostHere(before, toPacket, found->second.localPort);
-    if (lost.isAny()) {
-        return LossCause::ThisComputer;
+    std::optional<LossCause> lost;
+    forEachDrop(before, toPacket, found->second.port, [&lost](const Drop& drop) {
+        const bool isOnWay = drop.evidence == Gap::Evidence::OnWay;
+        lost = isOnWay ? lost.value_or(LossCause::Transport) : LossCause::ThisComputer;
+    });
+    if (lost) {
+        return *lost;
     }
     return found->second.transport == log::Transport::Tcp ? LossCause::Sender : LossCause::Network;
 }
@@ -195,7 +214,7 @@ void LossEvidence::judgeSamples(const Gap& gap, const Stream& stream, std::optio
                 m_missing[*place].isMissing = false;
             }
         });
-    judgeLostHere(gap, sender.localPort);
+    judgeLostHere(gap, sender.port);
     if (sender.transport == log::Transport::Tcp) {
         judgeRest({.cause = LossCause::Sender, .evidence = Gap::Evidence::Reliable});
         return;
@@ -239,31 +258,26 @@ log::Stamp LossEvidence::dueAt(std::size_t place, const Gap& gap) const {
     return gap.fromStamp + log::durationOf(share * log::secondsOf(gap.toStamp - gap.fromStamp));
 }
 
-void LossEvidence::judgeLostHere(const Gap& gap, std::uint16_t localPort) {
-    const LostHere lost = lostHere(gap.fromPacket, gap.toPacket, localPort);
-    if (!lost.isAny()) {
-        return;
-    }
-    for (const Gap::Evidence evidence :
-         {Gap::Evidence::Dropped, Gap::Evidence::NotListening, Gap::Evidence::Overtaken}) {
-        const bool isOvertaken = evidence == Gap::Evidence::Overtaken;
-        const bool isClosed = evidence == Gap::Evidence::NotListening;
-        const std::uint64_t figure = isOvertaken ? lost.overtaken : isClosed ? 0 : lost.dropped;
-        const Missing as{true, LossCause::ThisComputer, evidence, 0, figure};
-        for (auto drop = m_drops.rbegin(); drop != m_drops.rend() && drop->packet > gap.fromPacket; ++drop) {
-            const bool isOfPort = drop->localPort.value_or(localPort) == localPort;
-            if (drop->packet <= gap.toPacket && isOfPort && drop->isClosed == isClosed &&
-                drop->localPort.has_value() != isOvertaken) {
-                judgeDrop(gap, *drop, as);
-            }
-        }
+void LossEvidence::judgeLostHere(const Gap& gap, const log::ReceivingPort& port) {
+    using enum Gap::Evidence;
+    for (const Gap::Evidence evidence : {Dropped, NotListening, Overtaken, OnWay}) {
+        Missing as{true, evidence == OnWay ? LossCause::Transport : LossCause::ThisComputer, evidence};
+        const auto ofIt = [&](const auto& visit) {
+            forEachDrop(gap.fromPacket, gap.toPacket, port, [&](const Drop& drop) {
+                if (drop.evidence == evidence) {
+                    visit(drop);
+                }
+            });
+        };
+        ofIt([&](const Drop& drop) { as.figure += drop.count; });
+        ofIt([&](const Drop& drop) { judgeDrop(gap, drop, as); });
     }
 }
 
 /// Blames a drop for the samples due just before the packet that reports it, at most as many as it counted,
 /// and for one after it: none is due to the millisecond.
 void LossEvidence::judgeDrop(const Gap& gap, const Drop& drop, const Missing& as) {
-    if (drop.isClosed) {
+    if (drop.evidence == Gap::Evidence::NotListening) {
         judgeRest(as);
         return;
     }
@@ -336,18 +350,6 @@ std::size_t LossEvidence::hostsSilentWith(const Host& host, const Silence& silen
            }));
 }
 
-LossEvidence::LostHere LossEvidence::lostHere(std::uint64_t fromPacket, std::uint64_t toPacket,
-                                              std::uint16_t localPort) const {
-    LostHere lost;
-    for (auto drop = m_drops.rbegin(); drop != m_drops.rend() && drop->packet > fromPacket; ++drop) {
-        if (drop->packet <= toPacket && drop->localPort.value_or(localPort) == localPort) {
-            (drop->localPort ? lost.dropped : lost.overtaken) += drop->count;
-            lost.isClosed |= drop->isClosed;
-        }
-    }
-    return lost;
-}
-
 bool Gap::isAround(std::uint32_t sample) const {
     return distance(sample, fromSample) > 0 && distance(toSample, sample) > 0;
 }
@@ -379,6 +381,8 @@ words::Fact Gap::evidenceFact(LossCause cause) const {
         return {K::NotListening};
     case Evidence::Overtaken:
         return {K::OvertakenBetween, {{"packets", words::counted(K::Packets, share.figure)}, from, to}};
+    case Evidence::OnWay:
+        return {K::LostOnWay, {{"packets", words::counted(K::Packets, share.figure)}, to}};
     case Evidence::Damaged:
         return {K::SampleDamaged, {sample}};
     case Evidence::OtherStream:

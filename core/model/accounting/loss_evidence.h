@@ -25,6 +25,7 @@ struct Gap {
         Dropped,      ///< this computer dropped datagrams of the socket meanwhile
         NotListening, ///< the input of the port was closed meanwhile
         Overtaken,    ///< this computer did not look at packets of the log in time
+        OnWay,        ///< a probe had datagrams that did not come here
         Damaged,      ///< one of the samples came truncated
         OtherStream,  ///< other streams of the sender brought one of the samples
         Reliable,     ///< TCP loses nothing
@@ -67,7 +68,7 @@ public:
     /// The stream outlives this, or is retired with its sender before it goes.
     void addStream(const Stream& stream, const log::SenderInfo& info);
     void retire(log::SenderId sender);
-    void takePacket(const log::Packet& packet, std::uint16_t localPort);
+    void takePacket(const log::Packet& packet, const log::SenderInfo& from);
     /// Packets just below one were passed over: whatever they were of is missing for that.
     void takeOvertaken(std::uint64_t packet, std::uint64_t count, log::Stamp stamp);
     /// A datagram of a type that counts samples, unless it is late. Of a sender's samples the first one of
@@ -109,7 +110,7 @@ private:
     struct Sender {
         std::vector<const Stream*> streams; ///< those that count samples
         log::Transport transport = log::Transport::Udp;
-        std::uint16_t localPort = 0;
+        log::ReceivingPort port;
         std::uint32_t newest = 0; ///< sample
         Hosts::iterator host;
     };
@@ -117,24 +118,18 @@ private:
         std::uint64_t packet = 0; ///< the first after them
         log::Stamp stamp{};
         std::uint64_t count = 0;
-        std::optional<std::uint16_t> localPort{}; ///< nothing: of the log, not looked at in time
-        bool isClosed = false; ///< the port was not listened to; nobody knows how many there were
-    };
-    struct LostHere {
-        std::uint64_t dropped = 0;
-        std::uint64_t overtaken = 0;
-        bool isClosed = false; ///< what came meanwhile had nobody to take it
-
-        [[nodiscard]] bool isAny() const { return dropped + overtaken != 0 || isClosed; }
+        Gap::Evidence evidence{}; ///< Dropped; NotListening, of unknown count; Overtaken; OnWay
+        log::ReceivingPort port{};
     };
     struct Damage {
         log::StreamKey stream;
         std::uint32_t sample = 0;
         std::uint64_t packet = 0;
     };
-    /// Datagrams of a port behind one packet, up to another.
-    [[nodiscard]] LostHere lostHere(std::uint64_t fromPacket, std::uint64_t toPacket,
-                                    std::uint16_t localPort) const;
+    /// Calls for what was lost behind one packet, up to another, and may be of a port: the newest first.
+    template <class Visit>
+    void forEachDrop(std::uint64_t fromPacket, std::uint64_t toPacket, const log::ReceivingPort& port,
+                     const Visit& visit) const;
     /// A sample of the gap that is judged.
     struct Missing {
         bool isMissing = true;
@@ -145,7 +140,7 @@ private:
     };
     /// `late`: one that has come since, to be judged as if it had not.
     void judgeSamples(const Gap& gap, const Stream& stream, std::optional<std::uint32_t> late);
-    void judgeLostHere(const Gap& gap, std::uint16_t localPort);
+    void judgeLostHere(const Gap& gap, const log::ReceivingPort& port);
     void judgeDrop(const Gap& gap, const Drop& drop, const Missing& as);
     void judgeBrought(const Gap& gap, const Sender& sender);
     void judgeSilent(const Gap& gap, const Host& host);

@@ -98,6 +98,7 @@ enum class Figure : std::uint8_t {
     LostHere,
     LostOnNetwork,
     LostAtSender,
+    LostOnWay,
     LostUnknown,
     Bursts,
     BurstDensity,

@@ -119,7 +119,8 @@ words::Fact lostFact(const Incident& incident, std::uint64_t samples, std::uint6
 
 words::Fact causeFact(LossCause cause) {
     using enum words::Kind;
-    constexpr std::array kKinds{CauseThisComputer, CauseNetwork, CauseSender, CauseUnknown}; // by LossCause
+    constexpr std::array<words::Kind, kLossCauses> kKinds{CauseThisComputer, CauseNetwork, CauseSender,
+                                                          CauseTransport, CauseUnknown};
     return {kKinds[static_cast<std::size_t>(cause)]};
 }
 

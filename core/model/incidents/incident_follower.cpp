@@ -104,8 +104,8 @@ void IncidentFollower::takePacket(const log::Packet& packet, const PacketDigest&
         m_watch.check(packet.stamp, m_incidents);
         m_nextWatch = packet.stamp + kWatch;
     }
-    if (packet.kernelDropsBefore != 0) {
-        m_incidents.report(dropsAt(packet.kernelDropsBefore, occurrenceOf(IncidentKind::Local, packet)));
+    if (packet.droppedBefore() != 0) {
+        m_incidents.report(dropsAt(packet.droppedBefore(), occurrenceOf(IncidentKind::Local, packet)));
     }
     if (digest.kind == PacketKind::Malformed) {
         Occurrence one = occurrenceOf(IncidentKind::Malformed, packet);

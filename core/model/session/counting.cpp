@@ -23,23 +23,25 @@ void Counting::takePacket(const Observed& seen) {
     Sender& sender = *seen.sender;
     m_observed = seen.packet.stamp;
     sender.lastStamp = seen.packet.stamp;
-    sender.kernelDrops += seen.packet.kernelDropsBefore;
+    sender.kernelDrops += seen.packet.droppedBefore();
     sender.bytes += seen.packet.bytes.size();
     sender.datagrams += seen.digest.kind == PacketKind::Skipped ? 0 : 1;
     m_incidents.takePacket(seen.packet, seen.digest, seen.header);
     passOverDropped(seen);
-    m_attribution.takePacket(seen.packet, sender.info.localPort);
+    m_attribution.takePacket(seen.packet, sender.info);
 }
 
-/// The socket may have dropped datagrams of any stream that it hears: a counter that is as far ahead did not
-/// restart.
+/// Any stream that the socket hears, or that comes the same way, may lack datagrams: a counter that is as far
+/// ahead did not restart.
 void Counting::passOverDropped(const Observed& seen) {
     if (seen.packet.kernelDropsBefore == 0) {
         return;
     }
     m_roll.streams().forEach([&](Stream& stream) {
         const Sender* sender = m_roll.senders().find(stream.key.sender);
-        if (sender != nullptr && sender->info.localPort == seen.sender->info.localPort) {
+        const bool isOfPort = sender != nullptr && sender->info.port() == seen.sender->info.port();
+        if (isOfPort || (seen.packet.flags.isLostOnWay && sender != nullptr &&
+                         sender->info.probe == seen.sender->info.probe)) {
             stream.accounting.passOver(seen.packet.kernelDropsBefore);
         }
     });

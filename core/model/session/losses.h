@@ -18,7 +18,7 @@ void addLosses(LossesByCause& sums, const LossesByCause& more);
 
 /// The figure of a stream that says how much was lost by a cause, by LossCause.
 inline constexpr std::array kFigureOfCause{Figure::LostHere, Figure::LostOnNetwork, Figure::LostAtSender,
-                                           Figure::LostUnknown};
+                                           Figure::LostOnWay, Figure::LostUnknown};
 static_assert(kFigureOfCause.size() == kLossCauses);
 
 /// What one stream lacks; the sum of all, without what was expected, is what it has lost and what is

@@ -34,7 +34,7 @@ void SenderTotals::add(const log::Packet& packet, PacketKind kind) {
     malformed += kind == PacketKind::Malformed ? 1 : 0;
     foreign += kind == PacketKind::Foreign ? 1 : 0;
     skippedBytes += kind == PacketKind::Skipped ? packet.bytes.size() : 0;
-    kernelDrops += packet.kernelDropsBefore;
+    kernelDrops += packet.droppedBefore();
 }
 
 void RetiredTotals::retire(const Sender& sender) {
