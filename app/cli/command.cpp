@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/cli/command.h"
+#include "app/cli/stage_options.h"
 
 #include "app/usage/usage.h"
 #include "core/log/output_file.h"
@@ -17,7 +17,8 @@ Program::Program()
           "a file or port that cannot be opened."),
       commands{addDecodeCommand(line),  addEncodeCommand(line), addSendCommand(line),
                addMonitorCommand(line), addFollowCommand(line), addOutletCommand(line),
-               addReportCommand(line),  addExportCommand(line), addReferenceCommand(line)} {}
+               addReportCommand(line),  addExportCommand(line), addReferenceCommand(line),
+               addProbeCommand(line),   addStageCommand(line)} {}
 
 ExitStatus readingStatus(const tl::expected<void, log::FileError>& result, const Console& console) {
     using Kind = log::FileError::Kind;

@@ -2,8 +2,9 @@
 #pragma once
 
 #include "app/cli/command.h"
+#include "app/cli/inputs.h"
+#include "app/cli/stage_options.h"
 #include "app/cli/table_writer.h"
-#include "app/net/receiver.h"
 #include "app/system/interruption.h"
 #include "app/system/standard_streams.h"
 #include "core/export/reports.h"
@@ -39,21 +40,17 @@ inline constexpr std::array<Limit, 3> kLimits{
 /// The most that a stream may have of each of kLimits; nothing: anything.
 using Limits = std::array<std::optional<double>, kLimits.size()>;
 
-struct MonitorOptions {
-    std::string file; ///< empty: the network
-    std::vector<std::string> udp;
-    std::vector<std::string> multicast;
-    std::vector<std::string> tcpListen;
-    std::vector<std::string> tcp;
-    std::vector<std::string> allowed; ///< hosts and nets to listen to; none: all
-    std::string up;                   ///< "y", "z"; others: as detected
-    double durationSeconds = 0;       ///< 0: until interrupted
+struct MonitorOptions : InputOptions {
+    std::string file;           ///< empty: the network
+    std::string up;             ///< "y", "z"; others: as detected
+    double durationSeconds = 0; ///< 0: until interrupted
     double intervalSeconds = 1;
     std::string record;    ///< empty: not; "-" for standard output
     std::string report;    ///< empty: none; "-" for standard output
     std::string outlet;    ///< of outlets::outletKinds(); empty: none
     std::string to;        ///< its place; empty: where it goes if none is chosen; "-" for standard output
     std::string character; ///< of outlets that take one
+    StageOptions stage;    ///< probes to be read
     std::string metrics;   ///< where figures are served: empty: nowhere; else see outlets::Metrics
     bool replaces = false;
     bool asJson = false;
@@ -64,15 +61,6 @@ struct MonitorOptions {
     std::optional<double> toSeconds;
     Limits limits;
 };
-
-struct Places {
-    std::vector<net::UdpInput> udp;
-    std::vector<net::Endpoint> tcpListen;
-    std::vector<net::Endpoint> tcp;
-};
-
-/// Port 9763 of UDP if none is named. The error is one line for the user.
-[[nodiscard]] tl::expected<Places, std::string> placesOf(const MonitorOptions& options);
 
 /// Both return when there is nothing more to come, or Ctrl+C was pressed.
 ExitStatus monitorNetwork(const MonitorOptions& options, Console& console);

@@ -196,25 +196,6 @@ ExitStatus monitorFile(const MonitorOptions& options, Console& console) {
 
 namespace {
 
-DeclaredOption addPlace(Arguments arguments, const std::string& name, std::vector<std::string>& texts,
-                        const std::string& what) {
-    return arguments.add(name, texts, what + "; may be given several times").group("Where from");
-}
-
-/// Adds the options that say where to receive from.
-std::array<DeclaredOption, 5> addPlaces(Arguments arguments, MonitorOptions& options) {
-    return {addPlace(arguments, "--udp [ADDRESS:]PORT", options.udp,
-                     "listen there (default 9763); ADDRESS is one of this computer's, where it has several "
-                     "networks and only one is meant: broadcasts and multicast may then not arrive"),
-            addPlace(arguments, "--multicast GROUP", options.multicast, "join it at the UDP ports"),
-            addPlace(arguments, "--tcp-listen [ADDRESS:]PORT", options.tcpListen,
-                     "wait there for MVN to connect"),
-            addPlace(arguments, "--tcp HOST:PORT", options.tcp, "connect there, again and again"),
-            addPlace(arguments, "--from HOST|NET", options.allowed,
-                     "listen only to this address, net (such as 192.168.1.0/24) or host; others are not "
-                     "recorded, only counted")};
-}
-
 void addPlacesOrFile(Arguments arguments, MonitorOptions& options) {
     const auto places = addPlaces(arguments, options);
     DeclaredOption file =
@@ -257,6 +238,7 @@ Command addMonitorCommand(CommandLine& program) {
     Arguments arguments = program.addCommand(
         "monitor", "Watch streams: rate, loss, duplicates, order, jitter, gaps; record them; keep limits");
     addPlacesOrFile(arguments, *options);
+    addStage(arguments, options->stage).excludes(arguments.option("FILE"));
     arguments
         .add("--duration SECONDS", options->durationSeconds,
              "stop after this many seconds; 0: when interrupted, or at the end of FILE")

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/outlet_watch.h"
+#include "app/cli/stage_watch.h"
 #include "app/net/connection_help.h"
 #include "app/outlets/metrics.h"
 #include "app/system/process_figures.h"
@@ -8,98 +9,15 @@
 #include "core/words/say.h"
 
 #include <QCoreApplication>
-#include <QHostAddress>
 
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <future>
-#include <iterator>
 #include <map>
 
 namespace posewire::cli {
 namespace {
-
-tl::expected<std::vector<net::Endpoint>, std::string> endpointsOf(const std::vector<std::string>& texts,
-                                                                  const std::string& option,
-                                                                  decltype(net::parseEndpoint)& parse) {
-    std::vector<net::Endpoint> endpoints;
-    for (const std::string& text : texts) {
-        auto endpoint = parse(text);
-        if (!endpoint) {
-            return tl::unexpected(option + ": " + endpoint.error().text);
-        }
-        endpoints.push_back(std::move(*endpoint));
-    }
-    return endpoints;
-}
-
-/// Groups are joined on every port that is heard on all addresses.
-void joinGroups(std::vector<net::UdpInput>& inputs, const std::vector<std::string>& groups) {
-    bool isJoined = groups.empty();
-    for (net::UdpInput& input : inputs) {
-        if (input.endpoint.host.empty()) {
-            input.groups = groups;
-            isJoined = true;
-        }
-    }
-    if (!isJoined) {
-        inputs.push_back({net::Endpoint{}, groups});
-    }
-}
-
-/// Whether a port is heard on one address where the usual one is meant to be heard on all, for groups.
-bool isAlone(const std::vector<net::UdpInput>& inputs, const net::UdpInput& input) {
-    const QHostAddress address(QString::fromStdString(input.endpoint.host));
-    const bool isUsual = input.endpoint.port == net::Endpoint{}.port;
-    return isUsual && !address.isNull() && !address.isMulticast() &&
-           std::ranges::none_of(inputs, [](const auto& one) { return one.endpoint.host.empty(); });
-}
-
-net::NetResult<void> open(net::Receiver& receiver, const Places& places) {
-    for (const net::UdpInput& input : places.udp) {
-        if (const auto added = receiver.addUdp(input); !added) {
-            return tl::unexpected(added.error());
-        }
-    }
-    for (const net::Endpoint& endpoint : places.tcpListen) {
-        if (const auto added = receiver.addTcpListener(endpoint); !added) {
-            return tl::unexpected(added.error());
-        }
-    }
-    for (const net::Endpoint& endpoint : places.tcp) {
-        receiver.addTcpConnection(endpoint);
-    }
-    return {};
-}
-
-/// Names the port that the system chose, where port 0 asked for any that is free.
-void tellChosenPorts(const net::Receiver& receiver, const Places& places, Console& console) {
-    std::vector<net::Endpoint> asked;
-    std::ranges::transform(places.udp, std::back_inserter(asked), &net::UdpInput::endpoint);
-    asked.insert(asked.end(), places.tcpListen.begin(), places.tcpListen.end());
-    const std::vector<net::InputStatus> inputs = receiver.inputs(); // in the same order
-    for (std::size_t i = 0; i < asked.size(); ++i) {
-        if (asked[i].port == 0) {
-            console.complain("port 0 means any that is free: listening on " +
-                             net::textOf(inputs[i].endpoint) +
-                             (inputs[i].kind == net::InputKind::Udp ? " (UDP)" : " (TCP)"));
-        }
-    }
-}
-
-std::string placeOf(const net::InputStatus& input) {
-    return input.endpoint.host.empty() ? "port " + std::to_string(input.endpoint.port)
-                                       : net::textOf(input.endpoint);
-}
-
-void tellInputs(const net::Receiver& receiver, Console& console) {
-    for (const net::InputStatus& input : receiver.inputs()) {
-        const bool isConnection = input.kind == net::InputKind::TcpConnection;
-        console.complain((isConnection ? "connecting to " : "listening on ") + placeOf(input) +
-                         (input.kind == net::InputKind::Udp ? " (UDP)" : " (TCP)"));
-    }
-}
 
 /// Reports the failure of a recording at once, and only once, and each file of it that is gone.
 class RecordingWatch {
@@ -254,6 +172,7 @@ struct Watches {
     RecordingWatch recording;
     InputWatch inputs;
     OutletWatch outlet;
+    StageWatch stage;
     std::unique_ptr<outlets::Metrics> metrics; ///< null if they are not asked for
 };
 
@@ -300,7 +219,10 @@ double watch(const MonitorOptions& options, net::Receiver& receiver, MonitorRun&
         }
         run.show(factsOf(receiver, elapsed.count()), now);
         watches.recording.look(now);
-        watches.inputs.look(run.session(), kernel, now);
+        if (!options.stage.isAsked()) {
+            watches.inputs.look(run.session(), kernel, now);
+        }
+        watches.stage.look();
         const bool isInVain = options.record == "-" && watches.recording.hasFailed();
         if (run.isOver() || watches.outlet.isOver() || isInVain || (hasEnd && left.count() <= 0)) {
             return elapsed.count();
@@ -311,41 +233,14 @@ double watch(const MonitorOptions& options, net::Receiver& receiver, MonitorRun&
 
 } // namespace
 
-tl::expected<Places, std::string> placesOf(const MonitorOptions& options) {
-    const auto udp = endpointsOf(options.udp, "--udp", net::parseEndpoint);
-    const auto tcpListen = endpointsOf(options.tcpListen, "--tcp-listen", net::parseEndpoint);
-    const auto tcp = endpointsOf(options.tcp, "--tcp", net::parseTarget);
-    for (const auto* list : {&udp, &tcpListen, &tcp}) {
-        if (!*list) {
-            return tl::unexpected(list->error());
-        }
-    }
-    Places places{{}, *tcpListen, *tcp};
-    for (const net::Endpoint& endpoint : *udp) {
-        places.udp.push_back({endpoint, {}});
-    }
-    for (const net::Endpoint& endpoint : places.tcp) {
-        if (endpoint.host.empty()) {
-            return tl::unexpected("--tcp: " + std::to_string(endpoint.port) +
-                                  " has no host; write HOST:PORT, or --tcp-listen to wait for the sender");
-        }
-    }
-    if (udp->empty() && tcpListen->empty() && tcp->empty() && options.multicast.empty()) {
-        places.udp.emplace_back();
-    }
-    for (const net::UdpInput& input : places.udp) {
-        if (!options.multicast.empty() && isAlone(places.udp, input)) {
-            return tl::unexpected("--multicast: port " + std::to_string(input.endpoint.port) + " of " +
-                                  input.endpoint.host + " alone receives no multicast; write --udp " +
-                                  std::to_string(input.endpoint.port));
-        }
-    }
-    joinGroups(places.udp, options.multicast);
-    return places;
-}
-
 ExitStatus monitorNetwork(const MonitorOptions& options, Console& console) {
-    const auto places = placesOf(options);
+    if (const auto problem = options.stage.isAsked() ? options.stage.problem() : std::nullopt) {
+        return console.unusable(*problem);
+    }
+    auto places = placesOf(options);
+    if (places && options.stage.isAsked() && options.udp.empty() && options.multicast.empty()) {
+        places->udp.clear(); // probes alone
+    }
     if (!places) {
         return console.unusable(places.error());
     }
@@ -358,36 +253,29 @@ ExitStatus monitorNetwork(const MonitorOptions& options, Console& console) {
     int argumentCount = 1;
     const QCoreApplication application(argumentCount, arguments.data());
 
-    const auto allowed = net::AllowList::of(options.allowed);
-    if (!allowed) {
-        return console.unusable("--from: " + allowed.error().text);
-    }
     const log::SystemClock clock;
     MonitorRun run(options, console);
     auto receiver = std::make_unique<net::Receiver>(run.log(), clock);
-    receiver->listenTo(*allowed); // before the first port is open
-    if (const auto opened = open(*receiver, *places); !opened) {
-        return console.unusable(opened.error().text);
-    }
-    tellChosenPorts(*receiver, *places, console);
-    if (options.isVerbose) {
-        tellInputs(*receiver, console);
+    if (!openInputs(*places, options, options.isVerbose, *receiver, console)) {
+        return ExitStatus::Unusable;
     }
     const auto start = std::chrono::steady_clock::now();
-    Watches watches{{run, console}, {*receiver, console}, {run, console}, nullptr};
+    Watches watches{{run, console}, {*receiver, console}, {run, console}, {run, console}, nullptr};
     // A recording is begun once there is something to record.
     if (!serveMetrics(options, watches, console) ||
         (!options.record.empty() && !watches.recording.start(options)) ||
         !watches.outlet.start(options, clock, receiver->inputs())) {
         return ExitStatus::Unusable;
     }
+    watches.stage.start(options.stage, *receiver, clock);
     const double elapsedS = watch(options, *receiver, run, watches, start);
     watches.outlet.end();
     const log::Stamp over = run.log().timeline().now(clock);
     exporting::MonitorFacts facts = factsOf(*receiver, elapsedS);
     facts.exceeded = watches.inputs.silent();
     watches.inputs.end();
-    receiver.reset(); // what is in the sockets still comes into the log
+    watches.stage.end(); // it brings what it has to the receiver
+    receiver.reset();    // what is in the sockets still comes into the log
     const log::Stamp end = run.followToEnd(over);
     const ExitStatus recorded = watches.recording.stop(run.receptionOf(facts), end);
     return run.conclude(facts, recorded, end);

@@ -43,7 +43,7 @@ std::string limitText(const std::optional<double>& limit, const std::string& uni
                  : "none";
 }
 
-std::string placeOf(const model::SessionView& session, const log::StreamKey& key) {
+std::string streamText(const model::SessionView& session, const log::StreamKey& key) {
     return session.roster().addressOf(key.sender).shown() + ", " +
            session.roster().displayName({key.sender, key.character}).shown() + ", type " +
            wire::typeTitle(key.type);
@@ -51,7 +51,7 @@ std::string placeOf(const model::SessionView& session, const log::StreamKey& key
 
 std::string excessOf(const model::SessionView& session, const log::StreamKey& stream, const Limit& limit,
                      double value, double most, bool lasts = false) {
-    return placeOf(session, stream) + ": " + std::string(limit.name) + ' ' + exporting::fixed(value, 3) +
+    return streamText(session, stream) + ": " + std::string(limit.name) + ' ' + exporting::fixed(value, 3) +
            unitOf(limit) + (lasts ? ", which lasted to the end," : "") + " is above the limit of " +
            exporting::fixed(most, 3) + unitOf(limit);
 }

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/cli/monitor.h"
+#include "app/stage/stage_reader.h"
+
+#include <memory>
+#include <set>
+#include <string>
+
+namespace posewire::cli {
+
+/// The probes of a stage while `monitor` reads them.
+class StageWatch {
+public:
+    StageWatch(MonitorRun& run, Console& console) : m_run(run), m_console(console) {}
+
+    /// Begins to read, if the options ask for it.
+    void start(const StageOptions& options, net::Receiver& receiver, const log::Clock& clock);
+    /// Says what is wrong when that changes.
+    void look();
+    /// Nothing more comes of it.
+    void end() { m_reader.reset(); }
+
+private:
+    MonitorRun& m_run;
+    Console& m_console;
+    std::unique_ptr<stage::StageReader> m_reader;
+    std::string m_problem;          ///< told last
+    std::set<std::string> m_told;   ///< what is told once
+    std::set<std::string> m_silent; ///< probes
+};
+
+} // namespace posewire::cli

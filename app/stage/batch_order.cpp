@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/stage/batch_order.h"
+
+#include "app/stage/batch.h"
+
+#include <algorithm>
+#include <charconv>
+#include <string_view>
+#include <utility>
+
+namespace posewire::stage {
+namespace {
+
+std::optional<std::uint64_t> numberIn(const Message& batch, const char* header) {
+    const std::string text = headerOf(batch, header);
+    std::uint64_t number = 0;
+    const auto read = std::from_chars(text.data(), text.data() + text.size(), number);
+    return read.ec == std::errc() && read.ptr == text.data() + text.size() ? std::optional(number)
+                                                                           : std::nullopt;
+}
+
+} // namespace
+
+std::string probeOf(const Message& message) {
+    const std::string subject = subjectOf(message);
+    const std::size_t end = subject.rfind('.');
+    const std::size_t begin = end == std::string::npos || end == 0 ? end : subject.rfind('.', end - 1);
+    const std::string name =
+        begin == std::string::npos ? std::string() : subject.substr(begin + 1, end - begin - 1);
+    return isName(name) ? name : std::string();
+}
+
+BatchOrder::Taken BatchOrder::take(const Message& batch, const log::FileVisitor& visit) {
+    Taken taken;
+    taken.probe = probeOf(batch);
+    if (taken.probe.empty() || !isNews(m_courses[taken.probe], batch, taken)) {
+        return taken;
+    }
+    std::uint64_t missing = taken.lostOnWay;
+    const auto read = readBatch(bytesOf(batch), [&](const log::FileRecord& record) {
+        log::FileRecord handed = record;
+        handed.sender = record.sender.value_or(log::SenderInfo{});
+        handed.sender->probe = taken.probe;
+        if (const std::uint64_t before = std::exchange(missing, 0); before != 0) {
+            log::FileRecord lost = handed;
+            lost.bytes = {};
+            lost.comments = {};
+            lost.flags = {.skipped = true, .isDropRecord = true, .isLostOnWay = true};
+            lost.kernelDropsBefore = static_cast<std::uint32_t>(std::min<std::uint64_t>(before, UINT32_MAX));
+            visit(lost);
+        }
+        visit(handed);
+        ++taken.packets;
+    });
+    if (!read) {
+        taken.problem = "a batch of it is damaged: " + read.error().text;
+    }
+    return taken;
+}
+
+/// Notes where the probe is. False for what came before, or cannot be read.
+bool BatchOrder::isNews(Course& course, const Message& batch, Taken& taken) const {
+    const std::string run = headerOf(batch, kRunHeader);
+    const auto layout = numberIn(batch, kLayoutHeader);
+    const auto first = numberIn(batch, kFirstHeader);
+    const auto count = numberIn(batch, kCountHeader);
+    if (layout != kLayout || !first || !count || run.empty()) {
+        taken.problem = "it publishes in a layout that this version does not know; have the same version of "
+                        "Posewire on both computers";
+        return false;
+    }
+    if (course.runsBefore.contains(run)) {
+        taken.problem = "two probes of this name publish at the same time; give one of them another name";
+    }
+    if (run != course.run) {
+        constexpr std::size_t kMostRuns = 1000;
+        if (!course.run.empty() && course.runsBefore.size() < kMostRuns) {
+            course.runsBefore.insert(course.run);
+        }
+        course.next = *first;
+        course.run = run;
+    }
+    if (*first < course.next) {
+        return false;
+    }
+    taken.lostOnWay = *first - std::exchange(course.next, *first + *count);
+    return true;
+}
+
+} // namespace posewire::stage

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/stage/server.h"
+#include "core/log/recording_file.h"
+
+#include <cstdint>
+#include <map>
+#include <set>
+#include <string>
+
+namespace posewire::stage {
+
+/// Takes the batches of all probes of a site as a stream has them: each packet once, in the order of its
+/// probe, with the name of that in its sender.
+class BatchOrder {
+public:
+    struct Taken {
+        std::string probe;           ///< empty if the subject names none
+        std::uint64_t packets = 0;   ///< that are news
+        std::uint64_t lostOnWay = 0; ///< that the probe had before these, and that did not come
+        std::string problem; ///< what is wrong with the batch, or with who publishes; empty if all is well
+    };
+    /// Where packets are missing, a record of PacketFlags::isLostOnWay comes ahead of the next one.
+    Taken take(const Message& batch, const log::FileVisitor& visit);
+
+private:
+    /// Where a probe is in what it publishes.
+    struct Course {
+        std::string run;
+        std::set<std::string> runsBefore;
+        std::uint64_t next = 0; ///< number of the packet after the last one that came
+    };
+    [[nodiscard]] bool isNews(Course& course, const Message& batch, Taken& taken) const;
+
+    std::map<std::string, Course> m_courses;
+};
+
+/// "STAGE-A" of "posewire.SITE.STAGE-A.batch"; empty if it is no name.
+[[nodiscard]] std::string probeOf(const Message& message);
+
+} // namespace posewire::stage

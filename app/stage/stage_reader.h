@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/net/receiver.h"
+#include "app/stage/batch_order.h"
+#include "app/stage/server.h"
+#include "core/log/clock.h"
+#include "core/log/time.h"
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace posewire::stage {
+
+/// A probe as it is known at the other end.
+struct ProbeState {
+    std::string name;
+    bool isAlive = false;            ///< it was heard of within the last three seconds
+    log::Stamp lastHeard{};          ///< of our clock
+    std::string version;             ///< of Posewire there
+    std::string host;                ///< the name of its computer
+    std::uint64_t received = 0;      ///< packets of it that came here
+    std::uint64_t lostOnWay = 0;     ///< packets that it had received, and that did not come here
+    std::uint64_t kernelDropped = 0; ///< datagrams that its computer dropped
+    std::uint64_t waiting = 0;       ///< packets that no server has yet
+    std::uint64_t gone = 0;          ///< packets that its spool had no room for
+    std::uint64_t spoolBytes = 0;
+    /// What its clock is ahead of ours, by the exchange of the shortest way of late, and by how much that may
+    /// be wrong: half of that way (RFC 5905, section 8). Empty if it never answered.
+    std::optional<log::Duration> ahead{};
+    log::Duration uncertainty{};
+    std::string problem; ///< another layout, or another probe of the same name; empty if all is well
+};
+
+struct StageChoice {
+    ServerChoice servers;
+    std::string site;
+    std::optional<log::WallTime> since{}; ///< what was stored from then on; empty: what comes from now on
+};
+
+/// Brings what the probes of a site have published into a log, through its receiver: each packet once, in the
+/// order of its probe, with the name of that in its sender. Two threads of its own.
+class StageReader {
+public:
+    static constexpr log::Duration kDeadAfter = std::chrono::seconds(3);
+
+    /// Both must outlive it.
+    StageReader(net::Receiver& receiver, const log::PacketLog& log, const log::Clock& clock,
+                StageChoice choice);
+    ~StageReader();
+    StageReader(const StageReader&) = delete;
+    StageReader& operator=(const StageReader&) = delete;
+
+    // From any thread.
+    /// By name.
+    [[nodiscard]] std::vector<ProbeState> probes() const;
+    /// Why nothing comes just now, and what to do; empty if all is well.
+    [[nodiscard]] std::string problem() const;
+
+private:
+    void read(const std::stop_token& stop);
+    bool subscribe();
+    void take(const Message& batch);
+    void pulse(const std::stop_token& stop);
+    void takeHealth(const Message& health);
+    void compareClocks(Server& server);
+    void setProblem(std::string text);
+
+    net::Receiver& m_receiver;
+    const log::PacketLog& m_log;
+    const log::Clock& m_clock;
+    const StageChoice m_choice;
+
+    // Of the reading thread:
+    Subscription m_batches;
+    std::uint64_t m_nextInStream = 0; ///< 0 until the first one came
+    BatchOrder m_order;
+
+    mutable std::mutex m_mutex; ///< guards what follows
+    std::map<std::string, ProbeState> m_probes;
+    std::string m_problem;
+    std::shared_ptr<Server> m_server; ///< null until it was connected once
+    std::jthread m_reading;           ///< these use all of the above
+    std::jthread m_pulsing;
+};
+
+/// Hands out what the probes of a site received from one time to another, as far as a stream has it: in the
+/// order in which it was stored, which is not that of time where a probe had to wait for a server. What was
+/// stored more than five minutes after the end is not looked for. Fails with what is wrong.
+[[nodiscard]] net::NetResult<void> readPast(const ServerChoice& servers, const std::string& site,
+                                            log::WallTime since, log::WallTime until,
+                                            const log::FileVisitor& visit,
+                                            const log::IsCancelled& isCancelled);
+
+} // namespace posewire::stage
