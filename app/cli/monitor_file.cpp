@@ -143,9 +143,11 @@ private:
 ExitStatus monitorFile(const MonitorOptions& options, Console& console) {
     MonitorRun run(options, console);
     const Replay* reading = nullptr; // a file may have no end
-    const auto file = openInput(options.file, [&] {
+    const auto isOver = [&] {
         return run.isOver() || (reading != nullptr && (reading->isDone() || reading->isSilent()));
-    });
+    };
+    const auto file =
+        options.stage.isAsked() ? openPast(options.stage, isOver) : openInput(options.file, isOver);
     if (!file) {
         return console.unusable(file.error().text);
     }
@@ -238,7 +240,7 @@ Command addMonitorCommand(CommandLine& program) {
     Arguments arguments = program.addCommand(
         "monitor", "Watch streams: rate, loss, duplicates, order, jitter, gaps; record them; keep limits");
     addPlacesOrFile(arguments, *options);
-    addStage(arguments, options->stage).excludes(arguments.option("FILE"));
+    addStageTimes(arguments, options->stage).excludes(arguments.option("FILE"));
     arguments
         .add("--duration SECONDS", options->durationSeconds,
              "stop after this many seconds; 0: when interrupted, or at the end of FILE")
@@ -269,6 +271,7 @@ Command addMonitorCommand(CommandLine& program) {
     addLimits(arguments, options->limits);
     return {"monitor", [options](Console& console) {
                 options->isQuiet = options->record == "-";
+                options->file = options->stage.isPast() ? options->stage.pastName() : options->file;
                 return options->file.empty() ? monitorNetwork(*options, console)
                                              : monitorFile(*options, console);
             }};
@@ -314,8 +317,9 @@ Command addReportCommand(CommandLine& program) {
     Arguments arguments = program.addCommand(
         "report",
         "Write a report on a recording as HTML: what was received, what not, and whose fault it was");
-    arguments.add("FILE", options->file, "pcap, pcapng, or datagrams back to back; - for standard input")
-        .required();
+    addStageTimes(arguments, options->stage)
+        .excludes(arguments.add("FILE", options->file,
+                                "pcap, pcapng, or datagrams back to back; - for standard input"));
     arguments.add("-o,--output FILE", options->report, "the HTML file; - for standard output").required();
     addUp(arguments, options->up);
     addOutputs(arguments, options->replaces);
@@ -327,6 +331,10 @@ Command addReportCommand(CommandLine& program) {
                 if (options->fromSeconds && options->toSeconds &&
                     *options->fromSeconds >= *options->toSeconds) {
                     return console.unusable("--from must be before --to");
+                }
+                options->file = options->stage.isAsked() ? options->stage.pastName() : options->file;
+                if (options->file.empty()) {
+                    return console.unusable("FILE is missing: the recording that the report is to be about");
                 }
                 return monitorFile(*options, console);
             }};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/inputs.h"
 #include "app/cli/stage_options.h"
+#include "app/stage/past_source.h"
 #include "app/stage/probe.h"
 #include "app/system/interruption.h"
 #include "app/system/process_figures.h"
@@ -8,6 +9,7 @@
 #include "core/log/file_names.h"
 
 #include <QCoreApplication>
+#include <QDateTime>
 #include <QStandardPaths>
 #include <QSysInfo>
 
@@ -187,7 +189,42 @@ std::optional<std::string> StageOptions::problem() const {
     if (!stage::isName(site)) {
         return "--site: may have letters, digits, - and _, 64 at most";
     }
+    for (const auto& [option, text] : {std::pair("--since: ", since), std::pair("--until: ", until)}) {
+        if (!text.empty() && !wallTimeOf(text)) {
+            return option + text + " is no time; write 10:30, 10:30:15 or 2026-11-26T10:30";
+        }
+    }
     return std::nullopt;
+}
+
+std::optional<log::WallTime> wallTimeOf(const std::string& text) {
+    const QString given = QString::fromStdString(text);
+    QDateTime time = QDateTime::fromString(given, Qt::ISODateWithMs);
+    const QTime ofDay = QTime::fromString(given, Qt::ISODateWithMs);
+    if (!time.isValid() && ofDay.isValid()) { // the newest one that is not to come
+        time = QDateTime(QDate::currentDate(), ofDay);
+        time = time > QDateTime::currentDateTime() ? time.addDays(-1) : time;
+    }
+    return time.isValid() ? std::optional(log::WallTime(std::chrono::milliseconds(time.toMSecsSinceEpoch())))
+                          : std::nullopt;
+}
+
+tl::expected<std::unique_ptr<log::ByteSource>, log::FileError> openPast(const StageOptions& options,
+                                                                        log::IsCancelled isCancelled) {
+    if (const auto problem = options.problem()) {
+        return tl::unexpected(log::FileError{*problem});
+    }
+    const auto since = wallTimeOf(options.since);
+    if (!since) {
+        return tl::unexpected(log::FileError{"--since is missing: when the time begins that is wanted"});
+    }
+    auto source = stage::PastSource::open(options.servers, options.site, *since,
+                                          wallTimeOf(options.until).value_or(log::SystemClock().wall()),
+                                          std::move(isCancelled));
+    if (!source) {
+        return tl::unexpected(log::FileError{source.error().text});
+    }
+    return std::move(*source);
 }
 
 DeclaredOption addStage(Arguments arguments, StageOptions& options) {
@@ -217,6 +254,18 @@ DeclaredOption addStage(Arguments arguments, StageOptions& options) {
     add("--nats-ca FILE", options.servers.authorities, "certificates that sign those of the servers");
     add("--nats-certificate FILE", options.servers.certificate, "our own, if they ask for one");
     add("--nats-key FILE", options.servers.key, "the key of that");
+    return nats;
+}
+
+DeclaredOption addStageTimes(Arguments arguments, StageOptions& options) {
+    DeclaredOption nats = addStage(arguments, options);
+    arguments
+        .add("--since TIME", options.since,
+             "what was received from then on, as long as the servers keep it: 10:30, 10:30:15, or "
+             "2026-11-26T10:30")
+        .group("Servers of a stage")
+        .needs(nats);
+    arguments.add("--until TIME", options.until, "and until then").group("Servers of a stage").needs(nats);
     return nats;
 }
 

@@ -3,7 +3,9 @@
 
 #include "app/cli/command.h"
 #include "app/stage/server.h"
+#include "core/log/byte_io.h"
 
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -13,7 +15,15 @@ namespace posewire::cli {
 struct StageOptions {
     stage::ServerChoice servers; ///< without addresses: none
     std::string site;
+    std::string since; ///< time of day, or with its day; empty: from now on
+    std::string until; ///< empty: goes on
 
+    /// A time that is over: it is read as a file is.
+    [[nodiscard]] bool isPast() const { return !until.empty(); }
+    /// As a file is named.
+    [[nodiscard]] std::string pastName() const {
+        return site + " from " + since + (until.empty() ? "" : " to " + until);
+    }
     [[nodiscard]] bool isAsked() const { return !servers.addresses.empty(); }
     /// What is wrong with it; nothing if it can be tried.
     [[nodiscard]] std::optional<std::string> problem() const;
@@ -21,6 +31,14 @@ struct StageOptions {
 
 /// Adds `--nats`, which it returns, `--site` and what servers may ask for.
 DeclaredOption addStage(Arguments arguments, StageOptions& options);
+/// Adds `--since` and `--until` as well.
+DeclaredOption addStageTimes(Arguments arguments, StageOptions& options);
+
+/// When that was, or the next time of that day is: "10:30", "10:30:15.5", "2026-11-26 10:30".
+[[nodiscard]] std::optional<log::WallTime> wallTimeOf(const std::string& text);
+/// What the probes of the site received from `--since` to `--until`, or now.
+[[nodiscard]] tl::expected<std::unique_ptr<log::ByteSource>, log::FileError>
+openPast(const StageOptions& options, log::IsCancelled isCancelled);
 
 Command addProbeCommand(CommandLine& program);
 Command addStageCommand(CommandLine& program);

@@ -8,7 +8,8 @@ namespace posewire::cli {
 void StageWatch::start(const StageOptions& options, net::Receiver& receiver, const log::Clock& clock) {
     if (options.isAsked()) {
         m_reader = std::make_unique<stage::StageReader>(
-            receiver, m_run.log(), clock, stage::StageChoice{options.servers, options.site, {}});
+            receiver, m_run.log(), clock,
+            stage::StageChoice{options.servers, options.site, wallTimeOf(options.since)});
     }
 }
 

@@ -28,7 +28,7 @@ using model::Figure;
 using State = model::TakeVerdict::State;
 
 constexpr std::array<const char*, model::kLossCauses> kCauseLabels{"this_computer", "network", "sender",
-                                                                   "transport", "unknown"};
+                                                                   "unknown", "transport"};
 
 /// Makes a counter if the name ends in _total, else a gauge.
 MetricFamily family(std::string_view name, std::string_view help) {

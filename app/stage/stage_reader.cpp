@@ -218,46 +218,4 @@ void StageReader::compareClocks(Server& server) {
     }
 }
 
-net::NetResult<void> readPast(const ServerChoice& servers, const std::string& site, log::WallTime since,
-                              log::WallTime until, const log::FileVisitor& visit,
-                              const log::IsCancelled& isCancelled) {
-    constexpr log::Duration kLatest = std::chrono::minutes(5);
-    constexpr int kMostTries = 60; // of kLook each
-    const auto server = Server::connect(servers, "posewire-cli");
-    if (!server) {
-        return tl::unexpected(server.error());
-    }
-    const auto stream = (*server)->stream(site);
-    if (!stream) {
-        return tl::unexpected(stream.error());
-    }
-    BatchOrder order;
-    std::uint64_t next = 0;
-    Subscription batches;
-    for (int tries = 0; next <= stream->last && tries < kMostTries && !isCancelled(); ++tries) {
-        if (batches == nullptr) {
-            auto begun = (*server)->read(site, "posewire." + site + ".*.batch", next, since);
-            if (!begun) {
-                return tl::unexpected(begun.error());
-            }
-            batches = std::move(*begun);
-        }
-        const Message batch = Server::next(batches, kLook);
-        if (batch == nullptr) {
-            continue;
-        }
-        tries = 0;
-        next = sequenceOf(batch) + 1;
-        if (storedAt(batch) > until + kLatest) {
-            break;
-        }
-        order.take(batch, [&](const log::FileRecord& record) {
-            if (record.time && *record.time >= since && *record.time < until) {
-                visit(record);
-            }
-        });
-    }
-    return {};
-}
-
 } // namespace posewire::stage

@@ -91,12 +91,4 @@ private:
     std::jthread m_pulsing;
 };
 
-/// Hands out what the probes of a site received from one time to another, as far as a stream has it: in the
-/// order in which it was stored, which is not that of time where a probe had to wait for a server. What was
-/// stored more than five minutes after the end is not looked for. Fails with what is wrong.
-[[nodiscard]] net::NetResult<void> readPast(const ServerChoice& servers, const std::string& site,
-                                            log::WallTime since, log::WallTime until,
-                                            const log::FileVisitor& visit,
-                                            const log::IsCancelled& isCancelled);
-
 } // namespace posewire::stage

@@ -114,9 +114,12 @@ std::vector<const model::Gap*> gapsIn(const model::SessionView& session, const R
 /// Samples of which nothing or not all came, over time, in a colour for each cause.
 SvgPlot causePlot(const model::SessionView& session, const ReportSteps& steps) {
     // Colours and a grey: unknown is no culprit.
-    constexpr std::array<std::size_t, model::kLossCauses> kColours{1, 0, 3, 2, 6};
+    constexpr std::array<std::size_t, model::kLossCauses> kColours{1, 0, 3, 6, 2};
     SvgPlot plot{"Samples lost, by cause", SvgPlot::Form::StackedBars, plottedS(steps), {}, 1};
-    for (std::size_t cause = 0; cause < model::kLossCauses; ++cause) {
+    const bool hasProbes = std::ranges::any_of(
+        session.roster().senders(), [](const model::Sender& sender) { return !sender.info.probe.empty(); });
+    const std::size_t causes = hasProbes ? model::kLossCauses : model::kLossCauses - 1;
+    for (std::size_t cause = 0; cause < causes; ++cause) {
         plot.series.push_back({std::string(model::nameOf(static_cast<model::LossCause>(cause))),
                                kColours[cause], std::vector<double>(steps.count)});
     }
@@ -126,7 +129,7 @@ SvgPlot causePlot(const model::SessionView& session, const ReportSteps& steps) {
         values[std::min(static_cast<std::size_t>(step), values.size() - 1)] += samples;
     };
     for (const model::Gap* gap : gapsIn(session, steps)) {
-        for (std::size_t cause = 0; cause < model::kLossCauses; ++cause) {
+        for (std::size_t cause = 0; cause < causes; ++cause) {
             add(gap->toStamp, static_cast<model::LossCause>(cause), gap->shares[cause].lost);
         }
     }
@@ -262,9 +265,10 @@ HtmlTable tableOf(const std::string& title, std::span<const model::Figure> figur
     return HtmlTable(columns);
 }
 
-std::vector<std::string> lossCells(const model::StreamFigures& figures) {
+std::vector<std::string> lossCells(const model::StreamFigures& figures,
+                                   std::span<const model::Figure> causes) {
     std::vector<std::string> cells{escaped(wire::typeTitle(figures.key().type))};
-    addCells(cells, figures, model::kFigureOfCause);
+    addCells(cells, figures, causes);
     return cells;
 }
 
@@ -318,7 +322,8 @@ std::string streamTable(const model::SessionView& session, const model::Characte
                         const std::vector<model::StreamFigures>& figures, const ReportSteps& steps) {
     HtmlTable delivery(deliveryColumns());
     HtmlTable timing = tableOf("When it arrived", kTiming);
-    HtmlTable losses = tableOf("Whose loss", model::kFigureOfCause);
+    const auto causes = model::causeFiguresOf(*session.roster().find(key.sender));
+    HtmlTable losses = tableOf("Whose loss", causes);
     for (const model::Stream* stream : streamsByType(session, key)) {
         const auto own = std::ranges::find(figures, stream->key, &model::StreamFigures::key);
         if (own == figures.end()) {
@@ -328,9 +333,8 @@ std::string streamTable(const model::SessionView& session, const model::Characte
         if (own->isSampled()) {
             timing.add(timingCells(*own));
         }
-        if (std::ranges::any_of(model::kFigureOfCause,
-                                [&](model::Figure cause) { return own->count(cause) != 0; })) {
-            losses.add(lossCells(*own));
+        if (std::ranges::any_of(causes, [&](model::Figure cause) { return own->count(cause) != 0; })) {
+            losses.add(lossCells(*own, causes));
         }
     }
     return delivery.html() + (losses.isEmpty() ? "" : losses.html()) +

@@ -26,7 +26,7 @@ JsonValue causeJson(const std::optional<model::LossCause>& cause) {
         return {};
     }
     constexpr std::array<std::string_view, model::kLossCauses> kNames{"thisComputer", "network", "sender",
-                                                                      "transport", "unknown"};
+                                                                      "unknown", "transport"};
     return kNames[static_cast<std::size_t>(*cause)];
 }
 
@@ -56,8 +56,7 @@ JsonValue valueJson(const model::StreamFigures& figures, const model::FigureRow&
 JsonValue streamJson(const model::StreamFigures& figures) {
     JsonValue json{{"type", wire::typeDigits(figures.key().type)}};
     for (const model::FigureRow& row : model::figureTable()) {
-        const bool isOfProbes = row.figure == model::Figure::LostOnWay;
-        if (row.key.empty() || (isOfProbes && figures.count(row.figure) == 0)) {
+        if (row.key.empty() || (row.figure == model::Figure::LostOnWay && figures.count(row.figure) == 0)) {
             continue;
         }
         if (row.figure == model::Figure::Skew) {

@@ -35,8 +35,8 @@ enum class Kind : std::uint16_t {
     CauseThisComputer,
     CauseNetwork,
     CauseSender,
-    CauseTransport,
     CauseUnknown,
+    CauseTransport,
     // When something happened.
     Since,
     ToTheEnd,

@@ -33,8 +33,8 @@ constexpr std::array kTable{
     Wording{.kind = K::CauseThisComputer, .headline = {"this computer"}},
     Wording{.kind = K::CauseNetwork, .headline = {"network"}},
     Wording{.kind = K::CauseSender, .headline = {"sender's side"}},
-    Wording{.kind = K::CauseTransport, .headline = {"the way from the probe"}},
     Wording{.kind = K::CauseUnknown, .headline = {"cause unknown"}, .sentence = {"unknown"}},
+    Wording{.kind = K::CauseTransport, .headline = {"the way from the probe"}},
     // When something happened.
     Wording{.kind = K::Since, .headline = {"since {from}"}},
     Wording{.kind = K::ToTheEnd, .headline = {"{from} to the end"}},

@@ -24,13 +24,13 @@ struct TimeRange {
 };
 
 /// Whose loss it was. Transport is the way from a probe to here. Unknown is an answer: nothing is guessed.
-enum class LossCause : std::uint8_t { ThisComputer, Network, Sender, Transport, Unknown };
+enum class LossCause : std::uint8_t { ThisComputer, Network, Sender, Unknown, Transport };
 inline constexpr std::size_t kLossCauses = 5;
 
 /// Samples by LossCause.
 using LossesByCause = std::array<std::uint64_t, kLossCauses>;
 
-/// "this computer", "network", "sender", "transport", "unknown".
+/// "this computer", "network", "sender", "unknown", "transport".
 [[nodiscard]] std::string_view nameOf(LossCause cause);
 
 /// True if sample accounting applies to a message type: types 10 to 13 carry sample 0 and are sent again and

@@ -120,7 +120,7 @@ words::Fact lostFact(const Incident& incident, std::uint64_t samples, std::uint6
 words::Fact causeFact(LossCause cause) {
     using enum words::Kind;
     constexpr std::array<words::Kind, kLossCauses> kKinds{CauseThisComputer, CauseNetwork, CauseSender,
-                                                          CauseTransport, CauseUnknown};
+                                                          CauseUnknown, CauseTransport};
     return {kKinds[static_cast<std::size_t>(cause)]};
 }
 

@@ -18,8 +18,13 @@ void addLosses(LossesByCause& sums, const LossesByCause& more);
 
 /// The figure of a stream that says how much was lost by a cause, by LossCause.
 inline constexpr std::array kFigureOfCause{Figure::LostHere, Figure::LostOnNetwork, Figure::LostAtSender,
-                                           Figure::LostOnWay, Figure::LostUnknown};
+                                           Figure::LostUnknown, Figure::LostOnWay};
 static_assert(kFigureOfCause.size() == kLossCauses);
+/// Those that the losses of somebody can have: only who is heard by a probe loses anything on the way from
+/// it.
+inline std::span<const Figure> causeFiguresOf(const Sender& sender) {
+    return std::span(kFigureOfCause).first(sender.info.probe.empty() ? kLossCauses - 1 : kLossCauses);
+}
 
 /// What one stream lacks; the sum of all, without what was expected, is what it has lost and what is
 /// incomplete.
