@@ -21,6 +21,14 @@ std::optional<std::uint64_t> numberIn(const Message& batch, const char* header) 
 
 } // namespace
 
+bool isName(const std::string& name) {
+    constexpr std::size_t kMost = 64;
+    return !name.empty() && name.size() <= kMost && std::ranges::all_of(name, [](char one) {
+        return (one >= 'a' && one <= 'z') || (one >= 'A' && one <= 'Z') || (one >= '0' && one <= '9') ||
+               one == '-' || one == '_';
+    });
+}
+
 std::string probeOf(const Message& message) {
     const std::string subject = subjectOf(message);
     const std::size_t end = subject.rfind('.');

@@ -36,6 +36,9 @@ private:
     std::map<std::string, Course> m_courses;
 };
 
+/// A site or probe is named in subjects, files and tables: letters, digits, - and _, 64 at most.
+[[nodiscard]] bool isName(const std::string& name);
+
 /// "STAGE-A" of "posewire.SITE.STAGE-A.batch"; empty if it is no name.
 [[nodiscard]] std::string probeOf(const Message& message);
 

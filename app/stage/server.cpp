@@ -180,14 +180,6 @@ std::string meaningOf(int status, int streamError) {
 
 } // namespace
 
-bool isName(const std::string& name) {
-    constexpr std::size_t kMost = 64;
-    return !name.empty() && name.size() <= kMost && std::ranges::all_of(name, [](char one) {
-        return (one >= 'a' && one <= 'z') || (one >= 'A' && one <= 'Z') || (one >= '0' && one <= '9') ||
-               one == '-' || one == '_';
-    });
-}
-
 void MessageFreer::operator()(natsMsg* message) const {
     natsMsg_Destroy(message);
 }

@@ -35,9 +35,6 @@ struct ServerChoice {
     std::string key;          ///< file: of that certificate
 };
 
-/// A site or probe is named in subjects, files and tables.
-[[nodiscard]] bool isName(const std::string& name);
-
 struct MessageFreer {
     void operator()(__natsMsg* message) const;
 };

@@ -186,15 +186,17 @@ TEST(RecordingTexts, AreCutBetweenCharacters) {
 TEST(RecordingTexts, SayEveryOriginAndAreUnderstoodAgain) {
     for (const Transport transport :
          {Transport::Udp, Transport::Tcp, Transport::File, Transport::Performer}) {
-        for (unsigned bits = 0; bits < 16; ++bits) {
-            const PacketFlags flags{(bits & 1) != 0, (bits & 2) != 0, (bits & 4) != 0, (bits & 8) != 0};
+        for (unsigned bits = 0; bits < 32; ++bits) {
+            PacketFlags flags{(bits & 1) != 0, (bits & 2) != 0, (bits & 4) != 0, (bits & 8) != 0};
+            flags.isLostOnWay = (bits & 16) != 0;
+            const std::string probe = flags.isLostOnWay ? "STAGE-A" : "";
             for (const std::optional<std::string>& address :
                  {std::optional<std::string>{}, {""}, {"a; truncated"}, {"x; from y"}, {"\u00e9\n"}}) {
                 for (const std::int64_t setBy :
                      std::initializer_list<std::int64_t>{0, 1, -1, 1'500'000'000, -3'600'000'000'001}) {
-                    const RecordedOrigin origin{transport, flags, address, Duration(setBy)};
+                    const RecordedOrigin origin{transport, flags, address, Duration(setBy), probe};
                     EXPECT_EQ(parseOrigin(originText(origin)), origin) << originText(origin);
-                    EXPECT_EQ(parseOrigin(originText(origin) + "!").has_value(), address.has_value());
+                    EXPECT_EQ(parseOrigin(originText(origin) + ";").has_value(), address.has_value());
                 }
             }
         }

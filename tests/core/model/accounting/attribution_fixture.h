@@ -19,6 +19,8 @@ protected:
         std::uint8_t datagramCounter = 0x80;
         bool afterClosed = false;
         const char* address = "127.0.0.1:40001";
+        const char* probe = "";
+        bool isLostOnWay = false;
     };
 
     void put(std::uint32_t sample, const Sent& sent) {
@@ -40,9 +42,10 @@ protected:
         }
         log::Arrival arrival;
         arrival.stamp = m_at;
-        arrival.sender = m_log.senders().intern({sent.address, sent.transport, 9763});
+        arrival.sender = m_log.senders().intern({sent.address, sent.transport, 9763, sent.probe});
         arrival.kernelDropsBefore = sent.drops;
         arrival.flags.afterClosed = sent.afterClosed;
+        arrival.flags.isLostOnWay = sent.isLostOnWay;
         m_log.writer().append(bytes, arrival);
         m_log.writer().publish();
         m_now = m_at;

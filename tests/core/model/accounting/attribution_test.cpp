@@ -28,6 +28,33 @@ TEST_F(AttributionTest, BlamesThisComputerWhereItsCounterRose) {
     EXPECT_EQ(m_session.roster().streams().front().lostByCause()[0], 2U);
 }
 
+TEST_F(AttributionTest, BlamesTheWayForWhatAProbeHadReceived) {
+    frames(1, 50, {.probe = "A"});
+    m_at += 8ms;
+    put(53, {.drops = 2, .probe = "A", .isLostOnWay = true});
+    m_at += 4ms;
+    frames(54, 120, {.probe = "A"});
+    const Gap& gap = onlyGap();
+    EXPECT_EQ(gap.mainCause(), LossCause::Transport);
+    EXPECT_EQ(gap.of(LossCause::Transport).lost, 2U);
+    EXPECT_EQ(factOf(gap).kind, words::Kind::LostOnWay);
+    EXPECT_EQ(m_session.roster().senders().front().kernelDrops, 0U);
+    EXPECT_EQ(m_session.roster().streams().front().lostByCause(), (LossesByCause{0, 0, 0, 0, 2}));
+}
+
+TEST_F(AttributionTest, ExplainsNoLossByWhatAnotherComputerDropped) {
+    for (std::uint32_t sample = 1; sample <= 120; ++sample, m_at += 4ms) {
+        if (sample != 60) {
+            put(sample, {.probe = "A"});
+        }
+        put(sample, {.drops = sample == 61 ? 1U : 0U, .probe = "B"});
+    }
+    const Gap& gap = onlyGap();
+    ASSERT_EQ(m_session.roster().senders().size(), 2U);
+    EXPECT_EQ(gap.stream.sender, m_session.roster().senders().front().id);
+    EXPECT_EQ(gap.of(LossCause::ThisComputer).lost, 0U);
+}
+
 TEST_F(AttributionTest, BlamesTheNetworkWhereAnotherStreamBroughtTheSample) {
     for (std::uint32_t sample = 1; sample <= 100; ++sample, m_at += 4ms) {
         if (sample != 60) {
@@ -67,13 +94,13 @@ TEST_F(AttributionTest, CountsIncompleteSamplesByCauseToo) {
     follow();
     const Stream& stream = m_session.roster().streams().front();
     EXPECT_EQ(stream.accounting.counts().incomplete, 3U);
-    EXPECT_EQ(stream.lostByCause(), (std::array<std::uint64_t, 4>{1, 2, 0, 0}));
+    EXPECT_EQ(stream.lostByCause(), (LossesByCause{1, 2, 0, 0}));
     put(201, {.datagramCounter = 0x81});
     m_at += 4ms;
     frames(261, 262);
     follow();
     EXPECT_EQ(stream.accounting.counts().incomplete, 2U);
-    EXPECT_EQ(stream.lostByCause(), (std::array<std::uint64_t, 4>{1, 1, 0, 0}));
+    EXPECT_EQ(stream.lostByCause(), (LossesByCause{1, 1, 0, 0}));
 }
 
 TEST_F(AttributionTest, BlamesThisComputerForTheRestThatItDroppedWhileItWasStopped) {
@@ -84,8 +111,7 @@ TEST_F(AttributionTest, BlamesThisComputerForTheRestThatItDroppedWhileItWasStopp
     m_at += 4ms;
     frames(181, 300);
     follow();
-    EXPECT_EQ(m_session.roster().streams().front().lostByCause(),
-              (std::array<std::uint64_t, 4>{129, 0, 0, 0}));
+    EXPECT_EQ(m_session.roster().streams().front().lostByCause(), (LossesByCause{129, 0, 0, 0}));
 }
 
 TEST_F(AttributionTest, BlamesTheSenderForWhatIsIncompleteOnTcp) {
@@ -94,7 +120,7 @@ TEST_F(AttributionTest, BlamesTheSenderForWhatIsIncompleteOnTcp) {
     m_at += 4ms;
     frames(52, 120, {.transport = log::Transport::Tcp});
     follow();
-    EXPECT_EQ(m_session.roster().streams().front().lostByCause(), (std::array<std::uint64_t, 4>{0, 0, 1, 0}));
+    EXPECT_EQ(m_session.roster().streams().front().lostByCause(), (LossesByCause{0, 0, 1, 0}));
 }
 
 TEST_F(AttributionTest, CountsIncompleteMessagesByCauseToo) {
@@ -109,7 +135,7 @@ TEST_F(AttributionTest, CountsIncompleteMessagesByCauseToo) {
     follow();
     const Stream& stream = m_session.roster().streams().front();
     EXPECT_EQ(stream.accounting.counts().incomplete, 1U);
-    EXPECT_EQ(stream.lostByCause(), (std::array<std::uint64_t, 4>{0, 1, 0, 0}));
+    EXPECT_EQ(stream.lostByCause(), (LossesByCause{0, 1, 0, 0}));
 }
 
 TEST_F(AttributionTest, TakesAStreamThatEndsForNoLoss) {

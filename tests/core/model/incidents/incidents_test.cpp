@@ -100,8 +100,7 @@ TEST_F(IncidentsTest, TakeALossBackWhereTheSampleComesVeryLate) {
     pose(101);
     EXPECT_TRUE(of(IncidentKind::Loss).empty()) << "it is gone, not over";
     EXPECT_EQ(of(IncidentKind::Reordered).size(), 1U);
-    EXPECT_EQ(m_session.roster().find(log::StreamKey{sender(), 0, 2})->attributed,
-              (std::array<std::uint64_t, 4>{}));
+    EXPECT_EQ(m_session.roster().find(log::StreamKey{sender(), 0, 2})->attributed, (LossesByCause{}));
 }
 
 TEST_F(IncidentsTest, WaitLongerAfterASampleThatCameVeryLate) {
