@@ -39,7 +39,7 @@ JsonValue jsonOf(std::uint8_t type, const performer::SentFigures& sent) {
     JsonValue json{{"type", wire::typeDigits(type)}};
     for (const auto& [figure, value] : valuesOf(sent)) {
         const model::FigureRow& row = model::rowOf(figure);
-        if (wire::isSampled(type) || row.scope == model::FigureScope::Messages) {
+        if (wire::isSampled(type) || row.scope != model::FigureScope::Samples) {
             json[std::string(row.key)] = value;
         }
     }

@@ -157,7 +157,7 @@ MetricFamily incidents(const View& session) {
 MetricFamily lostOfAll(const View& session, const model::Losses& losses) {
     model::LossesByCause lost{};
     for (const model::Stream& stream : session.roster().streams()) {
-        model::addLosses(lost, losses.of(stream).byCause);
+        losses.addTo(lost, stream);
     }
     MetricFamily made = family("posewire_lost_samples",
                                "Samples lost or incomplete of all listed senders, by cause, as is known now: "

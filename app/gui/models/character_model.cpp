@@ -235,7 +235,7 @@ void CharacterModel::refresh() {
         }
         for (const model::Character* one : m_view.roster().lineage(key)) {
             for (const model::Stream* stream : one->streams) {
-                model::addLosses(row.lost, losses.of(*stream).byCause);
+                losses.addTo(row.lost, *stream);
             }
         }
         if (const model::CharacterPose* pose = m_view.messages().pose(key)) {

@@ -40,9 +40,8 @@ PropertyValue lostByCause(const Source& from) {
     model::LossesByCause lost{};
     std::uint64_t pending = 0;
     for (const model::Stream& stream : from.view.roster().streams()) {
-        const model::StreamLosses more = losses.of(stream);
-        model::addLosses(lost, more.byCause);
-        pending += more.pending;
+        losses.addTo(lost, stream);
+        pending += losses.of(stream).pending;
     }
     QStringList parts; // zeros only take room
     const auto add = [&](const QString& text, model::LossCause cause) {

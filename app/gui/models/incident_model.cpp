@@ -64,7 +64,7 @@ QString wordsOf(model::SessionView& view, const IncidentLine& line, words::Form 
 
 QString lostWords(const IncidentLine& line) {
     const std::uint64_t samples = line.settledPart != nullptr               ? line.settledPart->samples
-                                  : line.settled != nullptr && !line.isPart ? line.settled->samples
+                                  : line.settled != nullptr && !line.isPart ? line.settled->lost()
                                                                             : 0;
     return samples == 0 ? QString() : grouped(samples);
 }

@@ -129,20 +129,20 @@ constexpr std::array kRows{
               kGaps},
     FigureRow{LostHere, "causes.thisComputer", "Lost here", kCount, Sum::Sum, Trouble::Warning,
               lostBy<LossCause::ThisComputer>, "Samples, and parts of messages, that this computer dropped",
-              Of::Messages, "Here"},
+              Of::Rows, "Here"},
     FigureRow{LostOnNetwork, "causes.network", "Lost on the network", kCount, Sum::Sum, Trouble::Odd,
-              lostBy<LossCause::Network>, "Samples, and parts of messages, that the network lost",
-              Of::Messages, "Network"},
+              lostBy<LossCause::Network>, "Samples, and parts of messages, that the network lost", Of::Rows,
+              "Network"},
     FigureRow{LostAtSender, "causes.sender", "Lost at the sender", kCount, Sum::Sum, Trouble::Odd,
               lostBy<LossCause::Sender>, "Samples, and parts of messages, that the sender never sent",
-              Of::Messages, "Sender"},
+              Of::Rows, "Sender"},
     FigureRow{LostUnknown, "causes.unknown", "Lost of unknown cause", kCount, Sum::Sum, Trouble::Odd,
               lostBy<LossCause::Unknown>,
-              "Samples, and parts of messages, lost without evidence of the cause", Of::Messages, "Unknown"},
+              "Samples, and parts of messages, lost without evidence of the cause", Of::Rows, "Unknown"},
     FigureRow{LostOnWay, "causes.transport", "Lost on the way", kCount, Sum::Sum, Trouble::Odd,
               lostBy<LossCause::Transport>,
               "Samples, and parts of messages, that a probe had received and that did not come here",
-              Of::Messages, "Way"},
+              Of::Rows, "Way"},
     FigureRow{Bursts, "bursts", "Bursts", kCount, Sum::Sum, Trouble::Odd, pattern<&Pattern::bursts>,
               "Periods in which losses were less than 16 samples apart (RFC 3611 section 4.7.2), counted "
               "where they ended",
@@ -295,7 +295,7 @@ double StreamFigures::orZero(Figure figure) const {
 
 bool StreamFigures::has(Figure figure) const {
     const FigureRow& row = rowOf(figure);
-    return (m_isSampled || row.scope == FigureScope::Messages) && (!m_isSum || row.sum != FigureSum::None);
+    return (m_isSampled || row.scope != FigureScope::Samples) && (!m_isSum || row.sum != FigureSum::None);
 }
 
 FigureTrouble StreamFigures::trouble(Figure figure) const {
@@ -316,7 +316,7 @@ void StreamFigures::add(const StreamFigures& other) {
     const double own = expected();
     const double all = own + other.expected();
     for (const FigureRow& row : kRows) {
-        if (!other.m_isSampled && row.scope == FigureScope::Samples) {
+        if (!other.m_isSampled && row.scope != FigureScope::Messages) {
             continue; // a message of which only a part came is no sample
         }
         const double before = (*this)[row.figure];

@@ -139,8 +139,9 @@ enum class FigureSum : std::uint8_t {
 /// A count of losses is Odd, its share a Warning, so that one loss is said once in colour.
 enum class FigureTrouble : std::uint8_t { None, Odd, Warning, Error };
 
-/// Only streams that count samples, or messages (types 10 to 13) as well.
-enum class FigureScope : std::uint8_t { Samples, Messages };
+/// Only streams that count samples, or messages (types 10 to 13) as well: in their rows alone, or in sums
+/// too.
+enum class FigureScope : std::uint8_t { Samples, Rows, Messages };
 
 /// Decimals: of JSON, of reports and of the window. A share counts as percent in the last two.
 struct FigureDigits {

@@ -15,8 +15,8 @@ bool losesSamples(IncidentKind kind) {
 
 void addLosses(const Incident& incident, words::Fact& fact) {
     if (incident.samples != 0 || incident.kind == IncidentKind::Loss) {
-        fact.values.push_back({"missing", lostFact(incident, incident.samples, 0)});
-        fact.values.push_back({"amount", lostFact(incident, incident.samples, 0)});
+        fact.values.push_back({"missing", lostFact(incident, incident.lost(), 0)});
+        fact.values.push_back({"amount", lostFact(incident, incident.lost(), 0)});
     }
     if (!incident.isOfMessages() && incident.count != 0) {
         fact.values.push_back({"gaps", words::counted(words::Kind::Gaps, incident.count)});
@@ -133,9 +133,15 @@ std::optional<std::uint8_t> Incident::type() const {
 }
 
 bool Incident::isOfMessages() const {
-    return !parts.empty() && std::ranges::all_of(parts, [](const Part& part) {
-        return part.type && !countsSamples(*part.type);
-    });
+    return !parts.empty() && std::ranges::none_of(parts, &Part::isSampled);
+}
+
+std::uint64_t Incident::lost() const {
+    std::uint64_t messages = 0;
+    for (const Part& part : parts) {
+        messages += part.isSampled() ? 0 : part.samples;
+    }
+    return messages < samples ? samples - messages : samples;
 }
 
 bool Incident::isInBursts() const {
@@ -153,10 +159,14 @@ std::vector<std::uint8_t> Incident::types() const {
 }
 
 Incident Incident::of(std::span<const CharacterKey> which) const {
-    Incident own = *this;
-    std::erase_if(own.parts, [which](const Part& part) {
+    return without([which](const Part& part) {
         return part.character && std::ranges::count(which, *part.whose()) == 0;
     });
+}
+
+Incident Incident::without(const std::function<bool(const Part&)>& isLeftOut) const {
+    Incident own = *this;
+    std::erase_if(own.parts, isLeftOut);
     const bool isShared =
         std::ranges::any_of(parts, [](const Part& part) { return part.character.has_value(); });
     if (isShared && !own.parts.empty()) {

@@ -12,6 +12,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -102,6 +103,7 @@ struct Incident {
         [[nodiscard]] std::optional<CharacterKey> whose() const {
             return character ? std::optional(CharacterKey{sender, *character}) : std::nullopt;
         }
+        [[nodiscard]] bool isSampled() const { return !type || countsSamples(*type); }
     };
     static constexpr log::Duration kApart = std::chrono::milliseconds(100);
     /// So many missing in a row are seen: that is grave, whatever share of the stream they are.
@@ -140,11 +142,15 @@ struct Incident {
     [[nodiscard]] std::vector<std::uint8_t> types() const;
     /// All of it is of types that are sent again and again: what is missing are parts of messages.
     [[nodiscard]] bool isOfMessages() const;
+    /// Samples alone where both samples and messages were lost: a message is no sample.
+    [[nodiscard]] std::uint64_t lost() const;
     /// An outage of several silences, in which nothing was lost.
     [[nodiscard]] bool isInBursts() const;
     /// What of it was to one character, or to some; as a whole where it is of no character.
     [[nodiscard]] Incident of(const CharacterKey& character) const { return of(std::span(&character, 1)); }
     [[nodiscard]] Incident of(std::span<const CharacterKey> characters) const;
+    /// Without the parts of which a function says so, and what it counts of them.
+    [[nodiscard]] Incident without(const std::function<bool(const Part&)>& isLeftOut) const;
     /// Calls f(sender, samples) with what each sender lost.
     template <class Function>
     void forEachShare(Function&& f) const {

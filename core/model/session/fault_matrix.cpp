@@ -20,7 +20,7 @@ void add(CharacterFaults& character, const log::StreamKey& key, const FaultCount
     StreamFaults& stream = isThere ? *place : *character.streams.insert(place, {key.type});
     stream.counts += counts;
     stream.streams.push_back(key);
-    character.counts += counts;
+    character.counts += countsSamples(key.type) ? counts : FaultCounts();
 }
 
 } // namespace
@@ -54,9 +54,10 @@ FaultMatrix faultMatrix(const SessionView& session, const std::optional<TimeRang
         CharacterFaults& faults = character.isConfirmed ? *row : unconfirmed;
         for (const Stream* stream : character.streams) {
             const FaultCounts counts = countsOf(losses, *stream);
-            if (countsSamples(stream->key.type) || counts.total() != 0) {
+            const bool isSampled = countsSamples(stream->key.type);
+            if (isSampled || counts.total() != 0) {
                 add(faults, stream->key, counts);
-                matrix.sum += counts;
+                matrix.sum += isSampled ? counts : FaultCounts();
             }
         }
     }

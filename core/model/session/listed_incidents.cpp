@@ -164,13 +164,13 @@ words::Fact amountOf(const SessionView& session, const Incident& incident) {
     StreamCounts sum;
     for (const Incident::Part& part : incident.parts) {
         const Stream* stream = streamOf(session, part);
-        if (stream != nullptr) {
+        if (stream != nullptr && part.isSampled()) {
             sum += stream->accounting.countsBetween(incident.firstStamp,
                                                     incident.lastStamp + CountHistory::kFirstWidth);
         }
     }
     const bool isShort = incident.lastStamp - incident.firstStamp < kLeastOfShare;
-    return lostFact(incident, incident.samples, isShort ? 0 : sum.expected());
+    return lostFact(incident, incident.lost(), isShort ? 0 : sum.expected());
 }
 
 /// Who else sends it: "port 40002" of the same host.

@@ -85,6 +85,12 @@ StreamLosses Losses::of(const Stream& stream) const {
     return losses;
 }
 
+void Losses::addTo(LossesByCause& sums, const Stream& stream) const {
+    if (countsSamples(stream.key.type)) {
+        addLosses(sums, of(stream).byCause);
+    }
+}
+
 LossesByCause Losses::causesOf(const Stream& stream) const {
     if (!m_range) {
         return stream.lostByCause();

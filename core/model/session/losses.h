@@ -43,6 +43,8 @@ public:
     Losses(const SessionView& session, const std::optional<TimeRange>& range);
 
     [[nodiscard]] StreamLosses of(const Stream& stream) const;
+    /// Adds a stream to sums of samples; messages (types 10 to 13) are none, and count in their own rows.
+    void addTo(LossesByCause& sums, const Stream& stream) const;
     /// Every figure of a stream in the range, with whose losses they were; what is pending is not lost.
     [[nodiscard]] StreamFigures figuresOf(const Stream& stream) const;
     /// Most samples lost in a row, in the range.

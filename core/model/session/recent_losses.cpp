@@ -28,23 +28,42 @@ std::optional<words::Fact> RecentLosses::amountOf(const ListedIncident& one) {
     return sum.lost == 0 ? std::nullopt : std::optional(lostFact(incident, sum.lost, sum.expected));
 }
 
-bool RecentLosses::isAboveLimit(const Incident& incident) {
+double RecentLosses::limitOf(const Incident& incident) const {
+    return m_session.isRecording() ? incident.limit : m_session.verdicts().thresholds().lossPercent;
+}
+
+void RecentLosses::judge(Incident& incident) {
     const double window = m_session.verdicts().thresholds().windowS;
     const bool isUntilNow = m_range && m_range->to > m_session.now();
-    if (isUntilNow && log::secondsOf(m_session.now() - m_range->from) >= window) {
-        return std::ranges::any_of(incident.parts, &Incident::Part::isAbove);
+    if (incident.limit <= 0) {
+        return;
     }
-    const std::vector<double> shares =
-        judgedShares(incident, [&](const Incident::Part& part) { return shareOf(part, causeOf(incident)); });
-    const double limit =
-        m_session.isRecording() ? incident.limit : m_session.verdicts().thresholds().lossPercent;
-    return limit > 0 && std::ranges::any_of(shares, [&](double share) { return 100 * share > limit; });
+    if (!isUntilNow || log::secondsOf(m_session.now() - m_range->from) < window) {
+        const std::vector<double> shares = judgedShares(
+            incident, [&](const Incident::Part& part) { return shareOf(part, causeOf(incident)); });
+        const double limit = limitOf(incident);
+        for (std::size_t i = 0; i < shares.size(); ++i) {
+            incident.parts[i].isAbove = limit > 0 && 100 * shares[i] > limit;
+        }
+    }
+    incident.value = std::ranges::any_of(incident.parts, &Incident::Part::isAbove) ? incident.value : 0;
+}
+
+Incident RecentLosses::shownOf(const Incident& incident) {
+    const bool isGrave =
+        incident.kind == IncidentKind::Loss && incident.severity() == IncidentSeverity::Error;
+    if (!isGrave || 100 * shareOf(incident).ratio() > limitOf(incident)) {
+        return incident;
+    }
+    const Incident grave = incident.without(
+        [](const Incident::Part& part) { return !part.isAbove && !part.lastMany.has_value(); });
+    return grave.parts.empty() ? incident : grave;
 }
 
 LossShare RecentLosses::shareOf(const Incident& incident) {
     LossShare sum;
     for (const Incident::Part& part : incident.parts) {
-        sum += shareOf(part, causeOf(incident));
+        sum += part.isSampled() || incident.isOfMessages() ? shareOf(part, causeOf(incident)) : LossShare();
     }
     return sum;
 }

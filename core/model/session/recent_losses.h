@@ -21,13 +21,17 @@ public:
     /// How much a loss that began before that time lost in it. Nothing if the whole loss is reported: it
     /// began in that time, or it is over, so that the figure does not shrink, and began after the reset.
     [[nodiscard]] std::optional<words::Fact> amountOf(const ListedIncident& one);
-    /// Whether a part of it is above its limit: now, with the hysteresis of limits; of all there is, or just
-    /// after a reset, in that time.
-    [[nodiscard]] bool isAboveLimit(const Incident& incident);
+    /// Notes which parts of it are above their limit: now, with the hysteresis of limits; of all there is, or
+    /// just after a reset, in that time. It is graver only while one is.
+    void judge(Incident& incident);
+    /// What of a grave loss is shown: all of it, or only what makes it grave if that alone is above the
+    /// limit, so that a share below the limit is never what is wrong.
+    [[nodiscard]] Incident shownOf(const Incident& incident);
     [[nodiscard]] LossShare shareOf(const Incident& incident);
 
 private:
     [[nodiscard]] LossShare shareOf(const Incident::Part& part, std::size_t cause);
+    [[nodiscard]] double limitOf(const Incident& incident) const; ///< percent
 
     const SessionView& m_session;
     std::optional<TimeRange> m_range;

@@ -213,7 +213,7 @@ void easeTo(const VerdictSpan& span, RecentLosses& losses, Incident& incident) {
     if (incident.kind != IncidentKind::Loss) {
         return;
     }
-    incident.value = incident.limit > 0 && !losses.isAboveLimit(incident) ? 0 : incident.value;
+    losses.judge(incident);
     for (Incident::Part& part : incident.parts) {
         const bool isMeant = part.lastMany && *part.lastMany >= span.from && *part.lastMany <= span.to;
         part.lastMany = isMeant ? part.lastMany : std::nullopt;
@@ -298,8 +298,8 @@ public:
                 worst = std::move(mine);
             }
         }
-        if (worst && !character) {
-            worst->incident = graveOf(*worst);
+        if (worst) {
+            worst->incident = m_losses.shownOf(character ? worst->incident : graveOf(*worst));
         }
         return worst ? fromIncidents(m_session, besides(*worst, character.has_value()), isAnyBad, m_losses)
                      : withoutIncident(m_session, m_span, character, endOfTheLast(line));

@@ -102,7 +102,8 @@ TEST_F(FaultMatrixTest, WhoseLossTheRestOfASampleWasIsKnownInARangeToo) {
     m_at += 10ms;
     samples(0, 302, 400);
     const auto ofAll = matrix().sum.lost;
-    EXPECT_EQ(ofAll[kNetwork], 3U) << "part of a sample, its other type, and a message";
+    EXPECT_EQ(ofAll[kNetwork], 2U) << "part of a sample, and its other type";
+    EXPECT_EQ(matrix().characters[0].streams[1].counts.total(), 1U) << "a message is no sample";
     EXPECT_EQ(matrix(TimeRange{log::Stamp(0s), m_now + 1s}).sum.lost, ofAll);
 }
 

@@ -261,6 +261,43 @@ TEST_F(VerdictTest, NamesThoseWhoLostAboutAsMuchAsTheWorst) {
     EXPECT_EQ(reason().unit, Kind::Share);
 }
 
+TEST_F(VerdictTest, IsNotBadForLessThanItsLimit) {
+    for (std::uint32_t sample = 1; sample <= 2'000; ++sample, m_at += 10ms) {
+        if (sample % 150 != 0) { // 0.67 %
+            pose(sample);
+        }
+        if (sample % 80 != 0) { // 1.25 %, together less than the limit
+            poseOfOther(sample);
+        }
+    }
+    ASSERT_EQ(verdict().state, State::Bad) << verdict().said;
+    EXPECT_GT(reason().amount, 1) << verdict().said;
+    EXPECT_EQ(reason().who, Names{"Character 1"}) << "whose share it is";
+}
+
+/// Types 10 to 13 are in no share of samples, as in the figures beside it.
+TEST_F(VerdictTest, CountsNoMessageAsASample) {
+    for (std::uint32_t sample = 1; sample <= 2'000; ++sample, m_at += 10ms) {
+        poseOfOther(sample); // so that all is lost on the network
+        if (sample % 100 == 50) {
+            send(wire::ScaleInformation{}, 0, m_at, 0x00); // its second part never comes
+        }
+        if (sample % 20 != 0) {
+            pose(sample);
+        }
+    }
+    follow();
+    const Losses losses(m_session, TimeRange{recentSpan(m_session).from, m_now + 1s});
+    StreamFigures sum;
+    for (const Stream* stream : m_session.roster().find(CharacterKey{sender(), 0})->streams) {
+        sum.add(losses.figuresOf(*stream));
+    }
+    EXPECT_NEAR(reason().amount, sum[Figure::LossShare], 0.05) << verdict().said;
+    EXPECT_EQ(sum.count(Figure::LostOnNetwork), sum.count(Figure::Missing));
+    const Incident loss = of(IncidentKind::Loss).front();
+    EXPECT_LT(loss.lost(), loss.samples) << "all of it is in the sums of a script";
+}
+
 /// Of several streams that lose at random one is always above what all lose together.
 TEST_F(VerdictTest, IsBadForWhatACharacterLostAndNotForWhatChanceGaveOneOfItsStreams) {
     const auto send = [this](std::uint32_t sample, wire::Body body) {
