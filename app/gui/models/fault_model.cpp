@@ -83,7 +83,8 @@ std::vector<TableColumn<FaultRow>> FaultModel::columns(const FaultModel& model) 
     name.room = {.usual = tr("    ● All characters"), .isOpen = true, .whole = 16};
     name.more = [&model](const FaultRow& row, int role) { return model.marksOf(row, role); };
     name.spoken = [&model](const FaultRow& row) {
-        return row.kind == FaultRow::Character ? nameApart(model.m_view, row.current) : model.nameOf(row);
+        return row.kind == FaultRow::Character ? nameApart(namesBeside(model.m_view), row.current)
+                                               : model.nameOf(row);
     };
     FaultColumn expected = FaultColumn::numbers(
         tr("Expected"), tr("Samples that should have come; shares are of these"),
@@ -104,7 +105,7 @@ QString FaultModel::nameOf(const FaultRow& row) const {
     case FaultRow::All:
         return tr("All characters");
     case FaultRow::Character:
-        return characterName(m_view, row.current);
+        return characterName(namesBeside(m_view), row.current);
     case FaultRow::Unconfirmed:
         return tr("Unconfirmed");
     case FaultRow::Stream:
@@ -121,7 +122,7 @@ QVariant FaultModel::marksOf(const FaultRow& row, int role) const {
         return {};
     }
     if (role == kDotRole) {
-        return QVariant::fromValue(characterMark(m_view, row.current));
+        return QVariant::fromValue(characterMark(namesBeside(m_view), row.current));
     }
     const bool isTwice = std::ranges::any_of(m_rows, [&](const FaultRow& other) {
         return other.kind == FaultRow::Character && other.first != row.first &&
@@ -245,7 +246,8 @@ QString FaultModel::csv() const {
         numbers.push_back(std::to_string(row.counts.expected));
         const bool isOfOne = row.kind == FaultRow::Character || row.kind == FaultRow::Stream;
         const QString name =
-            isOfOne ? QString::fromStdString(m_view.roster().displayName(row.current).csv()) : nameOf(row);
+            isOfOne ? QString::fromStdString(namesBeside(m_view).roster().displayName(row.current).csv())
+                    : nameOf(row);
         text += line(
             {isOfOne ? QString::number(row.current.character) : QString(), name,
              row.kind == FaultRow::Stream ? QString::fromStdString(wire::typeDigits(row.type)) : QString()},

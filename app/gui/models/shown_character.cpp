@@ -80,7 +80,7 @@ QString senderApart(const model::SessionView& view, const model::CharacterKey& k
     return senderAmong(view, key, view.roster().namesakes(key));
 }
 
-CharacterMark characterMark(model::SessionView& view, const model::CharacterKey& key) {
+CharacterMark characterMark(const model::SessionView& view, const model::CharacterKey& key) {
     const model::Colour colour = view.roster().colour(key);
     return {QColor::fromRgbF(std::clamp(colour.red, 0.0F, 1.0F), std::clamp(colour.green, 0.0F, 1.0F),
                              std::clamp(colour.blue, 0.0F, 1.0F)),

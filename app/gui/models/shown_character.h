@@ -21,13 +21,17 @@ namespace posewire::gui {
 [[nodiscard]] model::Selection selectionOf(model::SessionView& view, const model::CharacterKey& key,
                                            std::optional<int> segment = {});
 
+/// The moment of the names beside figures of view.range(): figures of all there is have those of now.
+[[nodiscard]] inline const model::SessionView& namesBeside(const model::SessionView& view) {
+    return view.range() ? view : view.atNow();
+}
 [[nodiscard]] QString characterName(const model::SessionView& view, const model::CharacterKey& key);
 /// Its name, and what tells it from others of now that have the same: its ID, "Mira · 2", or where they share
 /// that too its sender, "Mira · 0 · :40002", by the port where they come from one host.
 [[nodiscard]] QString nameApart(const model::SessionView& view, const model::CharacterKey& key);
 /// The sender, as nameApart() says it; empty where name and ID are of nobody else.
 [[nodiscard]] QString senderApart(const model::SessionView& view, const model::CharacterKey& key);
-[[nodiscard]] CharacterMark characterMark(model::SessionView& view, const model::CharacterKey& key);
+[[nodiscard]] CharacterMark characterMark(const model::SessionView& view, const model::CharacterKey& key);
 
 /// The newest packet that the cursor lets through; 0 where there is none.
 [[nodiscard]] std::uint64_t newestVisiblePacket(model::SessionView& view);

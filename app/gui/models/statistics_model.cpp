@@ -304,9 +304,9 @@ std::string StatisticsModel::csvLine(const model::Stream& stream) const {
     const model::StreamFigures figures = m_losses->figuresOf(stream);
     const model::CharacterKey key = characterOf(stream.key);
     const model::Sender* sender = view().roster().find(key.sender);
-    std::vector<std::string> cells{sender == nullptr ? std::string() : sender->address().csv(),
-                                   std::to_string(key.character), view().roster().displayName(key).csv(),
-                                   wire::typeDigits(stream.key.type)};
+    std::vector<std::string> cells{
+        sender == nullptr ? std::string() : sender->address().csv(), std::to_string(key.character),
+        namesBeside(view()).roster().displayName(key).csv(), wire::typeDigits(stream.key.type)};
     for (const Column& column : kColumns) {
         if (column.figure) {
             cells.push_back(figureNumber(figures, *column.figure).toStdString());

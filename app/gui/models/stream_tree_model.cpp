@@ -157,7 +157,7 @@ QString StreamTreeModel::nameOf(const StreamRow& row) const {
         return shown(senderOf(row).address());
     }
     if (row.kind == Kind::Character) {
-        return characterName(m_view, characterOf(row.key));
+        return characterName(namesBeside(m_view), characterOf(row.key));
     }
     return typeTitle(row.key.type);
 }
@@ -181,7 +181,7 @@ QVariant StreamTreeModel::marksOf(const StreamRow& row, int role) const {
     }
     const model::CharacterKey key = characterOf(row.key);
     return role == kSuffixRole ? QVariant(QStringLiteral("· %1").arg(key.character))
-                               : QVariant::fromValue(characterMark(m_view, key));
+                               : QVariant::fromValue(characterMark(namesBeside(m_view), key));
 }
 
 std::optional<model::CharacterKey> StreamTreeModel::character(const QModelIndex& index) const {

@@ -103,6 +103,17 @@ TEST_F(StatisticsModelTest, ZeroIsQuietAndLossHasShapeColourAndText) {
               healthColour(Health::Warning));
 }
 
+TEST_F(StatisticsModelTest, NamesBesideFiguresOfAllAreOfAllWhateverTheCursor) {
+    performSeconds(3);
+    m_stage.sendMetadata("name:Mira\n", m_stage.now);
+    m_stage.session.setCursor({model::Cursor::Mode::Paused, 10});
+    refresh();
+    EXPECT_EQ(character().data().toString(), "Mira");
+    m_stage.commands.selectRange({.last = 10s});
+    refresh();
+    EXPECT_EQ(character().data().toString(), "Character 0") << "had sent no name by then";
+}
+
 TEST_F(StatisticsModelTest, FiguresAreOfTheRangeThatIsChosen) {
     performSeconds(20);
     EXPECT_EQ(text(stream(), Figure::Lost), "1");
