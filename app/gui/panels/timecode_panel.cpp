@@ -17,7 +17,8 @@ namespace posewire::gui {
 
 namespace {
 
-constexpr double kMostInDock = 3.6; ///< against the desktop's font: the verdict comes first
+constexpr double kMostInDock = 3.6;   ///< against the desktop's font: the verdict comes first
+constexpr double kMostOfHeight = 0.4; ///< but in a tall dock
 
 /// Pixel size at which `text` fits into `size`.
 int fittingPixelSize(QFont font, const QString& text, const QSizeF& size) {
@@ -67,8 +68,11 @@ void ClockWidget::paintEvent(QPaintEvent* event) {
     if (const QRect figures(below.left(), below.left() / 2, below.width(), below.top() - below.left() / 2);
         event->rect().intersects(figures)) {
         QFont large = monospaceFont();
-        const int most = isWindow() ? figures.height() : qRound(kMostInDock * fontMetrics().height());
-        large.setPixelSize(std::min(fittingPixelSize(large, m_text, figures.size()), most));
+        const bool isFree = isWindow() || window()->windowType() == Qt::Tool; // a dock that floats
+        const double most =
+            isFree ? figures.height()
+                   : std::max(kMostInDock * fontMetrics().height(), kMostOfHeight * figures.height());
+        large.setPixelSize(std::min(fittingPixelSize(large, m_text, figures.size()), qRound(most)));
         painter.setFont(large);
         painter.setPen(m_run == Run::Running ? theme().text : theme().dim);
         painter.drawText(figures, Qt::AlignCenter, m_text);

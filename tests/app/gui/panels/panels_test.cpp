@@ -354,6 +354,27 @@ TEST_F(PanelsTest, ClockStaysLargeInALowDock) {
     EXPECT_EQ(table->verticalScrollBarPolicy(), Qt::ScrollBarAsNeeded);
 }
 
+TEST_F(PanelsTest, ClockGrowsWithATallDock) {
+    m_stage.send(smallPose(), 1, 639'175, Stage::kStart);
+    const auto panel = open<TimecodePanel>();
+    auto* clock = panel->findChild<ClockWidget*>();
+    const auto inkOf = [&](int height) {
+        panel->resize(1600, height);
+        QApplication::processEvents(); // the layout
+        const QImage image = clock->grab().toImage();
+        const QRgb paper = image.pixel(image.width() / 2, 1);
+        int ink = 0;
+        for (int y = 0; y < image.height(); ++y) {
+            for (int x = 0; x < image.width(); ++x) {
+                ink += image.pixel(x, y) != paper ? 1 : 0;
+            }
+        }
+        return ink;
+    };
+    const int low = inkOf(300);
+    EXPECT_GT(inkOf(1'000), 2 * low);
+}
+
 TEST_F(PanelsTest, ShowsThePastWhilePaused) {
     performer::Performer performer(sending(1, {2, 12, 23}));
     m_stage.perform(performer, 0, 240);
