@@ -140,9 +140,10 @@ bool PressingKeys::eventFilter(QObject* watched, QEvent* event) {
     const QWidget* window = static_cast<QWidget*>(watched)->window();
     const bool isOfWindow = window == parent() || qobject_cast<const QDockWidget*>(window) != nullptr;
     const bool isSpace = !isOfWindow && isPlain(*key, {Qt::Key_Space, Qt::Key_Select});
+    // In a dialog Enter on a list is for the default button.
+    const bool isEnter = (isOfWindow || list == nullptr) && isPlain(*key, {Qt::Key_Return, Qt::Key_Enter});
     const QModelIndex box = table != nullptr ? boxOf(*table) : QModelIndex();
-    if (table != nullptr ? !isSpace || !box.isValid()
-                         : !isSpace && !isPlain(*key, {Qt::Key_Return, Qt::Key_Enter})) {
+    if (table != nullptr ? !isSpace || !box.isValid() : !isSpace && !isEnter) {
         return false;
     }
     event->accept();

@@ -78,6 +78,20 @@ TEST_F(KeyboardTest, EnterPressesTheButtonThatHasTheFocusAndSpaceOnlyInDialogs) 
     }
 }
 
+TEST_F(KeyboardTest, EnterOnAListIsForTheDefaultButtonOfItsDialog) {
+    QDialog dialog(&m_window);
+    QComboBox list(&dialog);
+    list.addItems({"this", "that"});
+    QPushButton button(&dialog);
+    button.setDefault(true);
+    int presses = 0;
+    QObject::connect(&button, &QPushButton::clicked, &m_window, [&] { ++presses; });
+    dialog.show();
+    QTest::keyClick(&list, Qt::Key_Return);
+    EXPECT_EQ(presses, 1);
+    EXPECT_FALSE(list.view()->isVisible());
+}
+
 TEST_F(KeyboardTest, SpaceInADialogTogglesTheBoxOfTheCurrentRowInWhateverColumn) {
     QDialog dialog(&m_window);
     QStandardItemModel model(3, 2);
