@@ -117,6 +117,7 @@ Settings settingsOf(const QJsonObject& object) {
     settings.fileFilter = object["fileFilter"].toString().left(Settings::kLongestFilter);
     settings.comparedFile = object["comparedFile"].toString();
     settings.take = object["take"].toString();
+    settings.recovered = object["recovered"].toString();
     settings.replayTarget = object["replayTarget"].toString().left(Settings::kLongestFilter);
     settings.isGuideOffered = object["tour"].toInt() > 0;
     for (const auto& path : object["recentFiles"].toArray()) {
@@ -255,6 +256,7 @@ QJsonObject jsonOf(const Settings& settings) {
             {"fileFilter", settings.fileFilter},
             {"comparedFile", settings.comparedFile},
             {"take", settings.take},
+            {"recovered", settings.recovered},
             {"replayTarget", settings.replayTarget},
             {"tour", settings.isGuideOffered ? 1 : 0},
             {"recentFiles", QJsonArray::fromStringList(settings.recentFiles)}};

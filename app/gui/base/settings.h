@@ -80,7 +80,8 @@ struct Settings {
     QString fileFilter;          ///< the display filter chosen for that
     QString comparedFile;        ///< what that, or what was received, was compared with; empty for none
     bool isGuideOffered = false; ///< at the first start
-    QString take;                ///< that is being recorded; empty once it has ended as it should
+    QString take;                ///< that is being recorded, or was cut off; empty once that has been seen
+    QString recovered;           ///< what an earlier run left and the operator has seen; empty for nothing
     QString replayTarget;        ///< that was sent to last; empty for none
     QStringList recentFiles;     ///< paths, the newest first, at most kMostRecentFiles
     static constexpr int kMostRecentFiles = 8;

@@ -324,7 +324,7 @@ Settings MainWindow::settings() const {
     settings.file = pathOf(file);
     settings.fileFilter =
         file != nullptr ? QString::fromStdString(file->session().choices().ownFilter()) : QString();
-    settings.take = m_driver.takes().state().value_or(TakeState()).path;
+    settings.take = m_driver.takes().state().value_or(TakeState{settings.take, 0, {}}).path;
     settings.comparedFile = pathOf(m_driver.files().comparing().file());
     return settings;
 }

@@ -102,8 +102,9 @@ bool Opening::eventFilter(QObject* /*window*/, QEvent* event) {
 
 bool Opening::tellRecovery(const QString& take) {
     const std::vector<log::LostHistory> lost = m_window.driver().history().lost();
+    const QString newest = lost.empty() ? QString() : QFile::decodeName(lost.back().path.c_str());
     QStringList lines;
-    if (!lost.empty()) {
+    if (!lost.empty() && newest != m_window.kept().recovered) {
         lines += tr("Posewire did not end as it should: packets until %1 are recovered.")
                      .arg(timeOfDay(lost.back().end).chopped(4));
     }
@@ -111,7 +112,12 @@ bool Opening::tellRecovery(const QString& take) {
         lines += tr("%1 was cut off, and is whole up to then.").arg(file.fileName());
         noteRecent(take);
     }
-    m_window.findChild<VerdictBar*>()->showRecovery(lines.join(QLatin1Char(' ')));
+    auto* bar = m_window.findChild<VerdictBar*>();
+    bar->showRecovery(lines.join(QLatin1Char(' ')));
+    connect(bar, &VerdictBar::recoveryDismissed, this, [this, newest] {
+        m_window.kept().recovered = newest;
+        m_window.kept().take.clear();
+    });
     return !lines.isEmpty();
 }
 

@@ -174,9 +174,12 @@ VerdictBar::VerdictBar(model::SessionView& live, const Actions& actions, QWidget
         painter.fillRect(m_strip->rect(), tinted(theme().accent));
         painter.fillRect(QRect(0, 0, 4, m_strip->height()), theme().accent);
     });
-    for (const QToolButton* button : {m_recovered, m_later}) {
-        connect(button, &QToolButton::clicked, this, [this] { m_recovery.clear(); });
-    }
+    const auto dismiss = [this] {
+        m_recovery.clear();
+        emit recoveryDismissed();
+    };
+    connect(actions.recovered, &QAction::triggered, this, dismiss);
+    connect(m_later, &QToolButton::clicked, this, dismiss);
     connect(m_headline, &QAbstractButton::clicked, this, &VerdictBar::showEvidence);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/window/health_bar.h"
+#include "app/gui/window/opening.h"
 #include "tests/app/gui/window/main_window_fixture.h"
 #include "tests/support/golden.h"
 #include "tests/support/paths.h"
@@ -32,6 +33,18 @@ TEST_F(MainWindowTest, EscapeStopsOpeningAFileAndIsForOthersElse) {
                     ->findChild<QLabel*>("message")
                     ->text()
                     .startsWith("Opening endless was stopped"));
+}
+
+TEST_F(MainWindowTest, TellsAtEachStartOfATakeThatWasCutOffUntilThatIsDismissed) {
+    Settings settings;
+    settings.take = folder.filePath("take.pcapng");
+    ASSERT_TRUE(QFile(settings.take).open(QIODevice::WriteOnly));
+    const auto window = makeWindow(settings);
+    EXPECT_TRUE(window->opening().tellRecovery(settings.take));
+    EXPECT_EQ(window->settings().take, settings.take);
+    action(*window, "recovered")->trigger();
+    EXPECT_EQ(window->settings().take, QString());
+    EXPECT_FALSE(window->opening().tellRecovery({}));
 }
 
 TEST_F(MainWindowTest, SaysWhatIsWrongWithACharacterAlsoWhereAFileIsOpenedMeanwhile) {

@@ -111,9 +111,11 @@ TEST_F(VerdictBarTest, TellsOfWhatTheLastRunHasLeftUntilItIsPutOff) {
     refresh({"take.pcapng", true, {}, {}});
     EXPECT_TRUE(button("recoveredButton")->isHidden());
     refresh();
+    const QSignalSpy dismissed(&m_bar, &VerdictBar::recoveryDismissed);
     button("recoveredButton")->click();
     refresh();
     EXPECT_TRUE(strip()->isHidden());
+    EXPECT_EQ(dismissed.count(), 1);
 }
 
 TEST_F(VerdictBarTest, SaysWhyNothingCanCome) {
