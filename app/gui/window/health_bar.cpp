@@ -95,11 +95,12 @@ HealthBar::HealthBar(model::SessionView& session, Commands& commands, QWidget* p
     connect(m_about, &QToolButton::clicked, this, [this] { openHelp(m_helpPlace); });
     new EventWatch(m_message, QEvent::Hide, [this] { m_about->hide(); });
     m_message->setObjectName(QStringLiteral("message"));
+    m_live->setObjectName(QStringLiteral("ofNow"));
     m_waysOut->setObjectName(QStringLiteral("waysOut"));
     m_waysOut->hide();
     row->addWidget(m_waysOut);
     connect(m_waysOut, &ColourText::clicked, this, &HealthBar::waysOutRequested);
-    for (QLabel* figure : {m_rate, m_history, m_dropped}) {
+    for (QLabel* figure : {m_history, m_live, m_rate, m_dropped}) {
         figure->setFont(tabularFont());
         const int margin = ColourText::marginsOf(figure->fontMetrics()) / 2; // as the buttons beside them
         figure->setContentsMargins(margin, 0, margin, 0);
@@ -143,7 +144,8 @@ void HealthBar::refresh(const ReceivingState& receiving) {
                    .arg(grouped(static_cast<std::uint64_t>(receiving.datagramsPerSecond)),
                         byteRateText(receiving.bytesPerSecond)));
     showFigure(*m_history, Health::Unknown, historyText(*m_session));
-    const Health untroubled = m_session->end() == 0 ? Health::Unknown : Health::Good;
+    const bool isQuiet = m_session->isRecording() || m_session->end() == 0;
+    const Health untroubled = isQuiet ? Health::Unknown : Health::Good;
     showFigure(*m_dropped, receiving.kernelDropped == 0 ? untroubled : Health::Error,
                tr("dropped here %1 in all").arg(grouped(receiving.kernelDropped)));
 }
@@ -172,6 +174,7 @@ void HealthBar::showWaysOut(const std::vector<WayOutState>& ways) {
 void HealthBar::refreshCharacters() {
     m_shown = boardOf(*m_session, BoardOrder::TroubleFirst);
     m_when->setText(m_session->isRecording() ? tr("Recording") : tr("Now"));
+    m_live->setVisible(m_session->isRecording());
     const bool isForMessage = m_shown.empty() && m_message->isVisible();
     qobject_cast<QHBoxLayout*>(layout())->setStretchFactor(m_entriesArea, isForMessage ? 0 : 1);
     while (m_entries.size() < std::min(m_shown.size(), kMostEntries)) {

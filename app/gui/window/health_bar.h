@@ -68,6 +68,8 @@ private:
     QString m_helpPlace;
     QLabel* m_when = dimLabel(tr("Now"), this); ///< the time that characters are judged by
     ColourText* m_waysOut;                      ///< only while something is handed on, or should be
+    QLabel* m_live =
+        dimLabel(tr("Now"), this); ///< while a recording is shown: the figures behind it are not its
     QLabel* m_rate = plainLabel(this);
     QLabel* m_history = plainLabel(this);
     QLabel* m_dropped = plainLabel(this);

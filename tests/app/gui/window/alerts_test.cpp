@@ -194,6 +194,15 @@ TEST_F(HealthBarTest, SaysWhyAndEachLineLeadsToItsPackets) {
     EXPECT_FALSE(popup->isVisible());
 }
 
+TEST_F(HealthBarTest, SaysWhatIsOfNowWhileARecordingIsShown) {
+    perform(0, 120);
+    const auto* label = m_bar.findChild<QLabel*>("ofNow");
+    EXPECT_TRUE(label->isHidden());
+    m_stage.session.endFile();
+    m_bar.refresh({});
+    EXPECT_FALSE(label->isHidden());
+}
+
 TEST_F(HealthBarTest, SaysThatAllCameWhereItIsGood) {
     perform(0, 240);
     EXPECT_EQ(lossText(m_stage.session, m_stage.key()),
