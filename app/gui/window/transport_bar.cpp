@@ -144,7 +144,6 @@ TransportBar::TransportBar(model::SessionView& session, const Actions& actions, 
     new EventWatch(this, QEvent::Resize, [this] {
         const bool isWide = width() > kWide * fontMetrics().averageCharWidth();
         if (std::exchange(m_isWide, isWide) != isWide) {
-            m_detail->setVisible(isWide);
             restyle();
         }
     });
@@ -159,7 +158,9 @@ TransportBar::TransportBar(model::SessionView& session, const Actions& actions, 
 
 void TransportBar::restyle() {
     m_add->setIcon(themedIcon(QStringLiteral("add")));
-    m_add->setText(m_isWide ? tr("Input") : QString());
+    m_add->setText(tr("Input"));
+    m_add->setToolButtonStyle(m_isWide ? Qt::ToolButtonTextBesideIcon : Qt::ToolButtonIconOnly);
+    layout()->setSpacing(m_isWide ? 10 : 6);
     QFont font = monospaceFont();
     font.setPointSizeF(font.pointSizeF() * kTimeScale);
     m_time->setFont(font);
@@ -276,18 +277,26 @@ void TransportBar::refresh() {
         m_time->setText(m_session->now() == log::Stamp()
                             ? QStringLiteral("--:--:--.---")
                             : timeOfDay(m_session->wallOf(m_session->cursorStamp())));
-        m_detail->setText({}, m_session->end() == 0 ? tr("nothing received yet") : tr("no pose"));
+        showDetail(m_session->end() == 0 ? tr("nothing received yet") : tr("no pose"));
         return;
     }
     // In the past it is the moment that is shown, as everything else in the window says it.
     const bool isPast = m_session->choices().cursor.mode == model::Cursor::Mode::Paused;
     m_time->setText(timeOfDay(m_session->wallOf(isPast ? m_session->cursorStamp() : pose->stamp)));
     const bool isPlaying = m_session->choices().cursor.speed != 0;
-    const QString inTake = isPlaying ? tr("playing · sample %1") : tr("paused · sample %1");
-    const QString live = isPlaying ? tr("playing · sample %1 · receiving goes on")
-                                   : tr("paused · sample %1 · receiving goes on");
+    const QString inTake = isPlaying ? tr("sample %1 · playing") : tr("sample %1 · paused");
+    const QString live = isPlaying ? tr("sample %1 · playing · receiving goes on")
+                                   : tr("sample %1 · paused · receiving goes on");
     const QString past = m_session->isRecording() ? inTake : live;
-    m_detail->setText({}, (isPast ? past : tr("received · sample %1")).arg(grouped(pose->sample)));
+    showDetail((isPast ? past : tr("sample %1 · received")).arg(grouped(pose->sample)));
+}
+
+/// With the range that is selected, which no dock may show.
+void TransportBar::showDetail(const QString& text) {
+    const bool isSelected = m_session->choices().range.fixed.has_value();
+    const QString selected = isSelected ? spanText(*m_session) : QString();
+    m_detail->setText(selected, isSelected ? QStringLiteral(" · ") + text : text);
+    m_detail->setToolTip(toolTipText(m_detail->text()));
 }
 
 void TransportBar::setReceiving(const ReceivingState& receiving) {
@@ -311,6 +320,9 @@ void TransportBar::setReceiving(const ReceivingState& receiving) {
         m_inputs.push_back(state.port);
         const PropertyValue now = inputState(state);
         show(now.health == Health::Good ? Health::Unknown : now.health, displayText(state.port), now.text);
+        // A narrow bar has room for one, and for those in trouble.
+        m_pills[shown - 1]->setVisible(m_isWide || shown == 1 || now.health == Health::Warning ||
+                                       now.health == Health::Error);
     }
     for (std::size_t i = shown; i < m_pills.size(); ++i) {
         m_pills[i]->setVisible(false);

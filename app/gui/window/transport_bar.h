@@ -61,6 +61,7 @@ private:
     void showMode(Mode mode);
     void followMode();
     [[nodiscard]] const model::CharacterPose* timedPose();
+    void showDetail(const QString& text);
 
     model::SessionView* m_session;
     const Actions m_actions;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/window/transport_bar.h"
 
+#include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
 #include "tests/app/gui/models/stage.h"
 
@@ -69,6 +70,44 @@ TEST_F(TransportBarTest, ButtonsAreWithoutTheirKeysInANarrowBar) {
     EXPECT_LT(m_bar.minimumSizeHint().width(), wide);
     m_bar.resize(2000, 40);
     EXPECT_TRUE(record->text().endsWith("   R"));
+}
+
+TEST_F(TransportBarTest, ANarrowBarHasRoomForWhatIsShownBesideSeveralInputs) {
+    performer::Performer one(sending(1, {2}, 60.0));
+    m_stage.perform(one, 0, 120);
+    m_stage.follow();
+    ReceivingState receiving;
+    for (const std::uint16_t port : std::array<std::uint16_t, 3>{41'000, 41'001, 41'002}) {
+        receiving.ports.emplace_back().port.port = port;
+    }
+    receiving.ports.back().problem = "taken";
+    m_bar.resize(960, 40);
+    m_bar.show();
+    m_bar.setReceiving(receiving);
+    m_bar.refresh();
+    const auto isShown = [this](const char* name) { return m_bar.findChild<QWidget*>(name)->isVisible(); };
+    EXPECT_TRUE(isShown("inputPill0"));
+    EXPECT_FALSE(isShown("inputPill1"));
+    EXPECT_TRUE(isShown("inputPill2")) << "in trouble";
+    auto* controls = m_bar.findChild<QWidget*>("timeControls");
+    QTest::qWait(1); // the layout follows
+    EXPECT_GE(controls->width(), controls->sizeHint().width());
+}
+
+TEST_F(TransportBarTest, SaysThatARangeIsSelectedAndMovesNothing) {
+    performer::Performer one(sending(1, {2}, 60.0));
+    m_stage.perform(one, 0, 120);
+    m_stage.follow();
+    m_bar.resize(1280, 40);
+    m_bar.show();
+    m_bar.refresh();
+    const auto* detail = m_bar.findChild<ElidedLabel*>();
+    EXPECT_FALSE(detail->text().contains("selection"));
+    const QRect place = detail->geometry();
+    m_stage.commands.selectRange({.fixed = model::TimeRange{Stage::kStart + 500ms, Stage::kStart + 1500ms}});
+    m_bar.refresh();
+    EXPECT_TRUE(detail->text().startsWith(spanText(m_stage.session)));
+    EXPECT_EQ(detail->geometry(), place);
 }
 
 TEST_F(TransportBarTest, PausingAndRecordingMoveNothing) {
