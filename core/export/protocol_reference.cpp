@@ -80,13 +80,6 @@ std::string row(std::initializer_list<std::string_view> cells) {
     return text + "|\n";
 }
 
-std::string typeRow(const wire::TypeInfo& info) {
-    const std::string title = wire::typeTitle(info.type);
-    return row({"[" + title + "](#" + headingAnchor(title) + ")", itemSizes(info),
-                info.frame == wire::Frame::None ? "–" : wire::frameName(info.frame),
-                info.isSampled ? "yes" : "no", info.revisions, info.section});
-}
-
 /// All types in one table with links to their sections, how they are sent, and what differs between
 /// revisions.
 void writeOverview(std::string& out) {
@@ -96,7 +89,10 @@ void writeOverview(std::string& out) {
            "| type | bytes an item | frame | sampled | revisions | section |\n"
            "|---|---|---|---|---|---|\n";
     for (const wire::TypeInfo& info : wire::typeTable()) {
-        out += typeRow(info);
+        const std::string title = wire::typeTitle(info.type);
+        out += row({"[" + title + "](#" + headingAnchor(title) + ")", itemSizes(info),
+                    info.frame == wire::Frame::None ? "–" : wire::frameName(info.frame),
+                    info.isSampled ? "yes" : "no", info.revisions, info.section});
     }
     out +=
         "\n## Transport\n\nUDP, or TCP since revision H; port 9763 unless set otherwise. Over UDP the sender "

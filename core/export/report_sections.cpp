@@ -207,15 +207,6 @@ void addColumns(std::vector<HtmlTable::Column>& columns, std::span<const model::
     }
 }
 
-std::vector<HtmlTable::Column> deliveryColumns() {
-    std::vector<HtmlTable::Column> columns{{"What arrived", false, ""},
-                                           {"Over time", false, "samples per second"}};
-    addColumns(columns, kRate);
-    columns.push_back({"Over time", false, "percent lost"});
-    addColumns(columns, kOrder);
-    return columns;
-}
-
 /// Empty where a figure says nothing.
 std::string cellOf(const model::StreamFigures& figures, model::Figure figure) {
     const model::FigureRow& row = model::rowOf(figure);
@@ -263,13 +254,6 @@ HtmlTable tableOf(const std::string& title, std::span<const model::Figure> figur
     std::vector<HtmlTable::Column> columns{{title, false, ""}};
     addColumns(columns, figures);
     return HtmlTable(columns);
-}
-
-std::vector<std::string> lossCells(const model::StreamFigures& figures,
-                                   std::span<const model::Figure> causes) {
-    std::vector<std::string> cells{escaped(wire::typeTitle(figures.key().type))};
-    addCells(cells, figures, causes);
-    return cells;
 }
 
 } // namespace
@@ -320,7 +304,12 @@ std::string plotSection(const model::SessionView& session, const ReportSteps& st
 
 std::string streamTable(const model::SessionView& session, const model::CharacterKey& key,
                         const std::vector<model::StreamFigures>& figures, const ReportSteps& steps) {
-    HtmlTable delivery(deliveryColumns());
+    std::vector<HtmlTable::Column> columns{{"What arrived", false, ""},
+                                           {"Over time", false, "samples per second"}};
+    addColumns(columns, kRate);
+    columns.push_back({"Over time", false, "percent lost"});
+    addColumns(columns, kOrder);
+    HtmlTable delivery(columns);
     HtmlTable timing = tableOf("When it arrived", kTiming);
     const auto causes = model::causeFiguresOf(*session.roster().find(key.sender));
     HtmlTable losses = tableOf("Whose loss", causes);
@@ -334,7 +323,9 @@ std::string streamTable(const model::SessionView& session, const model::Characte
             timing.add(timingCells(*own));
         }
         if (std::ranges::any_of(causes, [&](model::Figure cause) { return own->count(cause) != 0; })) {
-            losses.add(lossCells(*own, causes));
+            std::vector<std::string> cells{escaped(wire::typeTitle(own->key().type))};
+            addCells(cells, *own, causes);
+            losses.add(cells);
         }
     }
     return delivery.html() + (losses.isEmpty() ? "" : losses.html()) +

@@ -118,14 +118,6 @@ JsonValue senderJson(const model::SessionView& session, const model::Sender& sen
     return json;
 }
 
-JsonValue memoryJson(const model::MemoryFigures& memory) {
-    JsonValue json{{"sum", memory.sum()}, {"budget", memory.budget()}};
-    for (const model::MemoryFigures::Part& part : memory.parts) {
-        json[std::string(part.key)] = part.bytes;
-    }
-    return json;
-}
-
 JsonValue verdictJson(const model::SessionView& session, const model::TakeVerdict& verdict) {
     const bool isNone = verdict.state == model::TakeVerdict::State::None;
     return {{"state", model::nameOf(verdict.state)},
@@ -322,7 +314,11 @@ std::string monitorReport(const model::SessionView& session, const MonitorFacts&
                      {"incidents", listOf(model::listedIncidents(session),
                                           [&](const auto& one) { return incidentJson(session, one); })}};
     if (facts.hasMemory) {
-        report["memory"] = memoryJson(session.memory());
+        const model::MemoryFigures memory = session.memory();
+        report["memory"] = {{"sum", memory.sum()}, {"budget", memory.budget()}};
+        for (const model::MemoryFigures::Part& part : memory.parts) {
+            report["memory"][std::string(part.key)] = part.bytes;
+        }
     }
     return jsonText(report);
 }

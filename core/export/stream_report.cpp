@@ -134,14 +134,6 @@ void addCauses(std::vector<Finding>& findings, const model::StreamFigures& sum) 
     }
 }
 
-void addMessages(std::vector<Finding>& findings, const std::vector<model::StreamFigures>& streams) {
-    std::uint64_t incomplete = 0;
-    for (const model::StreamFigures& stream : streams) {
-        incomplete += stream.isSampled() ? 0 : stream.count(Incomplete);
-    }
-    addCounted(findings, incomplete, "message came only in part.", "messages came only in part.");
-}
-
 void addOrder(std::vector<Finding>& findings, const model::StreamFigures& sum) {
     addCounted(findings, sum.count(Duplicates), "datagram came more than once.",
                "datagrams came more than once.");
@@ -236,7 +228,11 @@ std::vector<Finding> findingsOn(const model::SessionView& session,
         findings.push_back(verdictFinding(session, options.range));
         findings.push_back(lossFinding(ofSamples));
         addCauses(findings, ofSamples);
-        addMessages(findings, streams);
+        std::uint64_t incomplete = 0;
+        for (const model::StreamFigures& stream : streams) {
+            incomplete += stream.isSampled() ? 0 : stream.count(Incomplete);
+        }
+        addCounted(findings, incomplete, "message came only in part.", "messages came only in part.");
         addOrder(findings, sum);
         addRestarts(findings, streams);
     }
@@ -343,20 +339,16 @@ std::string senderSection(const model::SessionView& session, const std::vector<m
     return html;
 }
 
-std::string settingsSection(const StreamReportOptions& options) {
-    std::string html;
-    for (const auto& [name, value] : options.settings) {
-        html += fact(name, escaped(value));
-    }
-    return html.empty() ? html : "<h2>Settings</h2>\n<dl class=\"facts\">\n" + html + "</dl>\n";
-}
-
 } // namespace
 
 std::string streamReport(const model::SessionView& session, const StreamReportOptions& options) {
     const std::vector<model::StreamFigures> figures = allFigures(session, options.range);
     const SenderTotals senders = session.accounts().eachSender(options.range);
     const ReportSteps steps = stepsOf(session, options.range);
+    std::string settings;
+    for (const auto& [name, value] : options.settings) {
+        settings += fact(name, escaped(value));
+    }
     return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
            "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
            "<title>Stream report</title>\n<style>" +
@@ -365,7 +357,9 @@ std::string streamReport(const model::SessionView& session, const StreamReportOp
            "<h2>What this is about</h2>\n<dl class=\"facts\">\n" + timeFacts(session, steps) +
            fact("Written by", escaped(options.application)) + "</dl>\n" + plotSection(session, steps) +
            senderSection(session, figures, senders, steps) + gapSection(session, steps) +
-           eventSection(session, steps) + settingsSection(options) + "</body>\n</html>\n";
+           eventSection(session, steps) +
+           (settings.empty() ? "" : "<h2>Settings</h2>\n<dl class=\"facts\">\n" + settings + "</dl>\n") +
+           "</body>\n</html>\n";
 }
 
 } // namespace posewire::exporting

@@ -279,14 +279,6 @@ void walkForm(Found& found) {
     });
 }
 
-template <class T>
-void walkMessage(Found& found) {
-    walkForm<T, Form::Standard>(found);
-    if constexpr (wire::kOtherForm<T> != Form::Standard) {
-        walkForm<T, wire::kOtherForm<T>>(found);
-    }
-}
-
 /// `sent`: the units on the wire, in words.
 void setUnits(FieldInfo& field, std::string sent) {
     const bool isMeasured = field.dimension != Dimension::None;
@@ -333,7 +325,12 @@ std::string together(const Draft& draft, Read read) {
 const Found& walked() {
     static const Found found = [] {
         Found all;
-        wire::Messages::forEach([&]<class T>() { walkMessage<T>(all); });
+        wire::Messages::forEach([&]<class T>() {
+            walkForm<T, Form::Standard>(all);
+            if constexpr (wire::kOtherForm<T> != Form::Standard) {
+                walkForm<T, wire::kOtherForm<T>>(all);
+            }
+        });
         return all;
     }();
     return found;

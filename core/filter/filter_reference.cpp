@@ -87,22 +87,17 @@ void writeRow(std::string& out, const FieldInfo& field, bool isOfPayload) {
     out.append(isOfPayload ? " | " + typesText(field) : "").append(" |\n");
 }
 
-/// A dimension's units on one line.
-void writeUnits(std::string& out) {
-    out += "| measures | units |\n|---|---|\n";
-    for (const UnitInfo& unit : unitTable()) {
-        if (&unit == &unitsOf(unit.dimension).front()) {
-            out.append("| ").append(dimensionName(unit.dimension)).append(" | ");
-            out.append(unitsText(unit.dimension)).append(" |\n");
-        }
-    }
-}
-
 } // namespace
 
 std::string filterReference() {
     std::string out(kLanguage);
-    writeUnits(out);
+    out += "| measures | units |\n|---|---|\n";
+    for (const UnitInfo& unit : unitTable()) {
+        if (&unit == &unitsOf(unit.dimension).front()) { // a dimension's units on one line
+            out.append("| ").append(dimensionName(unit.dimension)).append(" | ");
+            out.append(unitsText(unit.dimension)).append(" |\n");
+        }
+    }
     out += kRules;
     out += "\n## Fields of every packet\n\n| field | kind | unit | on the wire | meaning "
            "|\n|---|---|---|---|---|\n";

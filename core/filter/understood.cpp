@@ -365,14 +365,6 @@ tl::expected<Condition, FilterError> tagCondition(const FieldMatch& match, const
     return condition;
 }
 
-/// A flag alone, or a number that is 0 when absent, means "not 0".
-void setTruth(const FieldInfo& field, Condition& condition) {
-    if (condition.test.op == Operator::IsThere && (field.kind == Kind::Flag || field.isTrueByValue)) {
-        condition.test.op = Operator::NotEqual;
-        condition.test.ranges = {{0, 0}};
-    }
-}
-
 /// The constants as the values that the condition reads are.
 tl::expected<void, FilterError> setTests(const Asked& asked, const WrittenCondition& written,
                                          Condition& condition) {
@@ -431,7 +423,11 @@ tl::expected<Condition, FilterError> understood(const WrittenCondition& written)
     if (auto set = setTests({field, match.hasComponent, match.isAsSent}, written, condition); !set) {
         return Failure(set.error());
     }
-    setTruth(field, condition);
+    // A flag alone, or a number that is 0 when absent, means "not 0".
+    if (condition.test.op == Operator::IsThere && (field.kind == Kind::Flag || field.isTrueByValue)) {
+        condition.test.op = Operator::NotEqual;
+        condition.test.ranges = {{0, 0}};
+    }
     return condition;
 }
 

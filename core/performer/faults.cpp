@@ -10,7 +10,6 @@
 #include <cstdlib>
 #include <iterator>
 #include <span>
-#include <utility>
 
 namespace posewire::performer {
 namespace {
@@ -157,16 +156,6 @@ bool Faults::isReduced(std::uint32_t sample, log::Duration due) {
     return true;
 }
 
-void Faults::restartAt(log::Duration due, Sending& sending) {
-    const auto& restart = m_settings.restart;
-    if (m_epoch != 0 || !restart || due < fromSeconds(restart->atSeconds)) {
-        return;
-    }
-    m_epoch = 1;
-    m_shift = sending.origin.sample - restart->firstSample;
-    m_delivery.keepStragglers(std::abs(distance(sending.origin.sample, restart->firstSample)) > kFarRestart);
-}
-
 void Faults::offer(std::vector<std::byte> datagram, log::Duration due) {
     m_delivery.take(due, m_ready);
     const auto header = wire::decodeHeader(datagram);
@@ -183,7 +172,13 @@ void Faults::offer(std::vector<std::byte> datagram, log::Duration due) {
                 return;
             }
         }
-        restartAt(due, sending);
+        if (const auto& restart = m_settings.restart;
+            m_epoch == 0 && restart && due >= fromSeconds(restart->atSeconds)) {
+            m_epoch = 1;
+            m_shift = sending.origin.sample - restart->firstSample;
+            m_delivery.keepStragglers(std::abs(distance(sending.origin.sample, restart->firstSample)) >
+                                      kFarRestart);
+        }
         sending.origin.epoch = m_epoch;
         sending.origin.sample -= m_shift;
         wire::store32(sending.bytes.data() + kCounterOffset, sending.origin.sample);

@@ -126,7 +126,6 @@ public:
 private:
     [[nodiscard]] bool isPaused(log::Duration due) const;
     [[nodiscard]] bool isReduced(std::uint32_t sample, log::Duration due);
-    void restartAt(log::Duration due, Sending& sending);
     void send(Sending sending);
     void damage(Sending& sending, std::uint64_t key);
     bool loses(std::uint64_t key);

@@ -30,16 +30,6 @@ constexpr std::array<Mass, model::kBodySegmentCount> kMasses{{
 constexpr double kTabulatedSum = std::accumulate(
     kMasses.begin(), kMasses.end(), 0.0, [](double sum, const Mass& mass) { return sum + mass.share; });
 
-/// Place of the first point of each segment in the table of points.
-std::array<std::size_t, model::kBodySegmentCount> firstPoints() {
-    std::array<std::size_t, model::kBodySegmentCount> first{};
-    const auto points = model::anatomicalPoints();
-    for (std::size_t place = points.size(); place-- > 0;) {
-        first[static_cast<std::size_t>(points[place].segment)] = place;
-    }
-    return first;
-}
-
 double half(double degrees) {
     return 0.5 * degrees * model::kRadiansPerDegree;
 }
@@ -134,7 +124,14 @@ void differentiate(const ThreeMoments& moments, std::span<SegmentState> states) 
 }
 
 Vector3d centreOfMass(const model::ReferenceBody& body, std::span<const model::SegmentPose> segments) {
-    static const auto first = firstPoints();
+    static const auto first = [] { // place of the first point of each segment in the table of points
+        std::array<std::size_t, model::kBodySegmentCount> places{};
+        const auto points = model::anatomicalPoints();
+        for (std::size_t place = points.size(); place-- > 0;) {
+            places[static_cast<std::size_t>(points[place].segment)] = place;
+        }
+        return places;
+    }();
     Vector3d sum = Vector3d::Zero();
     for (std::size_t index = 0; index < kMasses.size(); ++index) {
         const Mass& mass = kMasses[index];

@@ -3,6 +3,7 @@
 
 #include "core/model/body/joint_angles.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -22,14 +23,6 @@ void perSegment(const Subject& subject, std::vector<Item>& items, Make make) {
         items.push_back(
             make(segmentId(subject.character.layout(), position, subject.dialect), states[place]));
     }
-}
-
-std::array<Eigen::Quaterniond, model::kBodySegmentCount> bodyOrientations(const CharacterMoment& moment) {
-    std::array<Eigen::Quaterniond, model::kBodySegmentCount> orientations;
-    for (std::size_t index = 0; index < orientations.size(); ++index) {
-        orientations[index] = moment.segments[index].pose.orientation;
-    }
-    return orientations;
 }
 
 void putDigits(std::uint64_t value, std::size_t first, std::size_t count, std::array<char, 12>& text) {
@@ -96,7 +89,10 @@ void perform(const Subject& subject, wire::PoseUnity& message) {
 }
 
 void perform(const Subject& subject, wire::JointAngles& message) {
-    const auto orientations = bodyOrientations(subject.moment);
+    std::array<Eigen::Quaterniond, model::kBodySegmentCount> orientations;
+    std::ranges::transform(std::span(subject.moment.segments).first<model::kBodySegmentCount>(),
+                           orientations.begin(),
+                           [](const SegmentState& state) { return state.pose.orientation; });
     std::array<Vector3d, model::kJointCount> angles;
     model::jointAngles(orientations, angles);
     for (std::size_t row = 0; row < angles.size(); ++row) {

@@ -55,15 +55,6 @@ bool isClear(const wire::Header& original, const wire::Header& now, const Origin
            isClearCounter(origin, now.sampleCounter, bounds.periodMs);
 }
 
-/// Damage to the payload alone; where it cannot be decoded any more, that is clear too.
-void flipPayload(Sending& sending, const KeyedRandom& random, std::uint64_t key) {
-    if (sending.bytes.size() > wire::kHeaderSize) {
-        const std::uint64_t bits = random.bits(key);
-        const std::size_t payload = sending.bytes.size() - wire::kHeaderSize;
-        sending.bytes[wire::kHeaderSize + bits % payload] ^= static_cast<std::byte>(1 + (bits >> 32) % 255);
-    }
-}
-
 wire::Datagram partOf(const wire::Datagram& whole, std::size_t part, std::size_t parts) {
     wire::Datagram datagram{whole.header, whole.body, {}};
     const std::size_t items = wire::dividableItems(datagram.body);
@@ -94,7 +85,12 @@ void corrupt(Sending& sending, const CorruptionBounds& bounds, const KeyedRandom
         }
     }
     sending.bytes = intact;
-    flipPayload(sending, random, next + 1);
+    // Damage to the payload alone; where it cannot be decoded any more, that is clear too.
+    if (sending.bytes.size() > wire::kHeaderSize) {
+        const std::uint64_t bits = random.bits(next + 1);
+        const std::size_t payload = sending.bytes.size() - wire::kHeaderSize;
+        sending.bytes[wire::kHeaderSize + bits % payload] ^= static_cast<std::byte>(1 + (bits >> 32) % 255);
+    }
     sending.isReadable = wire::decode(sending.bytes).has_value();
 }
 

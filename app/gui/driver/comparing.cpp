@@ -179,7 +179,11 @@ void Comparing::forgetResults() {
 }
 
 bool Comparing::follow(log::Duration most) {
-    finishSaving();
+    if (m_saving != nullptr && m_saving->isDone()) {
+        const QString problem = QString::fromStdString(m_saving->take());
+        m_saving.reset();
+        emit changed(problem.isEmpty() ? tr("Saved %1").arg(m_savingTo) : problem);
+    }
     if (m_file == nullptr) {
         return false;
     }
@@ -407,14 +411,6 @@ void Comparing::save(const QString& path) {
     m_saving = std::make_unique<Background<std::string>>(
         [order = m_shown, segments = m_state.range->segments, file = QFile::encodeName(path).toStdString()](
             const auto& progress) { return writeDifferences(order, segments, file, progress); });
-}
-
-void Comparing::finishSaving() {
-    if (m_saving != nullptr && m_saving->isDone()) {
-        const QString problem = QString::fromStdString(m_saving->take());
-        m_saving.reset();
-        emit changed(problem.isEmpty() ? tr("Saved %1").arg(m_savingTo) : problem);
-    }
 }
 
 } // namespace posewire::gui

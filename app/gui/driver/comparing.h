@@ -100,7 +100,6 @@ private:
     };
 
     void clear();
-    void finishSaving();
     void updatePair(model::SessionView& shown);
     [[nodiscard]] std::optional<exporting::CharacterPair> choosePair(model::SessionView& shown) const;
     void endWork();

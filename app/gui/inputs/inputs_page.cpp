@@ -100,19 +100,16 @@ private:
         QToolButton* copy;
     };
 
-    void addHostRow() {
-        const int row = kFirstHostRow + static_cast<int>(m_rows.size());
-        HostRow widgets{valueLabel(this), dimLabel({}, this), framedButton(tr("Copy"), {}, this)};
-        m_grid->addWidget(widgets.host, row, 1);
-        m_grid->addWidget(widgets.copy, row, 2);
-        m_grid->addWidget(widgets.interface, row, 3);
-        connect(widgets.copy, &QToolButton::clicked, this, [host = widgets.host] { copyText(host->text()); });
-        m_rows.push_back(widgets);
-    }
-
     void setHosts(const std::vector<net::LocalAddress>& hosts) {
         while (m_rows.size() < hosts.size()) {
-            addHostRow();
+            const int row = kFirstHostRow + static_cast<int>(m_rows.size());
+            HostRow widgets{valueLabel(this), dimLabel({}, this), framedButton(tr("Copy"), {}, this)};
+            m_grid->addWidget(widgets.host, row, 1);
+            m_grid->addWidget(widgets.copy, row, 2);
+            m_grid->addWidget(widgets.interface, row, 3);
+            connect(widgets.copy, &QToolButton::clicked, this,
+                    [host = widgets.host] { copyText(host->text()); });
+            m_rows.push_back(widgets);
         }
         for (std::size_t i = 0; i < m_rows.size(); ++i) {
             const bool isShown = i < hosts.size();

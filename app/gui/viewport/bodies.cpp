@@ -15,14 +15,6 @@ namespace posewire::gui {
 
 namespace {
 
-std::shared_ptr<const MannequinMeshes> loadMeshes(render::Detail detail) {
-    auto meshes = std::make_shared<MannequinMeshes>();
-    meshes->mesh = render::loadMannequin(detail);
-    meshes->lowMesh = render::loadMannequin(render::Detail::Low);
-    meshes->capsules = render::segmentCapsules(meshes->mesh);
-    return meshes;
-}
-
 constexpr float kAbsent = std::numeric_limits<float>::quiet_NaN();
 constexpr model::SegmentLayout kWithFingers{model::kBodySegmentCount, 0, model::kFingerSegmentCount};
 static_assert(render::kHandSegmentCount == model::kHandSegmentCount);
@@ -61,7 +53,11 @@ std::shared_ptr<const FigureBody> BodyFits::of(const render::NullPose& performer
         return known->second.body;
     }
     if (m_mannequin == nullptr) {
-        m_mannequin = loadMeshes(m_detail);
+        auto meshes = std::make_shared<MannequinMeshes>();
+        meshes->mesh = render::loadMannequin(m_detail);
+        meshes->lowMesh = render::loadMannequin(render::Detail::Low);
+        meshes->capsules = render::segmentCapsules(meshes->mesh);
+        m_mannequin = std::move(meshes);
     }
     if (m_entries.size() >= kMost) {
         m_entries.erase(

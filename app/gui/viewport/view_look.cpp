@@ -52,16 +52,6 @@ QRectF roomOf(const Figure& figure, const SceneFrame& frame) {
             QPointF(static_cast<double>(box.most.x), static_cast<double>(box.most.y))};
 }
 
-std::vector<QRectF> roomsOf(const SceneFrame& frame) {
-    std::vector<QRectF> rooms;
-    for (const Figure& figure : frame.figures) {
-        if (figure.body != nullptr && !figure.bounds.isEmpty()) {
-            rooms.push_back(roomOf(figure, frame));
-        }
-    }
-    return rooms;
-}
-
 /// A number on the floor, and where it appears, in logical pixels.
 struct FloorNumber {
     SceneText text;
@@ -85,7 +75,12 @@ void addCandidate(SceneText text, std::span<const QRectF> rooms, const SceneFram
 /// "x 1 m" where the axis crosses the lines of the grid; toward the horizon only as many as stand apart.
 void addFloorNumbers(SceneFrame& frame) {
     constexpr double kAbove = 18; // logical pixels
-    const std::vector<QRectF> rooms = roomsOf(frame);
+    std::vector<QRectF> rooms;
+    for (const Figure& figure : frame.figures) {
+        if (figure.body != nullptr && !figure.bounds.isEmpty()) {
+            rooms.push_back(roomOf(figure, frame));
+        }
+    }
     const double step = std::max(1.0, scaleStep(metresPerPixel(frame), kNumbersApart));
     std::vector<FloorNumber> numbers;
     for (const auto& [name, axis] : {std::pair{tr("x"), 0}, std::pair{tr("y"), 1}}) {

@@ -29,12 +29,6 @@ namespace {
 constexpr int kLeastLines = 3;
 constexpr int kKeyboardMark = 3;
 
-int leastHeight(const QWidget& content, int width) {
-    const QLayout* layout = content.layout();
-    const bool isWrapping = layout != nullptr && layout->hasHeightForWidth();
-    return isWrapping ? layout->totalMinimumHeightForWidth(width) : content.minimumSizeHint().height();
-}
-
 class DockScroll final : public QScrollArea {
 public:
     DockScroll(QWidget* content, QWidget* parent) : QScrollArea(parent) {
@@ -70,8 +64,11 @@ private:
     /// QScrollArea's own fitting would give content with wrapped texts the height it likes best.
     void fitContent() {
         const int width = viewport()->width();
-        const int height = std::max(maximumViewportSize().height(), leastHeight(*widget(), width));
-        widget()->resize(width, height);
+        const QLayout* layout = widget()->layout();
+        const bool isWrapping = layout != nullptr && layout->hasHeightForWidth();
+        const int least =
+            isWrapping ? layout->totalMinimumHeightForWidth(width) : widget()->minimumSizeHint().height();
+        widget()->resize(width, std::max(maximumViewportSize().height(), least));
     }
 };
 

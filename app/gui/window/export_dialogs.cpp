@@ -133,15 +133,11 @@ void MotionExportDialog::describe() {
 void MotionExportDialog::toggle() {
     if (m_watch->isActive()) {
         m_work->cancel();
-    } else {
-        askWhereToSave();
+        return;
     }
-}
-
-void MotionExportDialog::askWhereToSave() {
     const QString suffix = QLatin1String(format().suffix);
-    const QString path = gui::askWhereToSave(this, windowTitle(), QStringLiteral("motion.") + suffix,
-                                             fileFilter(format().kind, format().suffix));
+    const QString path = askWhereToSave(this, windowTitle(), QStringLiteral("motion.") + suffix,
+                                        fileFilter(format().kind, format().suffix));
     if (path.isEmpty()) {
         return;
     }
@@ -335,13 +331,10 @@ private:
             end(tr("Stopped: %1 of %2 pictures are written.")
                     .arg(m_series->written())
                     .arg(m_series->request().count));
-        } else {
-            askWhereToSave();
+            return;
         }
-    }
-    void askWhereToSave() {
         const QString path =
-            gui::askWhereToSave(this, windowTitle(), QStringLiteral("viewport.png"), tr("Pictures (*.png)"));
+            askWhereToSave(this, windowTitle(), QStringLiteral("viewport.png"), tr("Pictures (*.png)"));
         if (path.isEmpty()) {
             return;
         }

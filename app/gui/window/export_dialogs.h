@@ -40,7 +40,6 @@ private:
     void listCharacters();
     void describe();
     void toggle();
-    void askWhereToSave();
     [[nodiscard]] std::shared_ptr<Job> jobFor(const QString& path) const;
     void begin(std::shared_ptr<Job> job);
     void watch();

@@ -12,7 +12,6 @@
 #include "core/model/session/verdict.h"
 
 #include <QAbstractButton>
-#include <QLabel>
 #include <QPainter>
 #include <QPushButton>
 #include <QScreen>

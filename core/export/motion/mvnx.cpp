@@ -74,7 +74,11 @@ public:
                            xmlText(application) + "\" build=\"" + xmlText(application) + "\"/>\n" +
                            "<comment>Recorded from a network stream by " + xmlText(application) +
                            ": without sensors, velocities, contacts, props and fingers</comment>\n";
-        addSubject(text);
+        std::string rate;
+        appendNumber(m_survey.writtenRateHz(), rate);
+        text += "<subject label=\"" + xmlText(m_character.name) + "\" torsoColor=\"" +
+                model::colourText(m_character.colour) + "\" frameRate=\"" + rate + "\" segmentCount=\"" +
+                std::to_string(kBody) + '"' + dateAttributes() + " configuration=\"FullBody\">\n<comment/>\n";
         addSegments(text);
         text += "<sensors/>\n";
         addJoints(text);
@@ -138,14 +142,6 @@ private:
         return m_character.hasReceipt ? " recDate=\"" + dateText(start) + "\" recDateMSecsSinceEpoch=\"" +
                                             std::to_string(millisecondsOf(start)) + '"'
                                       : std::string();
-    }
-
-    void addSubject(std::string& text) const {
-        std::string rate;
-        appendNumber(m_survey.writtenRateHz(), rate);
-        text += "<subject label=\"" + xmlText(m_character.name) + "\" torsoColor=\"" +
-                model::colourText(m_character.colour) + "\" frameRate=\"" + rate + "\" segmentCount=\"" +
-                std::to_string(kBody) + '"' + dateAttributes() + " configuration=\"FullBody\">\n<comment/>\n";
     }
 
     void addSegments(std::string& text) const {

@@ -111,16 +111,6 @@ std::optional<double> scaleOf(const Body& body) {
                          : std::nullopt;
 }
 
-void measureHeight(const Body& body, NullPoseMeasures& measures) {
-    const auto top = pointOf(body.pose, body.places, "pTopOfHead");
-    if (top) {
-        measures.height = top->z() - measures.floor;
-    } else if (const auto scale = scaleOf(body)) {
-        measures.height = *scale * kReferenceStature;
-        measures.isEstimated = true;
-    }
-}
-
 void measureSpan(const Body& body, NullPoseMeasures& measures) {
     const auto right = pointOf(body.pose, body.places, "pRightTopOfHand");
     const auto left = pointOf(body.pose, body.places, "pLeftTopOfHand");
@@ -212,8 +202,14 @@ BodyOrigins bodyOf(const NullPose& pose) {
 NullPoseMeasures measure(const NullPose& pose) {
     const Body body{pose};
     NullPoseMeasures measures;
-    measures.floor = floorOf(body, kReferenceSoleDrop * scaleOf(body).value_or(1.0));
-    measureHeight(body, measures);
+    const auto scale = scaleOf(body);
+    measures.floor = floorOf(body, kReferenceSoleDrop * scale.value_or(1.0));
+    if (const auto top = pointOf(body.pose, body.places, "pTopOfHead")) {
+        measures.height = top->z() - measures.floor;
+    } else if (scale) {
+        measures.height = *scale * kReferenceStature;
+        measures.isEstimated = true;
+    }
     measureSpan(body, measures);
     for (const LengthRow& row : kLengths) {
         const bool hasSides = mirrored(row.from) != row.from || (row.to >= 0 && mirrored(row.to) != row.to);

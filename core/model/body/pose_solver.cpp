@@ -225,16 +225,12 @@ private:
     /// As it would be turned if nothing were known of the segment itself.
     [[nodiscard]] Quaterniond priorOf(std::size_t i) const {
         if (isSpine(i)) {
-            return spineTurn(i);
+            const Quaterniond& pelvis = m_solved.segments[segment::kPelvis].orientation;
+            return pelvis.slerp(kSpineShares[i - segment::kL5], m_solved.segments[segment::kT8].orientation);
         }
         const Quaterniond& parent = m_solved.segments[parentOf(i)].orientation;
         const bool isNeck = i == segment::kNeck && has(segment::kHead, &SegmentSource::orientation);
         return isNeck ? parent.slerp(kNeckShare, m_solved.segments[segment::kHead].orientation) : parent;
-    }
-
-    [[nodiscard]] Quaterniond spineTurn(std::size_t i) const {
-        const Quaterniond& pelvis = m_solved.segments[segment::kPelvis].orientation;
-        return pelvis.slerp(kSpineShares[i - segment::kL5], m_solved.segments[segment::kT8].orientation);
     }
 
     /// Turns a segment to what is known of its joints, its markers and the plane of its limb, and for the
@@ -252,19 +248,15 @@ private:
         }
         // That knees and elbows are hinges is an assumption: what they tell of the twist is no knowledge.
         const RotationRank rank = fitRotation(vectors, prior).rank;
-        addHinges(i, vectors);
-        m_solved.segments[i].orientation = fitRotation(vectors, prior).rotation;
-        source.isTwistAssumed = rank == RotationRank::Direction && !isSolvedSpine;
-        source.orientation =
-            rank == RotationRank::Nothing && !isSolvedSpine ? Provenance::Assumed : Provenance::Solved;
-    }
-
-    void addHinges(std::size_t i, std::vector<VectorPair>& vectors) const {
         for (const Hinge& hinge : hinges()) {
             if (static_cast<std::size_t>(hinge.upper) == i || static_cast<std::size_t>(hinge.lower) == i) {
                 addHinge(hinge, vectors);
             }
         }
+        m_solved.segments[i].orientation = fitRotation(vectors, prior).rotation;
+        source.isTwistAssumed = rank == RotationRank::Direction && !isSolvedSpine;
+        source.orientation =
+            rank == RotationRank::Nothing && !isSolvedSpine ? Provenance::Assumed : Provenance::Solved;
     }
 
     [[nodiscard]] bool isSpineKnown() const {

@@ -144,12 +144,6 @@ std::uint64_t Incident::lost() const {
     return messages < samples ? samples - messages : samples;
 }
 
-bool Incident::isInBursts() const {
-    constexpr std::uint64_t kLeast = 3;
-    return kind == IncidentKind::Outage && samples == 0 && value < kLongSilenceS &&
-           std::ranges::any_of(parts, [](const Part& part) { return part.count >= kLeast; });
-}
-
 std::vector<CharacterKey> Incident::characters() const {
     return eachOnce(parts, kCharacterOf);
 }
@@ -204,7 +198,9 @@ words::Fact Incident::fact() const {
     if (isLoss) {
         addLosses(*this, fact);
     }
-    if (isInBursts()) {
+    // An outage of several silences, in which nothing was lost.
+    if (kind == IncidentKind::Outage && samples == 0 && value < kLongSilenceS &&
+        std::ranges::any_of(parts, [](const Part& part) { return part.count >= 3; })) {
         fact = {words::Kind::InBursts, {{"value", words::Number{value, 1}}}};
     }
     addValue(*this, fact);

@@ -144,8 +144,6 @@ struct Incident {
     [[nodiscard]] bool isOfMessages() const;
     /// Samples alone where both samples and messages were lost: a message is no sample.
     [[nodiscard]] std::uint64_t lost() const;
-    /// An outage of several silences, in which nothing was lost.
-    [[nodiscard]] bool isInBursts() const;
     /// What of it was to one character, or to some; as a whole where it is of no character.
     [[nodiscard]] Incident of(const CharacterKey& character) const { return of(std::span(&character, 1)); }
     [[nodiscard]] Incident of(std::span<const CharacterKey> characters) const;

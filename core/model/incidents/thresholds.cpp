@@ -181,21 +181,15 @@ void ThresholdWatch::check(Stream& stream, log::Stamp stamp, Incidents& incident
     double& usualHz = stream.usualHz;
     if (usualHz > 0) {
         const double off = std::abs(rateHz - usualHz);
-        const double offPercent = off * m_thresholds.windowS > chanceOf(stream) ? 100 * off / usualHz : 0;
+        // By how many samples a clean window may differ from what is usual: its ends cut one off each; if the
+        // step is irregular, three standard deviations of what comes at random.
+        const double chance = accounting.step() != 0 ? 2 : 3 * std::sqrt(usualHz * m_thresholds.windowS);
+        const double offPercent = off * m_thresholds.windowS > chance ? 100 * off / usualHz : 0;
         hold(stream, {IncidentKind::RateLimit, offPercent, m_thresholds.ratePercent}, stamp, incidents);
     }
     // What lasts becomes usual: half of the way in about a minute of two checks a second.
     constexpr double kShare = 1.0 / 180;
     usualHz += usualHz > 0 ? (rateHz - usualHz) * kShare : rateHz;
-}
-
-/// By how many samples a clean window may differ from what is usual: the ends of the window cut one off each;
-/// where the step is irregular, three standard deviations of what comes at random.
-double ThresholdWatch::chanceOf(const Stream& stream) const {
-    constexpr double kEnds = 2;
-    constexpr double kDeviations = 3;
-    return stream.accounting.step() != 0 ? kEnds
-                                         : kDeviations * std::sqrt(stream.usualHz * m_thresholds.windowS);
 }
 
 /// Whether the sender sends at another rate than before, what it lost included, or may: it does where the

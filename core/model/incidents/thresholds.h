@@ -84,7 +84,6 @@ private:
     void check(Stream& stream, log::Stamp stamp, Incidents& incidents) const;
     void noteLosses(log::Stamp stamp, Incidents& incidents) const;
     [[nodiscard]] TimeRange windowBefore(log::Stamp stamp) const;
-    [[nodiscard]] double chanceOf(const Stream& stream) const;
     bool noteRate(Stream& stream, log::Stamp to, log::Stamp now, Incidents& incidents) const;
     void hold(const Stream& stream, const Measure& measure, log::Stamp stamp, Incidents& incidents) const;
 

@@ -107,22 +107,18 @@ void Content::take(const Observed& seen) {
                 {seen.character->key, seen.packet, *seen.datagram, *seen.stream}, *timeCode, m_incidents);
         }
         if (hasPoses(seen.header->type()) && seen.character->isConfirmed) {
-            takePose(seen);
+            Character& character = *seen.character;
+            const NullPose* nullPose =
+                character.isNullPoseUsable ? character.nullPoses->at(seen.packet.number) : nullptr;
+            character.content.take({character.key, seen.packet, *seen.datagram, *seen.stream,
+                                    seen.sender->positionUnit(seen.header->type()), seen.sender->up()},
+                                   nullPose, m_incidents);
         }
         if (BodyMeasure& body = seen.character->measuredBody;
             !body.isSettled() && hasPoses(seen.header->type()) && seen.character->nullPoses == nullptr) {
             body.add(*seen.datagram, seen.sender->positionUnit(seen.header->type()));
         }
     }
-}
-
-void Content::takePose(const Observed& seen) {
-    Character& character = *seen.character;
-    const NullPose* nullPose =
-        character.isNullPoseUsable ? character.nullPoses->at(seen.packet.number) : nullptr;
-    character.content.take({character.key, seen.packet, *seen.datagram, *seen.stream,
-                            seen.sender->positionUnit(seen.header->type()), seen.sender->up()},
-                           nullPose, m_incidents);
 }
 
 void Content::takeMetadata(const wire::MetaData& message, const Observed& seen) {

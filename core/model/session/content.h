@@ -38,7 +38,6 @@ public:
 private:
     void takeMetadata(const wire::MetaData& message, const Observed& seen);
     void takeNullPose(const wire::NullPose& part, const Observed& seen);
-    void takePose(const Observed& seen);
     void lookForFragments(const Sender& sender, log::Stamp stamp);
     void compareClocks(log::Stamp stamp);
 

@@ -142,7 +142,13 @@ std::optional<UpAxis> upNamed(std::string_view name) {
 void Detector::addHeader(const wire::Header& header) {
     const std::uint8_t type = header.type();
     const bool isCounted = header.bodySegments != 0 || header.payloadSize != 0;
-    noteHeaderForm(type, isCounted ? kCounted : kReserved);
+    const HeaderForm form = isCounted ? kCounted : kReserved;
+    m_allForms |= form;
+    std::uint8_t& forms = m_headerForms[type % m_headerForms.size()];
+    forms |= form;
+    if (forms == kBoth && !m_typeOfBothForms) {
+        m_typeOfBothForms = type;
+    }
     const wire::TypeInfo* info = wire::findType(type);
     if (!m_typeSinceJ && isSinceJ(info)) {
         m_typeSinceJ = type;
@@ -159,15 +165,6 @@ void Detector::addHeader(const wire::Header& header) {
 void Detector::conclude(Revision revision, words::Fact evidence) {
     m_revision = revision;
     m_revisionEvidence = std::move(evidence);
-}
-
-void Detector::noteHeaderForm(std::uint8_t type, HeaderForm form) {
-    m_allForms |= form;
-    std::uint8_t& forms = m_headerForms[type % m_headerForms.size()];
-    forms |= form;
-    if (forms == kBoth && !m_typeOfBothForms) {
-        m_typeOfBothForms = type;
-    }
 }
 
 template <class Value>

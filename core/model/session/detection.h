@@ -98,7 +98,6 @@ private:
     enum HeaderForm : std::uint8_t { kReserved = 1, kCounted = 2, kBoth = 3 };
 
     void conclude(Revision revision, words::Fact evidence);
-    void noteHeaderForm(std::uint8_t type, HeaderForm form);
     [[nodiscard]] std::optional<words::Fact> againstRevision(Revision declared) const;
     void addUp(const wire::Body& body);
 

@@ -106,14 +106,6 @@ ListedIncident provisionalOf(const SessionView& session, log::SenderId sender, c
     return listed;
 }
 
-/// A type of it that ended has not come back.
-bool isMissingStill(const SessionView& session, const Incident& incident) {
-    return std::ranges::any_of(incident.parts, [&](const Incident::Part& part) {
-        const Stream* stream = streamOf(session, part);
-        return stream != nullptr && stream->hasEnded;
-    });
-}
-
 /// What did not happen again for much longer than it took between the times it did, or for a second: more of
 /// it would be of the same incident, but it does not go on. What comes at random pauses for so long once in
 /// 150 times.
@@ -123,7 +115,11 @@ bool hasCeased(const SessionView& session, const Incident& incident) {
     const auto repeats = static_cast<std::int64_t>(incident.times - 1);
     const log::Duration between =
         repeats == 0 ? log::Duration() : (incident.lastStamp - incident.firstStamp) / repeats;
-    if (incident.kind == IncidentKind::Step && isMissingStill(session, incident)) {
+    const auto isMissingStill = [&](const Incident::Part& part) {
+        const Stream* stream = streamOf(session, part);
+        return stream != nullptr && stream->hasEnded;
+    };
+    if (incident.kind == IncidentKind::Step && std::ranges::any_of(incident.parts, isMissingStill)) {
         return false;
     }
     const bool isLoss = incident.kind == IncidentKind::Loss || incident.kind == IncidentKind::Local;
