@@ -18,8 +18,12 @@ void addLosses(const Incident& incident, words::Fact& fact) {
         fact.values.push_back({"missing", lostFact(incident, incident.lost(), 0)});
         fact.values.push_back({"amount", lostFact(incident, incident.lost(), 0)});
     }
-    if (!incident.isOfMessages() && incident.count != 0) {
-        fact.values.push_back({"gaps", words::counted(words::Kind::Gaps, incident.count)});
+    std::uint64_t gaps = incident.count;
+    for (const Incident::Part& part : incident.parts) {
+        gaps -= part.isSampled() ? 0 : std::min(gaps, part.count);
+    }
+    if (gaps != 0) {
+        fact.values.push_back({"gaps", words::counted(words::Kind::Gaps, gaps)});
     }
     if (incident.cause) {
         fact.values.push_back({"cause", causeFact(*incident.cause)});

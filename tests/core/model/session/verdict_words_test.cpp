@@ -295,6 +295,7 @@ TEST_F(VerdictTest, CountsNoMessageAsASample) {
     EXPECT_NEAR(reason().amount, sum[Figure::LossShare], 0.05) << verdict().said;
     EXPECT_EQ(sum.count(Figure::LostOnNetwork), sum.count(Figure::Missing));
     const Incident loss = of(IncidentKind::Loss).front();
+    EXPECT_EQ(partOf(loss.fact(), "gaps"), words::counted(Kind::Gaps, loss.lost())) << "each is one sample";
     EXPECT_LT(loss.lost(), loss.samples) << "all of it is in the sums of a script";
 }
 
