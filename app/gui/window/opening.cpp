@@ -102,7 +102,8 @@ bool Opening::eventFilter(QObject* /*window*/, QEvent* event) {
 
 bool Opening::tellRecovery(const QString& take) {
     const std::vector<log::LostHistory> lost = m_window.driver().history().lost();
-    const QString newest = lost.empty() ? QString() : QFile::decodeName(lost.back().path.c_str());
+    // Its file may have the name of one before.
+    const QString newest = lost.empty() ? QString() : QString::number(log::nanosecondsOf(lost.back().end));
     QStringList lines;
     if (!lost.empty() && newest != m_window.kept().recovered) {
         lines += tr("Posewire did not end as it should: packets until %1 are recovered.")

@@ -320,9 +320,8 @@ void TransportBar::setReceiving(const ReceivingState& receiving) {
         m_inputs.push_back(state.port);
         const PropertyValue now = inputState(state);
         show(now.health == Health::Good ? Health::Unknown : now.health, displayText(state.port), now.text);
-        // A narrow bar has room for one, and for those in trouble.
-        m_pills[shown - 1]->setVisible(m_isWide || shown == 1 || now.health == Health::Warning ||
-                                       now.health == Health::Error);
+        const bool isTrouble = now.health == Health::Warning || now.health == Health::Error;
+        m_pills[shown - 1]->setVisible(m_isWide || isTrouble); // a narrow bar has no room for the others
     }
     for (std::size_t i = shown; i < m_pills.size(); ++i) {
         m_pills[i]->setVisible(false);
