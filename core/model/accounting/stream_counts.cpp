@@ -6,8 +6,8 @@
 namespace posewire::model {
 
 std::string_view nameOf(LossCause cause) {
-    constexpr std::array<std::string_view, kLossCauses> names{"this computer", "network", "sender",
-                                                              "unknown", "transport"};
+    constexpr std::array<std::string_view, kLossCauses> names{"this computer", "network", "sender", "unknown",
+                                                              "transport"};
     return names[static_cast<std::size_t>(cause)];
 }
 
