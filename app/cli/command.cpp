@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/cli/stage_options.h"
+#include "app/cli/command.h"
 
 #include "app/usage/usage.h"
 #include "core/log/output_file.h"

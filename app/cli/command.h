@@ -62,9 +62,11 @@ Command addExportCommand(CommandLine& program);
 Command addFollowCommand(CommandLine& program);
 Command addMonitorCommand(CommandLine& program);
 Command addOutletCommand(CommandLine& program);
+Command addProbeCommand(CommandLine& program);
 Command addReferenceCommand(CommandLine& program);
 Command addReportCommand(CommandLine& program);
 Command addSendCommand(CommandLine& program);
+Command addStageCommand(CommandLine& program);
 
 /// posewire-cli as a whole: its command line, and the commands that were declared there.
 struct Program {

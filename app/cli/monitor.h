@@ -3,9 +3,9 @@
 
 #include "app/cli/command.h"
 #include "app/cli/inputs.h"
-#include "app/cli/stage_options.h"
 #include "app/cli/table_writer.h"
 #include "app/system/interruption.h"
+#include "app/stage/stage_options.h"
 #include "app/system/standard_streams.h"
 #include "core/export/reports.h"
 #include "core/log/recording.h"
@@ -50,7 +50,7 @@ struct MonitorOptions : InputOptions {
     std::string outlet;    ///< of outlets::outletKinds(); empty: none
     std::string to;        ///< its place; empty: where it goes if none is chosen; "-" for standard output
     std::string character; ///< of outlets that take one
-    StageOptions stage;    ///< probes to be read
+    stage::StageOptions stage; ///< probes to be read
     std::string metrics;   ///< where figures are served: empty: nowhere; else see outlets::Metrics
     bool replaces = false;
     bool asJson = false;

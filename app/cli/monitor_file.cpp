@@ -147,7 +147,7 @@ ExitStatus monitorFile(const MonitorOptions& options, Console& console) {
         return run.isOver() || (reading != nullptr && (reading->isDone() || reading->isSilent()));
     };
     const auto file =
-        options.stage.isAsked() ? openPast(options.stage, isOver) : openInput(options.file, isOver);
+        options.stage.isAsked() ? stage::openPast(options.stage, isOver) : openInput(options.file, isOver);
     if (!file) {
         return console.unusable(file.error().text);
     }
@@ -209,6 +209,14 @@ void addPlacesOrFile(Arguments arguments, MonitorOptions& options) {
     }
 }
 
+DeclaredOption addStageTimes(Arguments arguments, MonitorOptions& options) {
+    DeclaredOption nats = stage::addStageSince(arguments, options.stage);
+    arguments.add("--until TIME", options.stage.until, "and until then")
+        .group("Servers of a stage")
+        .needs(nats);
+    return nats;
+}
+
 void addLimits(Arguments arguments, Limits& limits) {
     for (std::size_t i = 0; i < kLimits.size(); ++i) {
         const bool isShare = unitOf(kLimits[i]) == " %";
@@ -225,6 +233,7 @@ Command withOutlet(const std::string& name, Arguments arguments,
                    const std::shared_ptr<MonitorOptions>& options) {
     options->isQuiet = true;
     addPlaces(arguments, *options);
+    stage::addStageSince(arguments, options->stage);
     arguments.add("--duration SECONDS", options->durationSeconds, "stop after this many seconds; 0: never")
         .seconds()
         .showDefault();
@@ -240,7 +249,7 @@ Command addMonitorCommand(CommandLine& program) {
     Arguments arguments = program.addCommand(
         "monitor", "Watch streams: rate, loss, duplicates, order, jitter, gaps; record them; keep limits");
     addPlacesOrFile(arguments, *options);
-    addStageTimes(arguments, options->stage).excludes(arguments.option("FILE"));
+    addStageTimes(arguments, *options).excludes(arguments.option("FILE"));
     arguments
         .add("--duration SECONDS", options->durationSeconds,
              "stop after this many seconds; 0: when interrupted, or at the end of FILE")
@@ -317,7 +326,7 @@ Command addReportCommand(CommandLine& program) {
     Arguments arguments = program.addCommand(
         "report",
         "Write a report on a recording as HTML: what was received, what not, and whose fault it was");
-    addStageTimes(arguments, options->stage)
+    addStageTimes(arguments, *options)
         .excludes(arguments.add("FILE", options->file,
                                 "pcap, pcapng, or datagrams back to back; - for standard input"));
     arguments.add("-o,--output FILE", options->report, "the HTML file; - for standard output").required();

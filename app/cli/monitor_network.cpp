@@ -222,7 +222,7 @@ double watch(const MonitorOptions& options, net::Receiver& receiver, MonitorRun&
         if (!options.stage.isAsked()) {
             watches.inputs.look(run.session(), kernel, now);
         }
-        watches.stage.look();
+        watches.stage.look(now);
         const bool isInVain = options.record == "-" && watches.recording.hasFailed();
         if (run.isOver() || watches.outlet.isOver() || isInVain || (hasEnd && left.count() <= 0)) {
             return elapsed.count();

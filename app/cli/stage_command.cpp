@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/inputs.h"
-#include "app/cli/stage_options.h"
-#include "app/stage/past_source.h"
+#include "app/stage/batch_order.h"
 #include "app/stage/probe.h"
+#include "app/stage/stage_options.h"
 #include "app/system/interruption.h"
 #include "app/system/process_figures.h"
 #include "app/usage/usage.h"
 #include "core/log/file_names.h"
 
 #include <QCoreApplication>
-#include <QDateTime>
 #include <QStandardPaths>
 #include <QSysInfo>
 
@@ -25,7 +24,7 @@ namespace posewire::cli {
 namespace {
 
 struct ProbeOptions : InputOptions {
-    StageOptions stage;
+    stage::StageOptions stage;
     std::string name;
     std::string spool;             ///< folder; empty: the usual one
     double spoolMegabytes = 1'000; ///< the most
@@ -34,7 +33,7 @@ struct ProbeOptions : InputOptions {
 };
 
 struct StreamOptions {
-    StageOptions stage;
+    stage::StageOptions stage;
     std::optional<double> keepHours;
     std::optional<double> gigabytes;
     int replicas = 1;
@@ -185,96 +184,12 @@ ExitStatus runStage(const StreamOptions& options, Console& console) {
 
 } // namespace
 
-std::optional<std::string> StageOptions::problem() const {
-    if (!stage::isName(site)) {
-        return "--site: may have letters, digits, - and _, 64 at most";
-    }
-    for (const auto& [option, text] : {std::pair("--since: ", since), std::pair("--until: ", until)}) {
-        if (!text.empty() && !wallTimeOf(text)) {
-            return option + text + " is no time; write 10:30, 10:30:15 or 2026-11-26T10:30";
-        }
-    }
-    return std::nullopt;
-}
-
-std::optional<log::WallTime> wallTimeOf(const std::string& text) {
-    const QString given = QString::fromStdString(text);
-    QDateTime time = QDateTime::fromString(given, Qt::ISODateWithMs);
-    const QTime ofDay = QTime::fromString(given, Qt::ISODateWithMs);
-    if (!time.isValid() && ofDay.isValid()) { // the newest one that is not to come
-        time = QDateTime(QDate::currentDate(), ofDay);
-        time = time > QDateTime::currentDateTime() ? time.addDays(-1) : time;
-    }
-    return time.isValid() ? std::optional(log::WallTime(std::chrono::milliseconds(time.toMSecsSinceEpoch())))
-                          : std::nullopt;
-}
-
-tl::expected<std::unique_ptr<log::ByteSource>, log::FileError> openPast(const StageOptions& options,
-                                                                        log::IsCancelled isCancelled) {
-    if (const auto problem = options.problem()) {
-        return tl::unexpected(log::FileError{*problem});
-    }
-    const auto since = wallTimeOf(options.since);
-    if (!since) {
-        return tl::unexpected(log::FileError{"--since is missing: when the time begins that is wanted"});
-    }
-    auto source = stage::PastSource::open(options.servers, options.site, *since,
-                                          wallTimeOf(options.until).value_or(log::SystemClock().wall()),
-                                          std::move(isCancelled));
-    if (!source) {
-        return tl::unexpected(log::FileError{source.error().text});
-    }
-    return std::move(*source);
-}
-
-DeclaredOption addStage(Arguments arguments, StageOptions& options) {
-    const std::string group = "Servers of a stage";
-    const auto read = [&options](const std::string& text) {
-        for (std::size_t begin = 0; begin < text.size();) {
-            const std::size_t end = std::min(text.find(',', begin), text.size());
-            options.servers.addresses.push_back(text.substr(begin, end - begin));
-            begin = end + 1;
-        }
-        return std::string();
-    };
-    DeclaredOption nats =
-        arguments.read("--nats URL[,URL]", read,
-                       "servers of NATS: nats://HOST:PORT, tls://HOST:PORT; any of them will "
-                       "do");
-    nats.group(group);
-    const auto add = [&](const std::string& name, std::string& value, const std::string& text) {
-        arguments.add(name, value, text).group(group).needs(nats);
-    };
-    add("--site SITE", options.site, "the stage's name there");
-    add("--nats-user NAME", options.servers.user,
-        "who we are to them; the password is in the environment, as POSEWIRE_NATS_PASSWORD, or in a file");
-    add("--nats-password-file FILE", options.servers.passwordFile, "its first line is the password");
-    add("--nats-credentials FILE", options.servers.credentials, "a file of credentials, as nsc writes it");
-    add("--nats-nkey FILE", options.servers.nkey, "public key and seed, as nk writes them with -pubout");
-    add("--nats-ca FILE", options.servers.authorities, "certificates that sign those of the servers");
-    add("--nats-certificate FILE", options.servers.certificate, "our own, if they ask for one");
-    add("--nats-key FILE", options.servers.key, "the key of that");
-    return nats;
-}
-
-DeclaredOption addStageTimes(Arguments arguments, StageOptions& options) {
-    DeclaredOption nats = addStage(arguments, options);
-    arguments
-        .add("--since TIME", options.since,
-             "what was received from then on, as long as the servers keep it: 10:30, 10:30:15, or "
-             "2026-11-26T10:30")
-        .group("Servers of a stage")
-        .needs(nats);
-    arguments.add("--until TIME", options.until, "and until then").group("Servers of a stage").needs(nats);
-    return nats;
-}
-
 Command addProbeCommand(CommandLine& program) {
     auto options = std::make_shared<ProbeOptions>();
     Arguments arguments = program.addCommand(
         "probe", "Receive here, and publish it to servers of NATS for windows elsewhere; needs no display");
     addPlaces(arguments, *options);
-    addStage(arguments, options->stage).required();
+    stage::addStage(arguments, options->stage).required();
     arguments.add("--name NAME", options->name, "of this probe, which no other of the site may have")
         .required();
     arguments.add("--spool FOLDER", options->spool,
@@ -293,7 +208,7 @@ Command addStageCommand(CommandLine& program) {
     auto options = std::make_shared<StreamOptions>();
     Arguments arguments = program.addCommand(
         "stage", "Show how long servers of NATS keep what the probes of a site publish; set it");
-    addStage(arguments, options->stage).required();
+    stage::addStage(arguments, options->stage).required();
     DeclaredOption keep =
         arguments
             .add("--keep HOURS", options->keepHours, "keep it for so long; makes the stream if there is none")

@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/stage_watch.h"
 
+#include "core/words/say.h"
+
 #include <utility>
 
 namespace posewire::cli {
 
-void StageWatch::start(const StageOptions& options, net::Receiver& receiver, const log::Clock& clock) {
+void StageWatch::start(const stage::StageOptions& options, net::Receiver& receiver, const log::Clock& clock) {
     if (options.isAsked()) {
         m_reader = std::make_unique<stage::StageReader>(
             receiver, m_run.log(), clock,
-            stage::StageChoice{options.servers, options.site, wallTimeOf(options.since)});
+            stage::StageChoice{options.servers, options.site, stage::wallTimeOf(options.since)});
     }
 }
 
-void StageWatch::look() {
+void StageWatch::look(log::Stamp now) {
     if (m_reader == nullptr) {
         return;
     }
@@ -25,10 +27,11 @@ void StageWatch::look() {
         if (!probe.problem.empty() && m_told.insert(probe.name + probe.problem).second) {
             m_console.complain("probe " + probe.name + ": " + probe.problem);
         }
-        if (probe.isAlive ? m_silent.erase(probe.name) > 0 : m_silent.insert(probe.name).second) {
-            m_console.complain("probe " + probe.name +
-                               (probe.isAlive ? " is there again" : " is not heard of any more"));
-        }
+    }
+    for (const std::string& probe : m_reader->takeSilent()) {
+        const words::Fact fact{words::Kind::ProbeSilent, {{"probe", probe}}};
+        m_console.complain(say(fact, words::Form::Headline));
+        m_run.session().report(model::IncidentKind::ProbeSilent, now, fact);
     }
 }
 

@@ -16,9 +16,9 @@ public:
     StageWatch(MonitorRun& run, Console& console) : m_run(run), m_console(console) {}
 
     /// Begins to read, if the options ask for it.
-    void start(const StageOptions& options, net::Receiver& receiver, const log::Clock& clock);
+    void start(const stage::StageOptions& options, net::Receiver& receiver, const log::Clock& clock);
     /// Says what is wrong when that changes.
-    void look();
+    void look(log::Stamp now);
     /// Nothing more comes of it.
     void end() { m_reader.reset(); }
 
@@ -26,9 +26,8 @@ private:
     MonitorRun& m_run;
     Console& m_console;
     std::unique_ptr<stage::StageReader> m_reader;
-    std::string m_problem;          ///< told last
-    std::set<std::string> m_told;   ///< what is told once
-    std::set<std::string> m_silent; ///< probes
+    std::string m_problem;        ///< told last
+    std::set<std::string> m_told; ///< what is told once
 };
 
 } // namespace posewire::cli

@@ -89,7 +89,8 @@ Settings startSettings(SettingsFile& file, const Options& options, QString* prob
 /// Nothing that tells what to show: it is what was shown when the program ended.
 bool isToRestore(const Options& options) {
     const bool asksForInputs =
-        !options.udpPorts.empty() || !options.tcpInputs.empty() || options.demoCharacters > 0;
+        !options.udpPorts.empty() || !options.tcpInputs.empty() || options.demoCharacters > 0 ||
+        options.stage.isAsked();
     return options.file.isEmpty() && options.comparedFile.isEmpty() && !asksForInputs;
 }
 
@@ -136,6 +137,9 @@ void openInputs(MainWindow& window, const Options& options, const Settings& sett
     SessionDriver& driver = window.driver();
     const InputChoices& choices = settings.inputs;
     driver.receiving().listenTo(allowedAtStart(options, choices)); // before the first port is open
+    if (options.stage.isAsked()) {
+        driver.receiving().readStage(options.stage);
+    }
     for (const InputAddress& input : inputsToOpen(options, choices)) {
         driver.receiving().addPort(input);
     }

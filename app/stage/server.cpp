@@ -16,6 +16,9 @@ using net::NetError;
 using net::NetResult;
 
 constexpr std::chrono::milliseconds kAnswer(2000);
+// That wait to be read.
+constexpr int kMostMessages = 1 << 16;
+constexpr int kMostBytes = 128 << 20;
 
 std::string streamOf(const std::string& site) {
     return "POSEWIRE_" + site;
@@ -234,7 +237,7 @@ NetResult<std::unique_ptr<Server>> Server::connect(const ServerChoice& choice, c
     natsOptions_SetReconnectWait(options.own, 200); // ms
     natsOptions_SetPingInterval(options.own, 1000); // ms: finds a server dead that is silent
     natsOptions_SetMaxPingsOut(options.own, 2);
-    natsOptions_SetMaxPendingMsgs(options.own, 1 << 16);
+    natsOptions_SetMaxPendingMsgs(options.own, kMostMessages);
     natsOptions_SetFailRequestsOnDisconnect(options.own, true);
     const auto note = [](natsConnection* connection, natsSubscription* /*subscription*/, natsStatus status,
                          void* own) {
@@ -343,6 +346,9 @@ NetResult<Subscription> Server::read(const std::string& site, const std::string&
     natsSubscription* made = nullptr;
     jsErrCode error{};
     const natsStatus status = js_SubscribeSync(&made, m_streams, subject.c_str(), nullptr, &options, &error);
+    if (status == NATS_OK) {
+        natsSubscription_SetPendingLimits(made, kMostMessages, kMostBytes);
+    }
     return status == NATS_OK ? NetResult<Subscription>(Subscription(made)) : failure(status, error);
 }
 

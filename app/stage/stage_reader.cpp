@@ -64,6 +64,19 @@ std::vector<ProbeState> StageReader::probes() const {
     return probes;
 }
 
+std::vector<std::string> StageReader::takeSilent() {
+    std::vector<std::string> silent;
+    for (const ProbeState& probe : probes()) {
+        const std::lock_guard lock(m_mutex);
+        if (probe.isAlive) {
+            m_silent.erase(probe.name);
+        } else if (m_silent.insert(probe.name).second) {
+            silent.push_back(probe.name);
+        }
+    }
+    return silent;
+}
+
 std::string StageReader::problem() const {
     const std::lock_guard lock(m_mutex);
     return m_problem;
@@ -177,8 +190,13 @@ void StageReader::takeHealth(const Message& health) {
         return;
     }
     const log::Stamp now = m_log.timeline().now(m_clock);
+    const auto stored = valueOf(json, "stored", std::uint64_t{0});
     const std::lock_guard lock(m_mutex);
     ProbeState& probe = m_probes[name];
+    const double seconds = log::secondsOf(now - probe.lastHeard);
+    const bool isFollowing = probe.name == name && stored >= probe.stored && seconds > 0;
+    probe.rateHz = isFollowing ? static_cast<double>(stored - probe.stored) / seconds : 0;
+    probe.stored = stored;
     probe.name = name;
     probe.lastHeard = now;
     probe.version = valueOf(json, "version", std::string());

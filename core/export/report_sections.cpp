@@ -311,7 +311,7 @@ std::string streamTable(const model::SessionView& session, const model::Characte
     addColumns(columns, kOrder);
     HtmlTable delivery(columns);
     HtmlTable timing = tableOf("When it arrived", kTiming);
-    const auto causes = model::causeFiguresOf(*session.roster().find(key.sender));
+    const auto causes = model::causeFiguresOf(session.roster().find(key.sender)->info);
     HtmlTable losses = tableOf("Whose loss", causes);
     for (const model::Stream* stream : streamsByType(session, key)) {
         const auto own = std::ranges::find(figures, stream->key, &model::StreamFigures::key);

@@ -37,6 +37,7 @@ enum class Kind : std::uint16_t {
     CauseSender,
     CauseUnknown,
     CauseTransport,
+    CauseProbe,
     // When something happened.
     Since,
     ToTheEnd,
@@ -85,6 +86,7 @@ enum class Kind : std::uint16_t {
     RelayStopped,
     RecordingEnded,
     RecordingMoved,
+    ProbeSilent,
     ClockSet,
     LossLimit,
     JitterLimit,

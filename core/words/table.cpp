@@ -35,6 +35,7 @@ constexpr std::array kTable{
     Wording{.kind = K::CauseSender, .headline = {"sender's side"}},
     Wording{.kind = K::CauseUnknown, .headline = {"cause unknown"}, .sentence = {"unknown"}},
     Wording{.kind = K::CauseTransport, .headline = {"the way from the probe"}},
+    Wording{.kind = K::CauseProbe, .headline = {"the computer of {probe}"}},
     // When something happened.
     Wording{.kind = K::Since, .headline = {"since {from}"}},
     Wording{.kind = K::ToTheEnd, .headline = {"{from} to the end"}},
@@ -319,6 +320,12 @@ constexpr std::array kTable{
             .headline = {"{problem}; the recording goes on in {file}[, without its first {packets}]"},
             .sentence = {"{problem}; the recording goes on in {file}[, without its first {packets}]."},
             .brief = {"recording"}},
+    Wording{
+        .kind = K::ProbeSilent,
+        .headline = {"nothing is heard of the probe {probe}"},
+        .sentence = {"Nothing is heard of the probe {probe}: it has ended, or no server can be reached from "
+                     "it. What it receives meanwhile is sent once one can."},
+        .brief = {"probe silent"}},
     Wording{.kind = K::ClockSet,
             .headline = {"The receiving computer's clock was set [back by {back}|forward by {forward}] s"},
             .sentence = {"The receiving computer's clock was set [back by {back}|forward by {forward}] s."},
@@ -368,7 +375,8 @@ constexpr std::array kTable{
     Wording{
         .kind = K::NotListening,
         .headline =
-            {"This computer did not listen to the port for a while: its input was removed and added again."}},
+            {"The port was not listened to for a while: its input was removed and added again, or its probe "
+             "began again."}},
     Wording{.kind = K::OvertakenBetween,
             .headline = {"This computer did not look at {packets} between packets {from} and {to} in time."}},
     Wording{.kind = K::LostOnWay,

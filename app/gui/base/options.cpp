@@ -142,6 +142,7 @@ struct Declared {
             .read("--tcp HOST:PORT", into(options.tcpInputs, InputAddress::Kind::TcpConnection),
                   "connect to a sender that listens (repeatable)")
             .repeatable();
+        stage::addStageSince(arguments, options.stage);
         arguments
             .add("--demo [CHARACTERS]", options.demoCharacters,
                  "send walking characters to the listening port, by UDP on this computer; 2 by default")
@@ -247,7 +248,7 @@ std::optional<ThemeChoice> themeNamed(const QString& name) {
 std::vector<InputAddress> inputsToOpen(const Options& options, const InputChoices& choices) {
     std::vector<InputAddress> inputs = options.udpPorts;
     inputs.insert(inputs.end(), options.tcpInputs.begin(), options.tcpInputs.end());
-    const bool isAsked = !inputs.empty() || !options.file.isEmpty();
+    const bool isAsked = !inputs.empty() || !options.file.isEmpty() || options.stage.isAsked();
     if (!isAsked && choices.inputs) {
         return *choices.inputs;
     }
@@ -273,6 +274,9 @@ tl::expected<Options, usage::EarlyExit> parseOptions(const QStringList& argument
     }
     for (InputAddress& port : options.udpPorts) {
         port.groups = declared.groups;
+    }
+    if (const auto problem = options.stage.isAsked() ? options.stage.problem() : std::nullopt) {
+        return tl::unexpected(declared.line.mistake(*problem));
     }
     if (const std::string problem = outputProblem(options); !problem.empty()) {
         return tl::unexpected(declared.line.mistake(problem));

@@ -3,6 +3,7 @@
 
 #include "app/gui/base/input_choices.h"
 #include "app/gui/theme/theme.h"
+#include "app/stage/stage_options.h"
 #include "app/usage/command_line.h"
 
 #include <QSize>
@@ -24,6 +25,7 @@ struct Options {
     std::vector<InputAddress> udpPorts;  ///< multicast groups are joined at each
     std::vector<InputAddress> tcpInputs; ///< listening first
     QStringList allowed;                 ///< hosts and nets to listen to; none: as kept in the settings
+    stage::StageOptions stage;           ///< probes to be read
     std::string up;                      ///< "y", "z"; others: as detected
     int demoCharacters = 0;              ///< 0 for no demo
     QString layout;                      ///< name or file; empty for the one in use when the program ended

@@ -5,6 +5,7 @@
 #include "app/net/connection_help.h"
 #include "app/net/endpoint.h"
 #include "app/net/input.h"
+#include "app/stage/stage_reader.h"
 #include "core/log/time.h"
 
 #include <QString>
@@ -48,6 +49,8 @@ struct ReceivingState {
     double datagramsPerSecond = 0;
     double bytesPerSecond = 0;
     std::vector<WayOutState> waysOut{};
+    std::vector<stage::ProbeState> probes{};
+    QString stageProblem{}; ///< why no server of the stage answers; empty if one does, or none is asked
     std::vector<words::Fact> findings{};        ///< why no characters are seen; empty if all is well
     std::vector<net::LocalAddress> addresses{}; ///< of this computer, to type into a sender, the best first
 };

@@ -181,6 +181,12 @@ void Receiving::takeAllowed() {
     }
 }
 
+void Receiving::readStage(const stage::StageOptions& options) {
+    m_stage = std::make_unique<stage::StageReader>(
+        m_receiver, m_log, m_clock,
+        stage::StageChoice{options.servers, options.site, stage::wallTimeOf(options.since)});
+}
+
 void Receiving::measure(log::Stamp now) {
     takeAllowed();
     readStatus();
@@ -197,6 +203,10 @@ void Receiving::measure(log::Stamp now) {
         const net::InputStatus& status = port.status;
         port.datagramsPerSecond =
             port.id ? m_portRates[*port.id].add(now, status.datagrams, status.bytes).datagrams : 0;
+    }
+    if (m_stage != nullptr) {
+        m_state.probes = m_stage->probes();
+        m_state.stageProblem = QString::fromStdString(m_stage->problem());
     }
     m_waysOut.measure(openInputs());
     m_state.waysOut = m_waysOut.states();

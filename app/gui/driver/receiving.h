@@ -5,6 +5,8 @@
 #include "app/gui/driver/ways_out.h"
 #include "app/net/allow_list.h"
 #include "app/net/receiver.h"
+#include "app/stage/stage_options.h"
+#include "app/stage/stage_reader.h"
 #include "core/log/clock.h"
 #include "core/log/packet_log.h"
 #include "core/model/session/session_view.h"
@@ -23,7 +25,7 @@ namespace posewire::gui {
 class Receiving {
 public:
     Receiving(log::PacketLog& log, const log::Clock& clock)
-        : m_clock(clock), m_receiver(log, clock), m_waysOut(log, clock) {}
+        : m_log(log), m_clock(clock), m_receiver(log, clock), m_waysOut(log, clock) {}
 
     /// Listens or connects to one more; what is wrong with it is in state(), and it is tried again by
     /// retry().
@@ -48,6 +50,13 @@ public:
     /// until they are known they are not listened to.
     void listenTo(const QStringList& allowed);
     [[nodiscard]] const QStringList& allowed() const { return m_allowed; }
+
+    /// From now on, what the probes of a stage receive comes into the log as well.
+    void readStage(const stage::StageOptions& options);
+    /// Names of those that have fallen silent since this was last asked.
+    [[nodiscard]] std::vector<std::string> takeSilentProbes() {
+        return m_stage != nullptr ? m_stage->takeSilent() : std::vector<std::string>();
+    }
 
     /// `now` is what rates are measured against.
     void measure(log::Stamp now);
@@ -92,9 +101,11 @@ private:
     void readStatus();
     [[nodiscard]] std::vector<net::InputStatus> openInputs() const;
 
+    const log::PacketLog& m_log;
     const log::Clock& m_clock;
     ReceivingState m_state;
     net::Receiver m_receiver;
+    std::unique_ptr<stage::StageReader> m_stage; ///< null if none is asked
     WaysOut m_waysOut;
     RateMeter m_rates;
     std::map<net::InputId, RateMeter> m_portRates;

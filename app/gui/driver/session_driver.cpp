@@ -277,6 +277,9 @@ void SessionDriver::tickTables(log::Stamp now) {
                     {words::Kind::RelayStopped, {{"problem", loop.text.toStdString()}}}, loop.returner);
         emit wayOutStopped();
     }
+    for (const std::string& probe : m_receiving.takeSilentProbes()) {
+        live.report(model::IncidentKind::ProbeSilent, now, {words::Kind::ProbeSilent, {{"probe", probe}}});
+    }
     m_receiving.examine(live, now);
     m_takes.follow(now);
     if (const log::Moment moment = m_clock.monotonic(); m_health.isDue(moment)) {

@@ -9,6 +9,7 @@
 #include "app/gui/panels/metadata_panel.h"
 #include "app/gui/panels/nullpose_panel.h"
 #include "app/gui/panels/packets_panel.h"
+#include "app/gui/panels/probes_panel.h"
 #include "app/gui/panels/statistics_panel.h"
 #include "app/gui/panels/timecode_panel.h"
 #include "app/gui/panels/timeline_panel.h"
@@ -24,7 +25,7 @@ using Parts = const PanelParts&;
 
 template <class T>
 Panel* make(Parts parts, QWidget* parent) {
-    if constexpr (std::is_same_v<T, CharactersPanel>) {
+    if constexpr (std::is_same_v<T, CharactersPanel> || std::is_same_v<T, ProbesPanel>) {
         return new T(parts.view, parts.commands, parts.receiving, parent);
     } else if constexpr (std::is_same_v<T, StatisticsPanel>) {
         return new T(parts.view, parts.commands, parts.receiving, parts.health, parent);
@@ -58,6 +59,7 @@ constexpr PanelInfo kPanels[] = {
     dock<NullPosePanel>("nullpose", QT_TRANSLATE_NOOP("Panel", "Null pose"), kRight),
     dock<IncidentsPanel>("events", QT_TRANSLATE_NOOP("Panel", "Incidents"), kBottom),
     dock<FaultsPanel>("faults", QT_TRANSLATE_NOOP("Panel", "Faults"), kBottom),
+    dock<ProbesPanel>("probes", QT_TRANSLATE_NOOP("Panel", "Probes"), kBottom),
     dock<TimelinePanel>("timeline", QT_TRANSLATE_NOOP("Panel", "Timeline"), kBottom),
 };
 

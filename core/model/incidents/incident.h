@@ -40,6 +40,7 @@ enum class IncidentKind : std::uint8_t {
     Overtaken,
     RelayLoop,
     RecordingEnded, ///< by itself: its disk is full, say; or in another file, as its own is gone
+    ProbeSilent,    ///< nothing is heard of it any more
     ClockSet,
     Fragments, ///< do not get here
     LossLimit,
@@ -48,7 +49,7 @@ enum class IncidentKind : std::uint8_t {
     AgeLimit,
     RateLimit,
 };
-inline constexpr std::size_t kIncidentKinds = 26;
+inline constexpr std::size_t kIncidentKinds = 27;
 
 enum class IncidentSeverity : std::uint8_t { Info, Warning, Error };
 enum class IncidentGroup : std::uint8_t { Sender, Loss, Content, Limit };
@@ -211,6 +212,7 @@ inline constexpr std::array<IncidentKindFacts, kIncidentKinds> kIncidentKindTabl
         {K::Overtaken, "overtaken", "local", W::Overtaken, S::Error, G::Loss, false, false, true},
         {K::RelayLoop, "relay loop", "local", W::Nothing, S::Error, G::Sender},
         {K::RecordingEnded, "recording", "local", W::Nothing, S::Error, G::Sender},
+        {K::ProbeSilent, "probe", "transport", W::Nothing, S::Error, G::Sender},
         {K::ClockSet, "clock set", "clock", W::ClockSet, S::Warning, G::Sender},
         {K::Fragments, "fragments", "loss", W::Nothing, S::Error, G::Loss, true},
         {K::LossLimit, "loss limit", "limit", W::LossLimit, S::Warning, G::Limit, true, false, false, 2},

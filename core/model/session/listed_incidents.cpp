@@ -410,6 +410,9 @@ words::Fact factOf(const SessionView& session, const ListedIncident& listed) {
     set(fact, "who", whom(session, incident));
     set(fact, "address", address);
     const Sender* sender = session.roster().find(incident.sender);
+    if (incident.cause == LossCause::ThisComputer && sender != nullptr && !sender->info.probe.empty()) {
+        set(fact, "cause", words::Fact{words::Kind::CauseProbe, {{"probe", sender->info.probe}}});
+    }
     if (incident.kind == IncidentKind::Foreign && sender != nullptr) {
         set(fact, "looks", sender->foreignFormat());
     }

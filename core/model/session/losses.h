@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/log/packet.h"
 #include "core/model/accounting/stream_figures.h"
 #include "core/model/session/session_view.h"
 
@@ -22,8 +23,8 @@ inline constexpr std::array kFigureOfCause{Figure::LostHere, Figure::LostOnNetwo
 static_assert(kFigureOfCause.size() == kLossCauses);
 /// Those that the losses of somebody can have: only who is heard by a probe loses anything on the way from
 /// it.
-inline std::span<const Figure> causeFiguresOf(const Sender& sender) {
-    return std::span(kFigureOfCause).first(sender.info.probe.empty() ? kLossCauses - 1 : kLossCauses);
+inline std::span<const Figure> causeFiguresOf(const log::SenderInfo& sender) {
+    return std::span(kFigureOfCause).first(sender.probe.empty() ? kLossCauses - 1 : kLossCauses);
 }
 
 /// What one stream lacks; the sum of all, without what was expected, is what it has lost and what is

@@ -38,11 +38,16 @@ void Sender::takeSkipped(wire::Bytes between) {
     skippedBytes += between.size();
 }
 
+ForeignText Sender::address() const {
+    return info.probe.empty() ? info.address : info.address + " at " + info.probe;
+}
+
 std::optional<std::string> Sender::host() const {
     if (info.transport == log::Transport::File) {
         return std::nullopt;
     }
-    return std::string(log::nameOf(info.transport)) + ' ' + std::string(log::hostOf(info.address));
+    return std::string(log::nameOf(info.transport)) + ' ' + info.probe + ' ' +
+           std::string(log::hostOf(info.address));
 }
 
 std::string Sender::foreignText() const {

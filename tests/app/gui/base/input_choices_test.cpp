@@ -69,6 +69,9 @@ TEST(InputChoices, AreOpenedUnlessTheCommandLineSaysOtherwise) {
     options = {};
     options.tcpInputs = {{"studio", 1, Kind::TcpConnection}};
     EXPECT_EQ(inputsToOpen(options, choices), options.tcpInputs);
+    Options probes;
+    probes.stage.servers.addresses = {"nats://stage"};
+    EXPECT_TRUE(inputsToOpen(probes, choices).empty()) << "probes are asked for";
     options = {};
     options.file = "take.pcapng";
     EXPECT_TRUE(inputsToOpen(options, choices).empty()) << "a file is looked at by itself";

@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/cli/command.h"
 #include "app/stage/server.h"
+#include "app/usage/command_line.h"
 #include "core/log/byte_io.h"
+#include "core/log/time.h"
 
 #include <memory>
 #include <optional>
 #include <string>
 
-namespace posewire::cli {
+namespace posewire::stage {
 
-/// Servers of a stage, as they were typed.
+/// Servers of a stage as they were typed, for every program.
 struct StageOptions {
-    stage::ServerChoice servers; ///< without addresses: none
+    ServerChoice servers; ///< without addresses: none
     std::string site;
     std::string since; ///< time of day, or with its day; empty: from now on
     std::string until; ///< empty: goes on
@@ -30,17 +31,14 @@ struct StageOptions {
 };
 
 /// Adds `--nats`, which it returns, `--site` and what servers may ask for.
-DeclaredOption addStage(Arguments arguments, StageOptions& options);
-/// Adds `--since` and `--until` as well.
-DeclaredOption addStageTimes(Arguments arguments, StageOptions& options);
+usage::DeclaredOption addStage(usage::Arguments arguments, StageOptions& options);
+/// Adds `--since` as well.
+usage::DeclaredOption addStageSince(usage::Arguments arguments, StageOptions& options);
 
-/// When that was, or the next time of that day is: "10:30", "10:30:15.5", "2026-11-26 10:30".
+/// When that was, or the newest time of that day that is over: "10:30", "10:30:15.5", "2026-11-26T10:30".
 [[nodiscard]] std::optional<log::WallTime> wallTimeOf(const std::string& text);
-/// What the probes of the site received from `--since` to `--until`, or now.
+/// What the probes of the site received from `since` to `until`, or now.
 [[nodiscard]] tl::expected<std::unique_ptr<log::ByteSource>, log::FileError>
 openPast(const StageOptions& options, log::IsCancelled isCancelled);
 
-Command addProbeCommand(CommandLine& program);
-Command addStageCommand(CommandLine& program);
-
-} // namespace posewire::cli
+} // namespace posewire::stage
