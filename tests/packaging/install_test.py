@@ -26,7 +26,9 @@ def expected():
               "share/metainfo/org.posewire.posewire.metainfo.xml", "share/mime/packages/posewire.xml",
               "share/licenses/posewire/MIT.txt", "share/licenses/posewire/GPL-3.0-or-later.txt",
               "share/doc/posewire-cli/formats.md", "share/doc/posewire-cli/metrics/alerts.yml", "share/doc/posewire-cli/metrics/grafana.json",
+              "share/doc/posewire-cli/stage.md", "lib/systemd/system/posewire-probe.service",
               "share/doc-base/posewire", "libexec/posewire/posewire-import"}
+    files |= {f"share/doc/posewire-cli/examples/{name}" for name in ("nats-server.conf", "nats-cluster.conf", "posewire-probe.default")}
     files |= {f"share/doc/posewire/html/{name}" for name in ("pages.js", "guide.js", "guide.css")}
     files |= {f"share/doc/posewire/html/{page.stem}.html" for page in (RESOURCES / "help").glob("*.md")}
     files |= {f"share/doc/posewire/html/pictures/{one.name}" for one in (RESOURCES / "pictures/help").glob("*.png")}
