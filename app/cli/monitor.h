@@ -4,8 +4,8 @@
 #include "app/cli/command.h"
 #include "app/cli/inputs.h"
 #include "app/cli/table_writer.h"
-#include "app/system/interruption.h"
 #include "app/stage/stage_options.h"
+#include "app/system/interruption.h"
 #include "app/system/standard_streams.h"
 #include "core/export/reports.h"
 #include "core/log/recording.h"
@@ -45,13 +45,13 @@ struct MonitorOptions : InputOptions {
     std::string up;             ///< "y", "z"; others: as detected
     double durationSeconds = 0; ///< 0: until interrupted
     double intervalSeconds = 1;
-    std::string record;    ///< empty: not; "-" for standard output
-    std::string report;    ///< empty: none; "-" for standard output
-    std::string outlet;    ///< of outlets::outletKinds(); empty: none
-    std::string to;        ///< its place; empty: where it goes if none is chosen; "-" for standard output
-    std::string character; ///< of outlets that take one
+    std::string record;        ///< empty: not; "-" for standard output
+    std::string report;        ///< empty: none; "-" for standard output
+    std::string outlet;        ///< of outlets::outletKinds(); empty: none
+    std::string to;            ///< its place; empty: where it goes if none is chosen; "-" for standard output
+    std::string character;     ///< of outlets that take one
     stage::StageOptions stage; ///< probes to be read
-    std::string metrics;   ///< where figures are served: empty: nowhere; else see outlets::Metrics
+    std::string metrics;       ///< where figures are served: empty: nowhere; else see outlets::Metrics
     bool replaces = false;
     bool asJson = false;
     bool asJsonLines = false;

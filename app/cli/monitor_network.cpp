@@ -274,11 +274,11 @@ ExitStatus monitorNetwork(const MonitorOptions& options, Console& console) {
     exporting::MonitorFacts facts = factsOf(*receiver, elapsedS);
     facts.exceeded = watches.inputs.silent();
     watches.inputs.end();
-    watches.stage.end(); // it brings what it has to the receiver
-    receiver.reset();    // what is in the sockets still comes into the log
+    const ExitStatus read = watches.stage.end(); // it brings what it has to the receiver
+    receiver.reset();                            // what is in the sockets still comes into the log
     const log::Stamp end = run.followToEnd(over);
     const ExitStatus recorded = watches.recording.stop(run.receptionOf(facts), end);
-    return run.conclude(facts, recorded, end);
+    return run.conclude(facts, worse(read, recorded), end);
 }
 
 } // namespace posewire::cli

@@ -74,6 +74,9 @@ public:
     void look() {
         const stage::ProbeFigures figures = m_probe.figures();
         tell(figures.problem, m_problem, "stored again");
+        if (!figures.refusal.empty()) {
+            tell(figures.refusal, m_refusal, {});
+        }
         for (const net::InputStatus& input : m_receiver.inputs()) {
             tell(input.problem, m_inputs[input.id], placeOf(input) + ": all is well now");
         }
@@ -99,6 +102,7 @@ private:
     const stage::Probe& m_probe;
     Console& m_console;
     std::string m_problem;
+    std::string m_refusal;
     std::map<net::InputId, std::string> m_inputs;
     bool m_hasTwin = false;
     std::uint64_t m_gone = 0;

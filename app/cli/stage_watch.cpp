@@ -35,4 +35,10 @@ void StageWatch::look(log::Stamp now) {
     }
 }
 
+ExitStatus StageWatch::end() {
+    const bool isInVain = m_reader != nullptr && m_reader->probes().empty() && !m_reader->problem().empty();
+    m_reader.reset();
+    return isInVain ? ExitStatus::Unusable : ExitStatus::Fine;
+}
+
 } // namespace posewire::cli

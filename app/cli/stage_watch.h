@@ -19,8 +19,8 @@ public:
     void start(const stage::StageOptions& options, net::Receiver& receiver, const log::Clock& clock);
     /// Says what is wrong when that changes.
     void look(log::Stamp now);
-    /// Nothing more comes of it.
-    void end() { m_reader.reset(); }
+    /// Nothing more comes of it. Unusable if nothing came for what was wrong until now.
+    ExitStatus end();
 
 private:
     MonitorRun& m_run;

@@ -56,6 +56,9 @@ tl::expected<bool, log::FileError> PastSource::fetch() {
             return tl::unexpected(
                 log::FileError{name() + ": reading was cancelled", log::FileError::Kind::Cancelled});
         }
+        if (tries == kMostTries && !m_hasSome && m_server->isConnected()) {
+            return false; // nothing was stored since then
+        }
         if (tries == kMostTries) {
             return tl::unexpected(log::FileError{name() +
                                                      ": the servers did not answer for five seconds; all "
@@ -71,6 +74,7 @@ tl::expected<bool, log::FileError> PastSource::fetch() {
             continue;
         }
         tries = 0;
+        m_hasSome = true;
         m_next = sequenceOf(message) + 1;
         if (storedAt(message) - kLatest > m_until) {
             return false;

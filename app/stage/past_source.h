@@ -40,6 +40,7 @@ private:
     log::IsCancelled m_isCancelled;
     std::uint64_t m_next = 0; ///< message; 0 for the first one of the time
     std::uint64_t m_last = 0; ///< when reading began
+    bool m_hasSome = false;   ///< a message has come
     Subscription m_batches;
     BatchOrder m_order;
     Batch m_batch;

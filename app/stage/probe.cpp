@@ -72,6 +72,9 @@ void Probe::publish(const std::stop_token& stop) {
             if (m_spool.isOpen() && m_reader.end() == m_next) {
                 m_spool.drop();
             }
+            const std::lock_guard lock(m_mutex);
+            m_figures.waiting = m_reader.end() - m_next;
+            m_figures.spoolBytes = m_spool.bytes();
         }
     }
     m_reader.refresh();
@@ -188,7 +191,7 @@ bool Probe::fill(bool isEnding) {
 
 /// Tries until it is stored. False if this is to end, and no server has taken it for a while.
 bool Probe::store(const Batch& batch, const std::string& run, const std::stop_token& stop) {
-    const std::string id = run + '-' + std::to_string(batch.first());
+    const std::string id = m_choice.name + '-' + run + '-' + std::to_string(batch.first());
     const std::array<Server::Header, 4> headers{{{kLayoutHeader, std::to_string(kLayout)},
                                                  {kRunHeader, run},
                                                  {kFirstHeader, std::to_string(batch.first())},
@@ -201,7 +204,6 @@ bool Probe::store(const Batch& batch, const std::string& run, const std::stop_to
             const std::lock_guard lock(m_mutex);
             m_figures.stored += batch.count();
             m_figures.problem.clear();
-            m_figures.waiting = m_reader.end() - m_next;
             m_figures.spoolBytes = m_spool.bytes();
             return true;
         }
@@ -248,6 +250,9 @@ void Probe::pulse(const std::stop_token& stop) {
         if (m_clock.monotonic() - told >= kPeriod) {
             told = m_clock.monotonic();
             static_cast<void>(server->publish(m_subject + "health", healthText()));
+            const std::string refusal = server->refusal();
+            const std::lock_guard lock(m_mutex);
+            m_figures.refusal = refusal;
         }
         if (const Message asked = clock ? Server::next(clock, kLook) : nullptr) {
             const auto now = m_log.timeline().now(m_clock).time_since_epoch().count();

@@ -37,6 +37,7 @@ struct ProbeFigures {
     std::uint64_t spoolBytes = 0; ///< on the disk
     std::uint64_t left = 0;       ///< packets that a probe before had left, and a server has now
     std::string problem;          ///< why nothing is stored just now, what to do; empty if all is well
+    std::string refusal;          ///< what a server does not let it do; empty if it may do all it wants
     bool hasTwin = false;         ///< another probe has the same name
 };
 

@@ -67,10 +67,23 @@ std::string detail() {
     return text == nullptr ? "" : text;
 }
 
+/// Without the place in the library's source: "(jsm.c:1033): no room" is "no room".
+std::string saidBy(const std::string& text) {
+    const std::size_t end = text.starts_with('(') ? text.find("): ") : std::string::npos;
+    return end == std::string::npos ? text : text.substr(end + 3);
+}
+
 NetResult<void> setFiles(natsOptions* options, const ServerChoice& choice) {
     const auto refuse = [](const std::string& file) {
-        return net::netError(NetError::Kind::Other, file + ": is not what it should be: " + detail());
+        return net::netError(NetError::Kind::Other, file + ": cannot be read, or is not what it should be (" +
+                                                        saidBy(detail()) + ")");
     };
+    for (const std::string& file :
+         {choice.credentials, choice.nkey, choice.authorities, choice.certificate, choice.key}) {
+        if (!file.empty() && !std::ifstream(file)) {
+            return net::netError(NetError::Kind::Other, file + ": cannot be read");
+        }
+    }
     if (!choice.credentials.empty() &&
         natsOptions_SetUserCredentialsFromFiles(options, choice.credentials.c_str(), nullptr) != NATS_OK) {
         return refuse(choice.credentials);
@@ -138,13 +151,13 @@ std::string meaningOf(int status, int streamError) {
     switch (streamError) {
     case JSNotEnabledErr:
     case JSNotEnabledForAccountErr:
-        return "no server keeps streams just now: they may be choosing a leader; if it lasts, turn on "
-               "jetstream in their "
-               "configuration";
+        status = NATS_NO_RESPONDERS;
+        break;
     case JSStreamNotFoundErr:
         return "the server has no stream of this site; `posewire-cli stage --keep HOURS` makes it";
     case JSClusterNotAvailErr:
         return "the servers are choosing a leader just now; it is tried again";
+    case JSStorageResourcesExceededErr:
     case JSInsufficientResourcesErr:
         return "the server has no room for more; free its disk, or give the stream a limit of bytes";
     default:
@@ -168,16 +181,19 @@ std::string meaningOf(int status, int streamError) {
         return "TLS failed; see that the certificate is of that host name, and signed by what --nats-ca "
                "names";
     case NATS_NO_RESPONDERS:
-        return "nothing answers there: the server keeps no streams, or none of this site; "
-               "`posewire-cli stage --keep HOURS` makes it";
+        return "no server keeps what is published: the site has no stream yet (`posewire-cli stage --keep "
+               "HOURS` makes it), a leader is being chosen, or jetstream is off in their configuration";
     case NATS_TIMEOUT:
         return "the server does not answer in time; it is tried again";
     case NATS_MAX_PAYLOAD:
         return "the server takes no messages of that size; raise its max_payload to 1 MB";
     case NATS_NO_SERVER_SUPPORT:
         return "the server is too old; version 2.9 is needed";
+    case NATS_PROTOCOL_ERROR:
+        return "the server ended the connection; if it asks for a certificate, name one with "
+               "--nats-certificate and --nats-key";
     default:
-        return natsStatus_GetText(static_cast<natsStatus>(status));
+        return streamError != 0 ? "the server refuses" : natsStatus_GetText(static_cast<natsStatus>(status));
     }
 }
 
@@ -245,7 +261,9 @@ NetResult<std::unique_ptr<Server>> Server::connect(const ServerChoice& choice, c
         natsConnection_GetLastError(connection, &text);
         auto& self = *static_cast<Server*>(own);
         const std::lock_guard lock(self.m_mutex);
-        self.m_refusal = status == NATS_NOT_PERMITTED && text != nullptr ? text : "";
+        if (status == NATS_NOT_PERMITTED && text != nullptr) {
+            self.m_refusal = text;
+        }
     };
     natsOptions_SetErrorHandler(options.own, note, server.get());
     const natsStatus status = natsConnection_Connect(&server->m_connection, options.own);
@@ -272,7 +290,7 @@ tl::unexpected<NetError> Server::failure(int status, int streamError) const {
     if (!m_refusal.empty() && (status == NATS_TIMEOUT || status == NATS_NO_RESPONDERS)) {
         status = NATS_NOT_PERMITTED; // the server says so apart, and lets the question wait
     }
-    const std::string more = status == NATS_SSL_ERROR || streamError != 0 ? detail()
+    const std::string more = status == NATS_SSL_ERROR || streamError != 0 ? saidBy(detail())
                              : status == NATS_NOT_PERMITTED               ? m_refusal
                                                                           : "";
     return tl::unexpected(
@@ -401,7 +419,8 @@ NetResult<StreamState> Server::setStream(const std::string& site, const StreamLi
     config.MaxBytes = limits.bytes;
     config.Replicas = limits.replicas;
     // Who comes back after a while may send once more what it sent then.
-    config.Duplicates = std::chrono::nanoseconds(std::chrono::minutes(2)).count();
+    const log::Duration again = std::chrono::minutes(2);
+    config.Duplicates = (limits.age == log::Duration::zero() ? again : std::min(again, limits.age)).count();
     jsOptions patient;
     jsOptions_Init(&patient);
     patient.Wait = 10'000; // ms
@@ -413,6 +432,12 @@ NetResult<StreamState> Server::setStream(const std::string& site, const StreamLi
         status = js_UpdateStream(&info, m_streams, &config, &patient, &error);
     }
     return status == NATS_OK ? NetResult<StreamState>(stateOf(info)) : failure(status, error);
+}
+
+std::string Server::refusal() const {
+    const std::lock_guard lock(m_mutex);
+    return m_refusal.empty() ? ""
+                             : m_place + ": " + meaningOf(NATS_NOT_PERMITTED, 0) + " (" + m_refusal + ")";
 }
 
 bool Server::isConnected() const {

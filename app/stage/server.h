@@ -106,6 +106,8 @@ public:
     net::NetResult<StreamState> setStream(const std::string& site, const StreamLimits& limits);
 
     [[nodiscard]] bool isConnected() const;
+    /// What we may not do, as the server said last; empty if it has said nothing.
+    [[nodiscard]] std::string refusal() const;
     [[nodiscard]] const std::string& place() const { return m_place; }
 
 private:

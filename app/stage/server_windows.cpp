@@ -64,6 +64,9 @@ net::NetResult<StreamState> Server::stream(const std::string& /*site*/) {
 net::NetResult<StreamState> Server::setStream(const std::string& /*site*/, const StreamLimits& /*limits*/) {
     return notHere();
 }
+std::string Server::refusal() const {
+    return {};
+}
 bool Server::isConnected() const {
     return false;
 }

@@ -22,6 +22,9 @@ constexpr const char* kGroup = "Servers of a stage";
 } // namespace
 
 std::optional<std::string> StageOptions::problem() const {
+    if (site.empty()) {
+        return "--site is missing: the name of the stage at the servers";
+    }
     if (!isName(site)) {
         return "--site: may have letters, digits, - and _, 64 at most";
     }

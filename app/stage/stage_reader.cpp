@@ -79,7 +79,7 @@ std::vector<std::string> StageReader::takeSilent() {
 
 std::string StageReader::problem() const {
     const std::lock_guard lock(m_mutex);
-    return m_problem;
+    return m_problem.empty() && m_server != nullptr ? m_server->refusal() : m_problem;
 }
 
 void StageReader::setProblem(std::string text) {

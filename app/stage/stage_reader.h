@@ -27,8 +27,8 @@ struct ProbeState {
     log::Stamp lastHeard{};          ///< of our clock
     std::string version;             ///< of Posewire there
     std::string host;                ///< the name of its computer
-    double rateHz = 0;        ///< packets that it had stored, over the last second
-    std::uint64_t stored = 0; ///< packets, since it began
+    double rateHz = 0;               ///< packets that it had stored, over the last second
+    std::uint64_t stored = 0;        ///< packets, since it began
     std::uint64_t received = 0;      ///< packets of it that came here
     std::uint64_t lostOnWay = 0;     ///< packets that it had received, and that did not come here
     std::uint64_t kernelDropped = 0; ///< datagrams that its computer dropped
@@ -91,7 +91,7 @@ private:
     mutable std::mutex m_mutex; ///< guards what follows
     std::map<std::string, ProbeState> m_probes;
     std::string m_problem;
-    std::set<std::string> m_silent; ///< probes that are known to be
+    std::set<std::string> m_silent;   ///< probes that are known to be
     std::shared_ptr<Server> m_server; ///< null until it was connected once
     std::jthread m_reading;           ///< these use all of the above
     std::jthread m_pulsing;

@@ -44,6 +44,8 @@ struct SenderInfo {
     std::string probe{};
 
     [[nodiscard]] ReceivingPort port() const { return {probe, localPort}; }
+    /// The address, with the probe that hears it if there is one: "10.0.0.7:40001 at STAGE-A".
+    [[nodiscard]] std::string place() const { return probe.empty() ? address : address + " at " + probe; }
 
     friend bool operator==(const SenderInfo&, const SenderInfo&) = default;
 };

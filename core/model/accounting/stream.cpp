@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/accounting/stream.h"
 
+#include <numeric>
+
 namespace posewire::model {
 namespace {
 
@@ -43,8 +45,10 @@ std::array<std::uint64_t, kLossCauses> Stream::lostByCause() const {
     auto result = attributed;
     const StreamCounts counts = accounting.counts();
     const std::uint64_t lost = counts.lost + counts.incomplete;
-    const std::uint64_t known = result[0] + result[1] + result[2];
-    result[static_cast<std::size_t>(LossCause::Unknown)] = lost > known ? lost - known : 0;
+    std::uint64_t& unknown = result[static_cast<std::size_t>(LossCause::Unknown)];
+    unknown = 0;
+    const std::uint64_t known = std::accumulate(result.begin(), result.end(), std::uint64_t{0});
+    unknown = lost > known ? lost - known : 0;
     return result;
 }
 

@@ -197,10 +197,12 @@ bool TimeCodes::noteChange(const Stream& stream, const Verdict& verdict, const S
     return true;
 }
 
-bool Claims::meet(log::SenderId sender, const std::string& address) {
+bool Claims::meet(log::SenderId sender, const log::SenderInfo& info) {
     const auto [place, isNew] = m_sources.try_emplace(sender);
     if (isNew) {
-        place->second = {address, std::hash<std::string_view>{}(log::hostOf(address))};
+        const std::hash<std::string> number;
+        place->second = {info.place(), number(info.probe + '/' + std::string(log::hostOf(info.address))),
+                         number(info.probe)};
     }
     return isNew;
 }
@@ -208,9 +210,11 @@ bool Claims::meet(log::SenderId sender, const std::string& address) {
 void Claims::take(const log::Packet& packet, const wire::Header& header, std::string_view name,
                   Incidents& incidents) {
     constexpr std::size_t kTelling = StreamAccounting::kTelling;
+    const Source& source = m_sources[packet.sender];
     const Claim claim{
         packet.sender,
-        m_sources[packet.sender].host,
+        source.host,
+        source.probe,
         packet.stamp,
         packet.stamp,
         name.empty() ? 0 : std::hash<std::string_view>{}(name),
@@ -228,11 +232,12 @@ void Claims::take(const log::Packet& packet, const wire::Header& header, std::st
 }
 
 /// Whether two hosts have performers of their own, each numbered from the same ID: they name different
-/// people, or may do so soon.
+/// people, or may do so soon. Those that different probes hear need not say so.
 bool Claims::areOthers(const Claim& one, const Claim& other) {
     const bool areNamed = one.name != 0 && other.name != 0;
     const log::Stamp known = std::max(one.since, other.since) + kNamed;
-    return one.host != other.host && (areNamed ? one.name != other.name : one.stamp < known);
+    return one.host != other.host &&
+           (areNamed ? one.name != other.name : one.probe != other.probe || one.stamp < known);
 }
 
 /// Makes a claim the newest. Those that came since its sender or host sent before, if that was a moment ago,

@@ -74,8 +74,8 @@ private:
 /// Finds characters that several senders send at once.
 class Claims {
 public:
-    /// A sender with its address. True if it is new.
-    bool meet(log::SenderId sender, const std::string& address);
+    /// True if it is new.
+    bool meet(log::SenderId sender, const log::SenderInfo& info);
     /// A sample of a character, from a sender that was met. `name`: of the character; empty before it has
     /// one.
     void take(const log::Packet& packet, const wire::Header& header, std::string_view name,
@@ -86,6 +86,7 @@ private:
     struct Claim {
         log::SenderId sender{};
         std::size_t host = 0;
+        std::size_t probe = 0;
         log::Stamp stamp{};
         log::Stamp since{};        ///< its first sample
         std::size_t name = 0;      ///< one number for each; 0 for none
@@ -93,8 +94,9 @@ private:
     };
     struct Source {
         std::string address;
-        std::size_t host = 0; ///< one number for each
-        bool isTwin = false;  ///< sends what another sends, byte by byte
+        std::size_t host = 0;  ///< one number for each
+        std::size_t probe = 0; ///< likewise
+        bool isTwin = false;   ///< sends what another sends, byte by byte
     };
     template <class Key>
     static std::span<const Claim> turnOf(std::vector<Claim>& claims, const Claim& claim, Key Claim::*key);

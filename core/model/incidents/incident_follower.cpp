@@ -151,7 +151,7 @@ void IncidentFollower::expect(const CharacterKey& key, Character& character, log
 void IncidentFollower::takeDatagram(const log::Packet& packet, const wire::Header& header, Stream& stream,
                                     const Whose& whose, bool isLate) {
     m_watch.wake(stream);
-    if (m_claims.meet(packet.sender, whose.address)) {
+    if (m_claims.meet(packet.sender, whose.sender)) {
         m_incidents.report(occurrenceOf(IncidentKind::SourceUp, packet));
     }
     if (countsSamples(header.type()) && !isLate) {

@@ -45,7 +45,7 @@ public:
     void takeDropsUnseen(std::uint64_t count, const log::Packet& next);
     /// Who sent a datagram, and whom it is of; without a name before there is one.
     struct Whose {
-        const std::string& address;
+        const log::SenderInfo& sender;
         std::string_view name;
     };
     /// Each datagram with its header. `isLate`: others have overtaken it.

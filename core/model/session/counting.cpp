@@ -93,8 +93,7 @@ void Counting::takeDatagram(Observed& seen) {
         const bool isAlone = m_roll.senders().size() == 1; // nobody else can claim the character
         const std::string_view name =
             isAlone ? "" : seen.character->metadata.value("name", packet.number).exact();
-        m_incidents.takeDatagram(packet, *seen.header, stream, {seen.sender->info.address, name},
-                                 isLate(verdicts));
+        m_incidents.takeDatagram(packet, *seen.header, stream, {seen.sender->info, name}, isLate(verdicts));
     }
     if (isSampled && !isLate(verdicts)) {
         m_attribution.evidence().takeSampled(packet.sender, packet.stamp, seen.header->sampleCounter);

@@ -99,8 +99,8 @@ LossesByCause Losses::causesOf(const Stream& stream) const {
     std::uint64_t left = counts.lost + counts.incomplete;
     const auto known = m_known.find(stream.key);
     LossesByCause losses{};
-    for (std::size_t cause = 0; known != m_known.end() && cause < kUnknown; ++cause) {
-        losses[cause] = std::min(known->second[cause], left); // a gap at an edge counts whole
+    for (std::size_t cause = 0; known != m_known.end() && cause < kLossCauses; ++cause) {
+        losses[cause] = cause == kUnknown ? 0 : std::min(known->second[cause], left); // at an edge, whole
         left -= losses[cause];
     }
     losses[kUnknown] = left;

@@ -38,10 +38,6 @@ void Sender::takeSkipped(wire::Bytes between) {
     skippedBytes += between.size();
 }
 
-ForeignText Sender::address() const {
-    return info.probe.empty() ? info.address : info.address + " at " + info.probe;
-}
-
 std::optional<std::string> Sender::host() const {
     if (info.transport == log::Transport::File) {
         return std::nullopt;

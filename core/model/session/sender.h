@@ -57,8 +57,7 @@ struct Sender {
     void takeMalformed(log::Stamp stamp);
     void takeForeign(wire::Bytes datagram);
     void takeSkipped(wire::Bytes between);
-    /// With the probe that it is heard by, if there is one.
-    [[nodiscard]] ForeignText address() const;
+    [[nodiscard]] ForeignText address() const { return info.place(); }
     /// The host with the transport; nothing for a file.
     [[nodiscard]] std::optional<std::string> host() const;
     /// "7b 22 61": the first 16 bytes of foreignHead in hexadecimal.
