@@ -95,6 +95,9 @@ constexpr auto kTransport = [](const log::SenderInfo& sender) {
 constexpr auto kPort = [](const log::SenderInfo& sender) {
     return sender.localPort != 0 ? Read(number(sender.localPort)) : std::nullopt;
 };
+constexpr auto kProbe = [](const log::SenderInfo& sender) {
+    return sender.probe.empty() ? std::nullopt : Read({0, sender.probe});
+};
 constexpr auto kType = [](const wire::Header& header) { return header.type(); };
 constexpr auto kIndex = [](const wire::Header& header) { return header.datagramIndex(); };
 constexpr auto kLast = [](const wire::Header& header) { return header.isLast(); };
@@ -127,6 +130,8 @@ constexpr std::array kRows{
     Row{"last", Kind::Flag, "", "the last datagram of its sample", fromHeader<kLast>},
     Row{"transport", Kind::Transport, "", "udp, tcp, file or performer", fromSender<kTransport>},
     Row{"port", Kind::Number, "", "of this computer, that the packet arrived at", fromSender<kPort>},
+    Row{"probe", Kind::Text, "", "that received the packet; nothing if this computer did",
+        fromSender<kProbe>},
 };
 
 template <class Code, std::size_t Count>

@@ -20,7 +20,7 @@ SKIPPED = 77
 
 def run_demo(demo, cli, folder):
     """The monitor lists the performers of all three probes; the folder for temporary files is empty at the end."""
-    result = subprocess.run([demo, cli], env=dict(os.environ, TMPDIR=str(folder)), capture_output=True, text=True, timeout=90, check=False)
+    result = subprocess.run([demo, cli], env=dict(os.environ, TMPDIR=str(folder), DISPLAY="", WAYLAND_DISPLAY=""), capture_output=True, text=True, timeout=90, check=False)
     assert result.returncode == 0, result.stderr
     senders = set(re.findall(r"^(127\.0\.0\.1:\d+) \(udp\)", result.stdout, re.M)) or set(re.findall(r"STAGE-0\d", result.stdout))
     assert len(senders) == 3, (senders, result.stdout[-2000:], result.stderr)
