@@ -44,7 +44,7 @@ std::string usualSpool(const ProbeOptions& options) {
     return data.toStdString() + "/posewire/probe/" + options.stage.site + '-' + options.name;
 }
 
-/// How the receiver is, as a probe says it.
+/// The health of the receiver, as a JSON object.
 std::string healthOf(net::Receiver& receiver) {
     const net::ReceiveTotals totals = receiver.totals();
     nlohmann::ordered_json health{{"version", usage::version()},
@@ -65,7 +65,7 @@ std::string healthOf(net::Receiver& receiver) {
     return health.dump();
 }
 
-/// Says what is wrong when that changes.
+/// Reports what is wrong whenever that changes.
 class ProbeWatch {
 public:
     ProbeWatch(const net::Receiver& receiver, const stage::Probe& probe, Console& console)

@@ -15,19 +15,19 @@ class StageWatch {
 public:
     StageWatch(MonitorRun& run, Console& console) : m_run(run), m_console(console) {}
 
-    /// Begins to read, if the options ask for it.
+    /// Begins to read if the options ask for it.
     void start(const stage::StageOptions& options, net::Receiver& receiver, const log::Clock& clock);
-    /// Says what is wrong when that changes.
+    /// Reports what is wrong whenever that changes.
     void look(log::Stamp now);
-    /// Nothing more comes of it. Unusable if nothing came for what was wrong until now.
+    /// Ends reading. Returns Unusable if no probe was heard of because of an error.
     ExitStatus end();
 
 private:
     MonitorRun& m_run;
     Console& m_console;
     std::unique_ptr<stage::StageReader> m_reader;
-    std::string m_problem;        ///< told last
-    std::set<std::string> m_told; ///< what is told once
+    std::string m_problem;        ///< reported last
+    std::set<std::string> m_told; ///< reports that come once
 };
 
 } // namespace posewire::cli

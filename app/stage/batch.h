@@ -32,7 +32,7 @@ inline constexpr const char* kCountHeader = "Posewire-Count"; ///< of its packet
 /// and drops that the probe has of them.
 class Batch {
 public:
-    /// Bytes, so that a message of NATS (1 MB, if its server was not told otherwise) takes any batch.
+    /// Bytes. A message of NATS holds 1 MB unless its server is configured otherwise.
     static constexpr std::size_t kMostBytes = 900'000;
 
     Batch();
@@ -44,7 +44,7 @@ public:
     [[nodiscard]] std::span<const std::byte> bytes() const { return m_bytes; }
 
     void clear();
-    /// The number of the packet is that after the last one, unless the batch is empty.
+    /// The packet follows the last one that was added.
     void add(const log::Packet& packet, const log::SenderInfo& sender);
 
 private:
@@ -55,7 +55,7 @@ private:
     std::uint64_t m_count = 0;
 };
 
-/// Hands out the packets of a batch; fails where it is damaged, after what could be read.
+/// Calls `visit` for each packet. Fails at the first damage, after the packets before it.
 [[nodiscard]] tl::expected<void, log::FileError> readBatch(std::span<const std::byte> bytes,
                                                            const log::FileVisitor& visit);
 

@@ -66,7 +66,7 @@ BatchOrder::Taken BatchOrder::take(const Message& batch, const log::FileVisitor&
     return taken;
 }
 
-/// Notes where the probe is. False for what came before, or cannot be read.
+/// Notes how far the probe has come. Returns false if the batch came before or cannot be read.
 bool BatchOrder::isNews(Course& course, const Message& batch, Taken& taken) const {
     const std::string run = headerOf(batch, kRunHeader);
     const auto layout = numberIn(batch, kLayoutHeader);

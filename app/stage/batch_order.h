@@ -17,15 +17,16 @@ class BatchOrder {
 public:
     struct Taken {
         std::string probe;           ///< empty if the subject names none
-        std::uint64_t packets = 0;   ///< that are news
-        std::uint64_t lostOnWay = 0; ///< that the probe had before these, and that did not come
-        std::string problem; ///< what is wrong with the batch, or with who publishes; empty if all is well
+        std::uint64_t packets = 0;   ///< that did not come before
+        std::uint64_t lostOnWay = 0; ///< packets that the probe numbered before these and that did not come
+        std::string problem;         ///< of the batch or of the probe; empty if all is well
     };
-    /// Where packets are missing, a record of PacketFlags::isLostOnWay comes ahead of the next one.
+    /// Calls `visit` for each new packet. If packets are missing before it, a record with
+    /// PacketFlags::isLostOnWay comes first.
     Taken take(const Message& batch, const log::FileVisitor& visit);
 
 private:
-    /// Where a probe is in what it publishes.
+    /// How far a probe has come.
     struct Course {
         std::string run;
         std::set<std::string> runsBefore;

@@ -12,10 +12,9 @@
 
 namespace posewire::stage {
 
-/// What the probes of a site received from one time to another, as far as a stream has it: read like a
-/// recording, with the name of the probe in each sender. In the order in which it was stored, which is not
-/// that of time where a probe had to wait for a server. What was stored more than five minutes after the end
-/// is not looked for.
+/// Reads, as a recording, the packets that the probes of a site received in a range of time, as long as the
+/// stream keeps them. Senders have the name of their probe. Packets come in the order in which they were
+/// stored: late if a probe had to wait for a server. Reading ends five minutes of storing after the range.
 class PastSource final : public log::ByteSource {
 public:
     /// Fails if no server answers, or none has a stream of the site.
@@ -30,7 +29,7 @@ public:
 private:
     PastSource(std::unique_ptr<Server> server, std::string site)
         : m_server(std::move(server)), m_site(std::move(site)) {}
-    /// Fills the batch with what the next message has of the time; false where there is no more.
+    /// Fills the batch with the packets of the range in the next message. Returns false at the end.
     tl::expected<bool, log::FileError> fetch();
 
     std::unique_ptr<Server> m_server;

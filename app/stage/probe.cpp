@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kRest(1);
 constexpr std::chrono::milliseconds kBeforeRetry(100);
-/// A server that is away for longer than this has what comes meanwhile kept on the disk.
+/// The spool is begun if no server has answered for so long.
 constexpr log::Duration kPatience = std::chrono::milliseconds(500);
 constexpr log::Duration kAtEnd = std::chrono::seconds(2);
 
@@ -96,7 +96,7 @@ bool Probe::connect() {
     return true;
 }
 
-/// What is wrong. If it lasts, what comes meanwhile is kept on the disk.
+/// Notes what is wrong, and begins the spool if it lasts.
 void Probe::note(std::string problem) {
     const log::Moment now = m_clock.monotonic();
     m_failingSince = std::min(m_failingSince, now);
@@ -116,7 +116,7 @@ std::optional<log::FileError> Probe::beginSpool() {
     return m_spool.isOpen() ? std::nullopt : m_spool.begin(m_log);
 }
 
-/// What the one before could not have stored, as a run of its own.
+/// Publishes, as a run of its own, what the probe before left in the spool.
 void Probe::publishLeft(const std::stop_token& stop) {
     const std::string run = newRun();
     Batch batch;
@@ -170,7 +170,7 @@ bool Probe::fill(bool isEnding) {
     for (std::uint64_t number = m_next; number < end; ++number) {
         auto packet = m_reader.packet(number);
         if (!packet && m_batch.isEmpty()) {
-            packet = m_reader.packetFrom(number); // those before had to go
+            packet = m_reader.packetFrom(number); // memory and spool have dropped those before
             const std::uint64_t gone = (packet ? packet->number : end) - number;
             number += gone;
             const std::lock_guard lock(m_mutex);
@@ -182,14 +182,14 @@ bool Probe::fill(bool isEnding) {
         }
         const log::SenderInfo* const sender = m_senders.find(packet->sender);
         const log::SenderInfo known = sender != nullptr ? *sender : log::SenderInfo{};
-        // Before it nobody listened: whoever reads on from the run before is to know that.
+        // Readers learn from it that the port was not listened to between two runs.
         packet->flags.afterClosed |= m_heard.insert({known.transport, known.localPort}).second;
         m_batch.add(*packet, known);
     }
     return !m_batch.isEmpty();
 }
 
-/// Tries until it is stored. False if this is to end, and no server has taken it for a while.
+/// Tries until a server has stored it. Returns false if the probe is to end and no server answers.
 bool Probe::store(const Batch& batch, const std::string& run, const std::stop_token& stop) {
     const std::string id = m_choice.name + '-' + run + '-' + std::to_string(batch.first());
     const std::array<Server::Header, 4> headers{{{kLayoutHeader, std::to_string(kLayout)},
@@ -230,7 +230,7 @@ std::string Probe::healthText() const {
     return json.dump();
 }
 
-/// Says once a second how it is, and answers those who compare their clock with ours.
+/// Publishes the health once a second, and answers readers that compare clocks.
 void Probe::pulse(const std::stop_token& stop) {
     constexpr log::Duration kPeriod = std::chrono::seconds(1);
     constexpr std::chrono::milliseconds kLook(100);

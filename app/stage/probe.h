@@ -37,23 +37,24 @@ struct ProbeFigures {
     std::uint64_t spoolBytes = 0; ///< on the disk
     std::uint64_t left = 0;       ///< packets that a probe before had left, and a server has now
     std::string problem;          ///< why nothing is stored just now, what to do; empty if all is well
-    std::string refusal;          ///< what a server does not let it do; empty if it may do all it wants
+    std::string refusal;          ///< a permission that the server denied; empty if it denied none
     bool hasTwin = false;         ///< another probe has the same name
 };
 
-/// Publishes what a log receives, in order, each batch stored before the next: nothing is lost, doubled or
-/// out of order whichever server dies. While none takes it, it is kept in the spool. Two threads of its own.
+/// Publishes the packets of a log in order. Each batch is acknowledged before the next is sent, so none is
+/// lost, doubled or out of order, whichever server dies. The spool keeps them while no server answers. Two
+/// threads of its own.
 class Probe {
 public:
     /// A batch is closed once it has as many packets, or its first one is that old.
     static constexpr std::uint64_t kBatch = 64;
     static constexpr log::Duration kWait = std::chrono::milliseconds(5);
 
-    /// `health` is the health of the receiver as members of a JSON object, asked for once a second by another
-    /// thread. `log` and `clock` must outlive the probe.
+    /// `health` returns the health of the receiver as a JSON object; another thread calls it once a second.
+    /// `log` and `clock` must outlive the probe.
     Probe(log::PacketLog& log, const log::Clock& clock, ProbeChoice choice,
           std::function<std::string()> health);
-    /// Tries for two seconds to have the rest stored; what is not, is left in the spool.
+    /// Tries for two seconds to publish the rest, and leaves in the spool what no server took.
     ~Probe();
     Probe(const Probe&) = delete;
     Probe& operator=(const Probe&) = delete;
@@ -65,7 +66,7 @@ private:
     void publish(const std::stop_token& stop);
     bool connect();
     void publishLeft(const std::stop_token& stop);
-    /// Gathers what is to be stored next; false if there is nothing yet.
+    /// Gathers the next batch. Returns false if it is not due yet.
     bool fill(bool isEnding);
     bool store(const Batch& batch, const std::string& run, const std::stop_token& stop);
     std::optional<log::FileError> beginSpool();

@@ -16,7 +16,7 @@ using net::NetError;
 using net::NetResult;
 
 constexpr std::chrono::milliseconds kAnswer(2000);
-// That wait to be read.
+// Messages that wait to be read.
 constexpr int kMostMessages = 1 << 16;
 constexpr int kMostBytes = 128 << 20;
 
@@ -60,14 +60,14 @@ NetResult<std::string> publicKeyOf(const std::string& path) {
                                 "`nk -gen user -pubout` writes such a file");
 }
 
-/// What the library last said of this thread.
+/// The library's words for the last failure of this thread.
 std::string detail() {
     natsStatus status = NATS_OK;
     const char* const text = nats_GetLastError(&status);
     return text == nullptr ? "" : text;
 }
 
-/// Without the place in the library's source: "(jsm.c:1033): no room" is "no room".
+/// Cuts the place in the library's source: "(jsm.c:1033): no room" becomes "no room".
 std::string saidBy(const std::string& text) {
     const std::size_t end = text.starts_with('(') ? text.find("): ") : std::string::npos;
     return end == std::string::npos ? text : text.substr(end + 3);
@@ -146,7 +146,7 @@ Stored storedOf(const Message& message) {
     return {meta, &jsMsgMetaData_Destroy};
 }
 
-/// What a failed attempt means, and what to do.
+/// Explains a failure, and says what to do.
 std::string meaningOf(int status, int streamError) {
     switch (streamError) {
     case JSNotEnabledErr:
@@ -288,7 +288,7 @@ Server::~Server() {
 tl::unexpected<NetError> Server::failure(int status, int streamError) const {
     const std::lock_guard lock(m_mutex);
     if (!m_refusal.empty() && (status == NATS_TIMEOUT || status == NATS_NO_RESPONDERS)) {
-        status = NATS_NOT_PERMITTED; // the server says so apart, and lets the question wait
+        status = NATS_NOT_PERMITTED; // the server reports that apart, and leaves the request unanswered
     }
     const std::string more = status == NATS_SSL_ERROR || streamError != 0 ? saidBy(detail())
                              : status == NATS_NOT_PERMITTED               ? m_refusal
@@ -300,7 +300,7 @@ tl::unexpected<NetError> Server::failure(int status, int streamError) const {
 
 NetResult<void> Server::store(const std::string& subject, std::span<const std::byte> bytes,
                               std::span<const Header> headers, const std::string& id) {
-    if (!isConnected()) { // else the library keeps it, and lets us wait
+    if (!isConnected()) { // else the library buffers it and times out
         return failure(NATS_CONNECTION_DISCONNECTED, 0);
     }
     natsMsg* made = nullptr;
@@ -418,7 +418,7 @@ NetResult<StreamState> Server::setStream(const std::string& site, const StreamLi
     config.MaxAge = limits.age.count();
     config.MaxBytes = limits.bytes;
     config.Replicas = limits.replicas;
-    // Who comes back after a while may send once more what it sent then.
+    // A probe repeats a batch whose acknowledgement was lost.
     const log::Duration again = std::chrono::minutes(2);
     config.Duplicates = (limits.age == log::Duration::zero() ? again : std::min(again, limits.age)).count();
     jsOptions patient;

@@ -22,10 +22,9 @@ struct __jsCtx;
 /// A stage of many computers, joined by servers of NATS with JetStream. See packaging/stage.md.
 namespace posewire::stage {
 
-/// Where the servers are, and what this program shows them. Secrets are in files or in the environment.
+/// Addresses of servers and the files of secrets that they ask for.
 struct ServerChoice {
-    std::vector<std::string>
-        addresses; ///< "nats://HOST:PORT", "tls://HOST:PORT"; one is enough to be connected
+    std::vector<std::string> addresses; ///< "nats://HOST:PORT", "tls://HOST:PORT"; any of them will do
     std::string user;
     std::string passwordFile; ///< its first line; else the environment's POSEWIRE_NATS_PASSWORD
     std::string credentials;  ///< file: a JWT and its seed
@@ -44,9 +43,9 @@ using Message = std::unique_ptr<__natsMsg, MessageFreer>;
 [[nodiscard]] std::span<const std::byte> bytesOf(const Message& message);
 /// Empty if it has none of that name.
 [[nodiscard]] std::string headerOf(const Message& message, const char* name);
-/// Where it lies in the stream; 0 for one that is not stored.
+/// The sequence number in the stream; 0 if it is not stored.
 [[nodiscard]] std::uint64_t sequenceOf(const Message& message);
-/// When it was stored, by the server's clock.
+/// The time of storing, by the server's clock.
 [[nodiscard]] log::WallTime storedAt(const Message& message);
 
 struct SubscriptionEnder {
@@ -68,12 +67,11 @@ struct StreamState {
     std::string leader;     ///< empty if the server is alone
 };
 
-/// A connection that comes back by itself. Every call may take as long as the servers let it, two seconds at
-/// most where not said otherwise; from any thread.
+/// A connection that is restored by itself. Calls block, for two seconds at most unless said otherwise. Safe
+/// from any thread.
 class Server {
 public:
-    /// Fails if none of the servers answers, or it wants something else of us. `name` is shown to the
-    /// servers' operators.
+    /// Fails if no server answers, or it refuses us. Operators of the servers see `name`.
     static net::NetResult<std::unique_ptr<Server>> connect(const ServerChoice& choice,
                                                            const std::string& name);
     ~Server();
@@ -81,45 +79,44 @@ public:
     Server& operator=(const Server&) = delete;
 
     using Header = std::pair<const char*, std::string>;
-    /// Returns once the stream of the subject has stored it; a message of an ID that it has already is not
-    /// stored again.
+    /// Returns once the stream of the subject has stored it. The stream ignores an ID that it has stored
+    /// within two minutes.
     net::NetResult<void> store(const std::string& subject, std::span<const std::byte> bytes,
                                std::span<const Header> headers, const std::string& id);
-    /// To those who listen just now.
+    /// Reaches those who listen just now; is not stored.
     net::NetResult<void> publish(const std::string& subject, const std::string& text);
     net::NetResult<Message> request(const std::string& subject, const std::string& text,
                                     std::chrono::milliseconds patience);
-    /// Answers to a request.
+    /// Answers a request.
     void reply(const Message& request, const std::string& text);
 
     net::NetResult<Subscription> listen(const std::string& subject);
-    /// In the order of a stream, from a message of it on, or the first one that was stored at a time or
-    /// after.
+    /// Reads the stream of a site in order: from a sequence number on, or, if that is 0, from a time on.
     net::NetResult<Subscription> read(const std::string& site, const std::string& subject, std::uint64_t from,
                                       log::WallTime since);
-    /// The next message; none if there was none meanwhile.
+    /// Null if none comes in time.
     [[nodiscard]] static Message next(const Subscription& subscription, std::chrono::milliseconds patience);
 
-    /// Fails if there is none, or we may not ask.
+    /// Fails if there is no stream, or we may not ask.
     net::NetResult<StreamState> stream(const std::string& site);
     /// Makes it, or sets its limits.
     net::NetResult<StreamState> setStream(const std::string& site, const StreamLimits& limits);
 
     [[nodiscard]] bool isConnected() const;
-    /// What we may not do, as the server said last; empty if it has said nothing.
+    /// The permission that the server denied last; empty if it denied none.
     [[nodiscard]] std::string refusal() const;
     [[nodiscard]] const std::string& place() const { return m_place; }
 
 private:
     explicit Server(std::string place) : m_place(std::move(place)) {}
-    /// What went wrong, in words.
+    /// The sentence for a failure.
     [[nodiscard]] tl::unexpected<net::NetError> failure(int status, int streamError) const;
 
     std::string m_place;
     __natsConnection* m_connection = nullptr;
     __jsCtx* m_streams = nullptr;
     mutable std::mutex m_mutex; ///< guards what follows
-    std::string m_refusal;      ///< what the server last said we may not do
+    std::string m_refusal;      ///< the server's own words
 };
 
 } // namespace posewire::stage

@@ -14,28 +14,27 @@
 
 namespace posewire::stage {
 
-/// What a probe has received and no server has stored yet, in files as any other recording: they are written
-/// while no server takes it, and go once it is stored. What a probe that died has left is there for the next
-/// one. One thread.
+/// Keeps on the disk, as recordings, the packets that no server has stored yet. The files are removed once
+/// they are stored; a probe that starts finds those of one that died. One thread.
 class Spool {
 public:
     /// `most`: bytes on the disk.
     Spool(std::string folder, std::uint64_t most) : m_folder(std::move(folder)), m_most(most) {}
 
-    /// Writes the log from its oldest packet in memory on. Returns what is wrong, if anything is.
+    /// Writes the log, from the oldest packet in memory on. Returns the error, if there is one.
     std::optional<log::FileError> begin(log::PacketLog& log);
     [[nodiscard]] bool isOpen() const { return m_history != nullptr; }
-    /// What the log has is stored now: the files go.
+    /// Removes the files.
     void drop() { m_history.reset(); }
-    /// The files stay for the next probe.
+    /// Completes the files for the next probe.
     void leave();
     [[nodiscard]] std::uint64_t bytes() const { return m_history ? m_history->figures().bytes : 0; }
 
-    /// Remembers which packet was stored last, also if this process is killed.
+    /// Remembers the packet that was stored last, even if this process is killed.
     void noteStored(log::WallTime time, std::span<const std::byte> bytes);
-    /// Hands out what the probes before have left and had not stored, in order.
+    /// Calls `take` in order for the packets that earlier probes left and no server has stored.
     void readLeft(const log::FileVisitor& take) const;
-    /// All of that is stored now: those files go.
+    /// Removes the files of earlier probes.
     void dropLeft() const;
 
 private:

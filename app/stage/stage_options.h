@@ -12,21 +12,21 @@
 
 namespace posewire::stage {
 
-/// Servers of a stage as they were typed, for every program.
+/// The options of a stage as they were typed, for both programs.
 struct StageOptions {
     ServerChoice servers; ///< without addresses: none
     std::string site;
-    std::string since; ///< time of day, or with its day; empty: from now on
-    std::string until; ///< empty: goes on
+    std::string since; ///< time of day, with or without the date; empty: from now on
+    std::string until; ///< empty: no end
 
-    /// A time that is over: it is read as a file is.
+    /// True if it is a range of the past, which is read as a file is.
     [[nodiscard]] bool isPast() const { return !until.empty(); }
-    /// As a file is named.
+    /// A name for the range, in place of a file's.
     [[nodiscard]] std::string pastName() const {
         return site + " from " + since + (until.empty() ? "" : " to " + until);
     }
     [[nodiscard]] bool isAsked() const { return !servers.addresses.empty(); }
-    /// What is wrong with it; nothing if it can be tried.
+    /// The mistake in it, if there is one.
     [[nodiscard]] std::optional<std::string> problem() const;
 };
 
@@ -35,9 +35,9 @@ usage::DeclaredOption addStage(usage::Arguments arguments, StageOptions& options
 /// Adds `--since` as well.
 usage::DeclaredOption addStageSince(usage::Arguments arguments, StageOptions& options);
 
-/// When that was, or the newest time of that day that is over: "10:30", "10:30:15.5", "2026-11-26T10:30".
+/// Reads "10:30", "10:30:15.5" (the last time that it was so late) or "2026-11-26T10:30".
 [[nodiscard]] std::optional<log::WallTime> wallTimeOf(const std::string& text);
-/// What the probes of the site received from `since` to `until`, or now.
+/// Opens the packets that the probes of the site received from `since` to `until`, or to now.
 [[nodiscard]] tl::expected<std::unique_ptr<log::ByteSource>, log::FileError>
 openPast(const StageOptions& options, log::IsCancelled isCancelled);
 

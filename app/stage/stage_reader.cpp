@@ -87,8 +87,8 @@ void StageReader::setProblem(std::string text) {
     m_problem = std::move(text);
 }
 
-/// Who is silent for long may have lost his place when the servers chose another leader: he is asked again,
-/// from the message after the last one that came.
+/// Subscribes again, from the next message on, after three seconds of silence: the servers may have chosen
+/// another leader and forgotten us.
 void StageReader::read(const std::stop_token& stop) {
     constexpr log::Duration kSilence = std::chrono::seconds(3);
     log::Moment heard{};
@@ -207,11 +207,11 @@ void StageReader::takeHealth(const Message& health) {
     probe.spoolBytes = valueOf(json, "spoolBytes", std::uint64_t{0});
 }
 
-/// The exchange whose way is the shortest is off by least; the others are forgotten with time, as clocks
-/// drift.
+/// Keeps the exchange of least delay, which is off by least. Its delay counts for more with time, since
+/// clocks drift.
 void StageReader::compareClocks(Server& server) {
     constexpr std::chrono::milliseconds kWait(300);
-    constexpr double kForget = 1.2; // what an older one counts as having taken, each time
+    constexpr double kForget = 1.2; // a period
     for (const ProbeState& probe : probes()) {
         if (!probe.isAlive) {
             continue;

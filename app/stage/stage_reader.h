@@ -20,7 +20,7 @@
 
 namespace posewire::stage {
 
-/// A probe as it is known at the other end.
+/// A probe as its readers know it.
 struct ProbeState {
     std::string name;
     bool isAlive = false;            ///< it was heard of within the last three seconds
@@ -35,8 +35,8 @@ struct ProbeState {
     std::uint64_t waiting = 0;       ///< packets that no server has yet
     std::uint64_t gone = 0;          ///< packets that its spool had no room for
     std::uint64_t spoolBytes = 0;
-    /// What its clock is ahead of ours, by the exchange of the shortest way of late, and by how much that may
-    /// be wrong: half of that way (RFC 5905, section 8). Empty if it never answered.
+    /// Its clock minus ours, by the exchange of least delay of late; the uncertainty is half that delay (RFC
+    /// 5905, section 8). Empty if it never answered.
     std::optional<log::Duration> ahead{};
     log::Duration uncertainty{};
     std::string problem; ///< another layout, or another probe of the same name; empty if all is well
@@ -45,11 +45,11 @@ struct ProbeState {
 struct StageChoice {
     ServerChoice servers;
     std::string site;
-    std::optional<log::WallTime> since{}; ///< what was stored from then on; empty: what comes from now on
+    std::optional<log::WallTime> since{}; ///< begins with what was stored then; empty: now
 };
 
-/// Brings what the probes of a site have published into a log, through its receiver: each packet once, in the
-/// order of its probe, with the name of that in its sender. Two threads of its own.
+/// Appends what the probes of a site publish to a log, through its receiver: each packet once, in the order
+/// of its probe. Two threads of its own.
 class StageReader {
 public:
     static constexpr log::Duration kDeadAfter = std::chrono::seconds(3);
@@ -64,9 +64,9 @@ public:
     // From any thread.
     /// By name.
     [[nodiscard]] std::vector<ProbeState> probes() const;
-    /// Names of those that have fallen silent since this was last asked.
+    /// Names of the probes that fell silent since the last call.
     [[nodiscard]] std::vector<std::string> takeSilent();
-    /// Why nothing comes just now, and what to do; empty if all is well.
+    /// The reason if no server answers, with what to do; empty if one does.
     [[nodiscard]] std::string problem() const;
 
 private:

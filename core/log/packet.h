@@ -39,8 +39,8 @@ struct SenderInfo {
     std::string address; ///< "127.0.0.1:40001", "[::1]:40001", a file name, the name of a performer
     Transport transport = Transport::Udp;
     std::uint16_t localPort = 0; ///< the port it arrived at; 0 if there is none
-    /// The probe whose computer received it; empty if that is this one. The same address elsewhere is another
-    /// sender, and what one computer drops explains no loss of another.
+    /// The probe that received it; empty if this computer did. The same address at two probes is two senders,
+    /// and drops of one computer explain no loss at another.
     std::string probe{};
 
     [[nodiscard]] ReceivingPort port() const { return {probe, localPort}; }
@@ -115,7 +115,7 @@ struct Packet {
     PacketFlags flags{};
     std::span<const std::byte> bytes;
 
-    /// Datagrams that the computer dropped which received it.
+    /// Datagrams dropped by the computer that received it.
     [[nodiscard]] constexpr std::uint32_t droppedBefore() const {
         return flags.isLostOnWay ? 0 : kernelDropsBefore;
     }

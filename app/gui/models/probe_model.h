@@ -6,7 +6,7 @@
 
 namespace posewire::gui {
 
-/// The probes of the stage that is read, by name.
+/// The probes of the stage, by name.
 class ProbeModel : public TableModel<stage::ProbeState> {
 public:
     enum Column : int { kName, kState, kRate, kDropped, kLostOnWay, kSpool, kClock, kHost, kVersion };

@@ -7,7 +7,7 @@
 
 namespace posewire::gui {
 
-/// Dock `probes`: how each probe of the stage is now, whatever moment is shown.
+/// Dock `probes`: the state of each probe of the stage now, whatever moment is shown.
 class ProbesPanel : public Panel {
     Q_OBJECT
 

@@ -130,7 +130,7 @@ void Roll::remember(const Sender& sender) {
     if (!sender.isPerforming()) {
         return;
     }
-    FormerSender former{sender.id, sender.address(), {}};
+    FormerSender former{sender.id, sender.info.place(), {}};
     for (const Character* character : sender.characters) {
         const MetadataTag* name = nullptr;
         for (const Character* one = character; one != nullptr && name == nullptr;
