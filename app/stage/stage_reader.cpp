@@ -59,6 +59,7 @@ std::vector<ProbeState> StageReader::probes() const {
     std::vector<ProbeState> probes;
     for (ProbeState probe : m_probes | std::views::values) {
         probe.isAlive = now - probe.lastHeard < kDeadAfter;
+        probe.rateHz = probe.isAlive ? probe.rateHz : 0;
         probes.push_back(std::move(probe));
     }
     return probes;
@@ -143,7 +144,9 @@ bool StageReader::subscribe() {
 
 void StageReader::take(const Message& batch) {
     m_nextInStream = std::max(m_nextInStream, sequenceOf(batch) + 1);
-    const BatchOrder::Taken taken = m_order.take(batch, [this](const log::FileRecord& record) {
+    std::uint64_t bytes = 0;
+    const BatchOrder::Taken taken = m_order.take(batch, [&](const log::FileRecord& record) {
+        bytes += record.bytes.size();
         m_receiver.submit(record.bytes, *record.sender, log::arrivalOf(record, {}, stampOf(record)));
     });
     if (taken.probe.empty()) {
@@ -153,6 +156,7 @@ void StageReader::take(const Message& batch) {
     ProbeState& probe = m_probes[taken.probe];
     probe.name = taken.probe;
     probe.received += taken.packets;
+    probe.receivedBytes += bytes;
     probe.lostOnWay += taken.lostOnWay;
     probe.problem = taken.problem.empty() ? probe.problem : taken.problem;
 }

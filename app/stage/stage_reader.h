@@ -30,6 +30,7 @@ struct ProbeState {
     double rateHz = 0;               ///< packets that it had stored, over the last second
     std::uint64_t stored = 0;        ///< packets, since it began
     std::uint64_t received = 0;      ///< packets of it that came here
+    std::uint64_t receivedBytes = 0; ///< of these
     std::uint64_t lostOnWay = 0;     ///< packets that it had received, and that did not come here
     std::uint64_t kernelDropped = 0; ///< datagrams that its computer dropped
     std::uint64_t waiting = 0;       ///< packets that no server has yet

@@ -196,17 +196,23 @@ void Receiving::measure(log::Stamp now) {
     m_state.refusedDatagrams = figures.refusedDatagrams;
     m_state.receiveBufferBytes = figures.receiveBufferBytes;
     m_state.longestDelay = figures.longestDelay;
-    const Rates all = m_rates.add(now, figures.datagrams, figures.bytes);
+    std::uint64_t datagrams = figures.datagrams;
+    std::uint64_t bytes = figures.bytes;
+    if (m_stage != nullptr) {
+        m_state.probes = m_stage->probes();
+        m_state.stageProblem = QString::fromStdString(m_stage->problem());
+        for (const stage::ProbeState& probe : m_state.probes) {
+            datagrams += probe.received;
+            bytes += probe.receivedBytes;
+        }
+    }
+    const Rates all = m_rates.add(now, datagrams, bytes);
     m_state.datagramsPerSecond = all.datagrams;
     m_state.bytesPerSecond = all.bytes;
     for (PortState& port : m_state.ports) {
         const net::InputStatus& status = port.status;
         port.datagramsPerSecond =
             port.id ? m_portRates[*port.id].add(now, status.datagrams, status.bytes).datagrams : 0;
-    }
-    if (m_stage != nullptr) {
-        m_state.probes = m_stage->probes();
-        m_state.stageProblem = QString::fromStdString(m_stage->problem());
     }
     m_waysOut.measure(openInputs());
     m_state.waysOut = m_waysOut.states();

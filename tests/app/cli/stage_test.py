@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Probes, servers of NATS that die, and what comes at the other end.
 
-usage: stage_test.py POSEWIRE_CLI
+usage: stage_test.py POSEWIRE_CLI [POSEWIRE]
 """
 import contextlib
 import json
+import os
 import pathlib
 import re
 import shutil
@@ -15,6 +16,7 @@ import subprocess
 import sys
 import tempfile
 import time
+import urllib.request
 
 CLI = sys.argv[1]
 SKIPPED = 77
@@ -221,6 +223,26 @@ def check_twins(folder):
             until(lambda: "another probe of this name" in first.said() and "another probe" in second.said(), "no word")
 
 
+def check_window(folder, window):
+    """The window has what two probes of equal senders receive."""
+    environment = dict(os.environ, QT_QPA_PLATFORM="offscreen", HOME=str(folder), XDG_CONFIG_HOME=str(folder))
+    with Servers(folder, 1) as servers:
+        servers.make_stream(1)
+        ports = {"A": free_port(), "B": free_port()}
+        with probe(servers, "A", ports["A"], folder) as a, probe(servers, "B", ports["B"], folder) as b:
+            listening(a, b)
+            with running(window, *servers.options, "--no-tour", "--metrics", "127.0.0.1:0", env=environment) as shown:
+                until(lambda: "metrics are at" in shown.said(), "no window")
+                address = re.search(r"metrics are at (\S+)", shown.said())[1]
+                time.sleep(2)  # until it listens to the servers
+                sent = sum(sent_by(program) for program in [sender(port, 1) for port in ports.values()])
+
+                def datagrams():
+                    text = urllib.request.urlopen(address).read().decode()
+                    return int(float(re.search(r"^posewire_datagrams_total (\S+)", text, re.M)[1]))
+                until(lambda: datagrams() == sent, f"not all {sent} are shown")
+
+
 def main():
     if shutil.which("nats-server") is None:
         print("skipped: there is no nats-server")
@@ -229,6 +251,10 @@ def main():
         with tempfile.TemporaryDirectory(prefix="stage_test_") as folder:
             print(check.__name__, flush=True)
             check(pathlib.Path(folder))
+    if len(sys.argv) > 2:
+        with tempfile.TemporaryDirectory(prefix="stage_test_") as folder:
+            print("check_window", flush=True)
+            check_window(pathlib.Path(folder), sys.argv[2])
 
 
 main()
