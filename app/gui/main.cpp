@@ -20,6 +20,7 @@
 
 #include <QApplication>
 #include <QDir>
+#include <QDockWidget>
 #include <QFileInfo>
 #include <QStandardPaths>
 #include <QStorageInfo>
@@ -88,9 +89,8 @@ Settings startSettings(SettingsFile& file, const Options& options, QString* prob
 
 /// Nothing that tells what to show: it is what was shown when the program ended.
 bool isToRestore(const Options& options) {
-    const bool asksForInputs =
-        !options.udpPorts.empty() || !options.tcpInputs.empty() || options.demoCharacters > 0 ||
-        options.stage.isAsked();
+    const bool asksForInputs = !options.udpPorts.empty() || !options.tcpInputs.empty() ||
+                               options.demoCharacters > 0 || options.stage.isAsked();
     return options.file.isEmpty() && options.comparedFile.isEmpty() && !asksForInputs;
 }
 
@@ -139,6 +139,7 @@ void openInputs(MainWindow& window, const Options& options, const Settings& sett
     driver.receiving().listenTo(allowedAtStart(options, choices)); // before the first port is open
     if (options.stage.isAsked()) {
         driver.receiving().readStage(options.stage);
+        window.findChild<QDockWidget*>(QStringLiteral("probes"))->show();
     }
     for (const InputAddress& input : inputsToOpen(options, choices)) {
         driver.receiving().addPort(input);

@@ -162,7 +162,7 @@ public:
         return {QWidget::sizeHint().width(), fontMetrics().height() + 13};
     }
     [[nodiscard]] QSize minimumSizeHint() const override {
-        return {m_title->sizeHint().width() + m_help->sizeHint().width() + 20, sizeHint().height()};
+        return {m_title->sizeHint().width() + m_help->sizeHint().width() + 24, sizeHint().height()};
     }
 
 protected:

@@ -70,6 +70,7 @@ std::vector<NamedValue> valuesOf(std::uint64_t number) {
         {"other", Fact{Kind::Port, {{"port", std::string("4001")}}}},
         {"changes", std::string("name: Ana → Mira")},
         {"problem", std::string("the disk is full")},
+        {"probe", std::string("STAGE-A")},
         {"file", std::string("take part 2.pcapng")},
         {"declared", Fact{Kind::RevisionE}},
         {"looks", Fact{Kind::Metres}},
