@@ -60,7 +60,7 @@ void Probe::publish(const std::stop_token& stop) {
             if (isEnding) {
                 return;
             }
-            std::this_thread::sleep_for(kRest);
+            std::this_thread::sleep_for(m_rest);
         } else if (!store(m_batch, m_run, stop)) {
             break;
         } else {
@@ -158,12 +158,14 @@ bool Probe::fill(bool isEnding) {
     m_batch.clear();
     m_reader.refresh();
     const std::uint64_t end = m_reader.end();
+    m_rest = kWait;
     if (end == m_next) {
         return false;
     }
     if (end - m_next < kBatch && !isEnding) {
         const auto first = m_reader.packetFrom(m_next);
-        if (first && m_log.timeline().now(m_clock) - first->stamp < kWait) {
+        m_rest -= first ? m_log.timeline().now(m_clock) - first->stamp : kWait;
+        if (m_rest > log::Duration::zero()) {
             return false;
         }
     }

@@ -90,6 +90,7 @@ private:
     std::uint64_t m_next = 0;                                   ///< packet to be stored
     std::set<std::pair<log::Transport, std::uint16_t>> m_heard; ///< ports that have had a packet in this run
     log::Moment m_failingSince = log::Moment::max();
+    log::Duration m_rest{}; ///< until the next batch is due
 
     mutable std::mutex m_mutex; ///< guards what follows
     ProbeFigures m_figures;
