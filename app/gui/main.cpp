@@ -20,7 +20,6 @@
 
 #include <QApplication>
 #include <QDir>
-#include <QDockWidget>
 #include <QFileInfo>
 #include <QStandardPaths>
 #include <QStorageInfo>
@@ -139,7 +138,7 @@ void openInputs(MainWindow& window, const Options& options, const Settings& sett
     driver.receiving().listenTo(allowedAtStart(options, choices)); // before the first port is open
     if (options.stage.isAsked()) {
         driver.receiving().readStage(options.stage);
-        window.findChild<QDockWidget*>(QStringLiteral("probes"))->show();
+        window.docks().show(QStringLiteral("probes"));
     }
     for (const InputAddress& input : inputsToOpen(options, choices)) {
         driver.receiving().addPort(input);

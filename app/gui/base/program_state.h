@@ -49,6 +49,7 @@ struct ReceivingState {
     double datagramsPerSecond = 0;
     double bytesPerSecond = 0;
     std::vector<WayOutState> waysOut{};
+    QString stage{}; ///< the site whose probes are read; empty for none
     std::vector<stage::ProbeState> probes{};
     QString stageProblem{}; ///< why no server of the stage answers; empty if one does, or none is asked
     std::vector<words::Fact> findings{};        ///< why no characters are seen; empty if all is well

@@ -182,6 +182,7 @@ void Receiving::takeAllowed() {
 }
 
 void Receiving::readStage(const stage::StageOptions& options) {
+    m_state.stage = QString::fromStdString(options.site);
     m_stage = std::make_unique<stage::StageReader>(
         m_receiver, m_log, m_clock,
         stage::StageChoice{options.servers, options.site, stage::wallTimeOf(options.since)});

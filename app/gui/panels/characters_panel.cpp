@@ -205,6 +205,10 @@ void CharactersPanel::showEmptyState() {
         return;
     }
     const std::vector<PortState>& ports = m_receiving.ports;
+    if (ports.empty() && !m_receiving.stage.isEmpty()) {
+        m_table->setEmptyText(tr("No character on the air.") + u'\n' + m_receiving.stageProblem);
+        return;
+    }
     if (ports.empty()) {
         m_table->setEmptyText(tr("No character on the air.\nThere is nothing to listen to: add an input "
                                  "(Input > Inputs)."));

@@ -57,7 +57,11 @@ EmptyState withoutPort(const ReceivingState& receiving) {
         state.title = tr("Cannot listen on %1").arg(displayText(port.port));
         state.lines += port.problem;
     }
-    if (receiving.ports.empty()) {
+    if (receiving.ports.empty() && !receiving.stage.isEmpty()) {
+        state.level = receiving.stageProblem.isEmpty() ? Health::Unknown : Health::Error;
+        state.title = tr("Waiting for the probes of %1").arg(receiving.stage);
+        state.lines = receiving.stageProblem.split(QStringLiteral("; "), Qt::SkipEmptyParts);
+    } else if (receiving.ports.empty()) {
         state.level = Health::Unknown;
         state.topic = HelpTopic::NoInput;
         state.title = tr("Nothing to listen to");

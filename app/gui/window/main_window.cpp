@@ -386,8 +386,9 @@ void MainWindow::showVerdict() {
         file.notes.prepend(m_driver.files().openingText());
     }
     file.comparison = comparisonText(comparison);
-    const std::vector<PortState>& ports = m_driver.receiving().state().ports;
-    const bool hasInputs = !ports.empty() || hasPackets;
+    const ReceivingState& state = m_driver.receiving().state();
+    const std::vector<PortState>& ports = state.ports;
+    const bool hasInputs = !ports.empty() || !state.stage.isEmpty() || hasPackets;
     const bool isBlocked = !ports.empty() && std::ranges::none_of(ports, [](const PortState& port) {
         return port.problem.isEmpty();
     });
@@ -396,7 +397,7 @@ void MainWindow::showVerdict() {
     m_menus.action("closeFile")->setEnabled(!file.name.isEmpty());
     m_menus.action("endComparison")->setEnabled(comparison.isOpen);
     m_menus.action("resetForTake")->setEnabled(hasPackets);
-    m_verdict->refresh(file, hasInputs, isBlocked ? ports.front().problem : QString());
+    m_verdict->refresh(file, hasInputs, isBlocked ? ports.front().problem : state.stageProblem);
 }
 
 void MainWindow::openInputs(InputsDialog::Page page) {

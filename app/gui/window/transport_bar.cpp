@@ -220,7 +220,7 @@ TransportBar::Mode TransportBar::modeNow() const {
         std::ranges::any_of(m_session->roster().characters(), [this](const model::Character& character) {
             return isLive(*m_session, character);
         });
-    return isAnyLive ? Mode::Live : m_inputs.empty() ? Mode::Idle : Mode::Waiting;
+    return isAnyLive ? Mode::Live : m_hasInputs ? Mode::Waiting : Mode::Idle;
 }
 
 void TransportBar::showMode(Mode mode) {
@@ -315,6 +315,7 @@ void TransportBar::setReceiving(const ReceivingState& receiving) {
         pill->setContent(level, text);
         pill->setToolTip(toolTipText(toolTip));
     };
+    m_hasInputs = !receiving.ports.empty() || !receiving.stage.isEmpty();
     m_inputs.clear();
     for (const PortState& state : receiving.ports) {
         m_inputs.push_back(state.port);

@@ -75,6 +75,7 @@ private:
     QHBoxLayout* m_pillLayout = new QHBoxLayout;
     std::vector<ColourText*> m_pills; ///< of the inputs; a click tells more
     std::vector<InputAddress> m_inputs;
+    bool m_hasInputs = false; ///< or probes
     Mode m_mode = Mode::Waiting;
     bool m_isWide = true;
 };
