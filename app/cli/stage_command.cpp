@@ -149,6 +149,9 @@ ExitStatus runProbe(const ProbeOptions& options, Console& console) {
         std::this_thread::sleep_for(milliseconds(50));
         watch.look();
     }
+    for (const net::InputStatus& input : receiver->inputs()) {
+        receiver->remove(input.id); // what has arrived there still comes into the log
+    }
     return ExitStatus::Fine;
 }
 

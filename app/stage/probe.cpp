@@ -51,10 +51,8 @@ void Probe::publish(const std::stop_token& stop) {
     while (!stop.stop_requested() && !connect()) {
         std::this_thread::sleep_for(kBeforeRetry);
     }
-    if (server() != nullptr) {
-        publishLeft(stop);
-    }
-    while (server() != nullptr) {
+    const bool isInOrder = server() != nullptr && publishLeft(stop);
+    while (isInOrder) {
         const bool isEnding = stop.stop_requested();
         if (!fill(isEnding)) {
             if (isEnding) {
@@ -116,8 +114,9 @@ std::optional<log::FileError> Probe::beginSpool() {
     return m_spool.isOpen() ? std::nullopt : m_spool.begin(m_log);
 }
 
-/// Publishes, as a run of its own, what the probe before left in the spool.
-void Probe::publishLeft(const std::stop_token& stop) {
+/// Publishes, as a run of its own, what the probe before left in the spool. Returns false if the probe is to
+/// end and no server answers.
+bool Probe::publishLeft(const std::stop_token& stop) {
     const std::string run = newRun();
     Batch batch;
     std::uint64_t number = 0;
@@ -152,6 +151,7 @@ void Probe::publishLeft(const std::stop_token& stop) {
     if (isStored) {
         m_spool.dropLeft();
     }
+    return isStored;
 }
 
 bool Probe::fill(bool isEnding) {

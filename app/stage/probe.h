@@ -65,7 +65,7 @@ public:
 private:
     void publish(const std::stop_token& stop);
     bool connect();
-    void publishLeft(const std::stop_token& stop);
+    bool publishLeft(const std::stop_token& stop);
     /// Gathers the next batch. Returns false if it is not due yet.
     bool fill(bool isEnding);
     bool store(const Batch& batch, const std::string& run, const std::stop_token& stop);
