@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <charconv>
 #include <chrono>
-#include <ranges>
 #include <string_view>
 
 namespace posewire::stage {
@@ -57,10 +56,10 @@ std::vector<ProbeState> StageReader::probes() const {
     const log::Stamp now = m_log.timeline().now(m_clock);
     const std::lock_guard lock(m_mutex);
     std::vector<ProbeState> probes;
-    for (ProbeState probe : m_probes | std::views::values) {
+    for (const auto& [name, state] : m_probes) {
+        ProbeState& probe = probes.emplace_back(state);
         probe.isAlive = now - probe.lastHeard < kDeadAfter;
         probe.rateHz = probe.isAlive ? probe.rateHz : 0;
-        probes.push_back(std::move(probe));
     }
     return probes;
 }
