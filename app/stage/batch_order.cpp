@@ -41,11 +41,30 @@ std::string probeOf(const Message& message) {
 BatchOrder::Taken BatchOrder::take(const Message& batch, const log::FileVisitor& visit) {
     Taken taken;
     taken.probe = probeOf(batch);
-    if (taken.probe.empty() || !isNews(m_courses[taken.probe], batch, taken)) {
+    Course& course = m_courses[taken.probe];
+    const bool isFirst = course.run != headerOf(batch, kRunHeader);
+    if (taken.probe.empty() || !isNews(course, batch, taken)) {
         return taken;
     }
+    // A server may have stored the last batch of a probe that died before it was acknowledged: the next run
+    // then begins with the same packets.
+    std::uint64_t repeated = 0;
+    std::uint64_t number = 0;
+    static_cast<void>(readBatch(isFirst ? bytesOf(batch) : std::span<const std::byte>(),
+                                [&](const log::FileRecord& record) {
+                                    ++number;
+                                    const bool isLast = course.lastTime && record.time == course.lastTime &&
+                                                        std::ranges::equal(record.bytes, course.lastBytes);
+                                    repeated = isLast ? number : repeated;
+                                }));
+    number = 0;
     std::uint64_t missing = taken.lostOnWay;
     const auto read = readBatch(bytesOf(batch), [&](const log::FileRecord& record) {
+        if (number++ < repeated) {
+            return;
+        }
+        course.lastTime = record.time;
+        course.lastBytes.assign(record.bytes.begin(), record.bytes.end());
         log::FileRecord handed = record;
         handed.sender = record.sender.value_or(log::SenderInfo{});
         handed.sender->probe = taken.probe;

@@ -6,8 +6,10 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace posewire::stage {
 
@@ -30,7 +32,9 @@ private:
     struct Course {
         std::string run;
         std::set<std::string> runsBefore;
-        std::uint64_t next = 0; ///< number of the packet after the last one that came
+        std::uint64_t next = 0;                  ///< number of the packet after the last one that came
+        std::optional<log::WallTime> lastTime{}; ///< of that
+        std::vector<std::byte> lastBytes{};
     };
     [[nodiscard]] bool isNews(Course& course, const Message& batch, Taken& taken) const;
 

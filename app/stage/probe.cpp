@@ -126,8 +126,6 @@ bool Probe::publishLeft(const std::stop_token& stop) {
         isStored = batch.isEmpty() || store(batch, run, stop);
         if (isStored && !batch.isEmpty()) {
             m_spool.noteStored(last.first, last.second);
-            const std::lock_guard lock(m_mutex);
-            m_figures.left += batch.count();
         }
         batch.clear();
     };

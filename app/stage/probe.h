@@ -35,7 +35,6 @@ struct ProbeFigures {
     std::uint64_t waiting = 0;    ///< packets of the log that none has yet
     std::uint64_t gone = 0;       ///< packets that had to go before a server took them: the spool was full
     std::uint64_t spoolBytes = 0; ///< on the disk
-    std::uint64_t left = 0;       ///< packets that a probe before had left, and a server has now
     std::string problem;          ///< why nothing is stored just now, what to do; empty if all is well
     std::string refusal;          ///< a permission that the server denied; empty if it denied none
     bool hasTwin = false;         ///< another probe has the same name

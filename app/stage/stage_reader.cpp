@@ -205,8 +205,6 @@ void StageReader::takeHealth(const Message& health) {
     probe.version = valueOf(json, "version", std::string());
     probe.host = valueOf(json, "host", std::string());
     probe.kernelDropped = valueOf(json, "kernelDropped", std::uint64_t{0});
-    probe.waiting = valueOf(json, "waiting", std::uint64_t{0});
-    probe.gone = valueOf(json, "gone", std::uint64_t{0});
     probe.spoolBytes = valueOf(json, "spoolBytes", std::uint64_t{0});
 }
 

@@ -33,8 +33,6 @@ struct ProbeState {
     std::uint64_t receivedBytes = 0; ///< of these
     std::uint64_t lostOnWay = 0;     ///< packets that it had received, and that did not come here
     std::uint64_t kernelDropped = 0; ///< datagrams that its computer dropped
-    std::uint64_t waiting = 0;       ///< packets that no server has yet
-    std::uint64_t gone = 0;          ///< packets that its spool had no room for
     std::uint64_t spoolBytes = 0;
     /// Its clock minus ours, by the exchange of least delay of late; the uncertainty is half that delay (RFC
     /// 5905, section 8). Empty if it never answered.

