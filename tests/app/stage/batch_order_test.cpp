@@ -31,14 +31,16 @@ protected:
         std::string subject = "posewire.SITE.STAGE-A.batch";
         std::string layout = "1";
         std::size_t cut = 0; ///< bytes at the end of it
+        std::int64_t time = 1'000;
     };
 
     Brought take(const Sent& sent) {
         Batch batch;
         std::uint64_t number = sent.first;
+        std::int64_t time = sent.time;
         for (const std::string& text : sent.packets) {
             batch.add({number++,
-                       log::stampOf(1'000),
+                       log::stampOf(time++),
                        {},
                        0,
                        {.stampedByKernel = true},
@@ -88,9 +90,17 @@ TEST_F(BatchOrderTest, CountsWhatDidNotCome) {
     EXPECT_TRUE(take({.first = 13}).lostOnWay.empty());
 }
 
+TEST_F(BatchOrderTest, LeavesOutWhatANewRunRepeats) {
+    take({});
+    const Brought again =
+        take({.run = "fedcba9876543210", .packets = {"two", "three", "two", "four"}, .time = 1'001});
+    EXPECT_EQ(again.bytes, (std::vector<std::string>{"two", "four"}));
+    EXPECT_EQ(again.taken.packets, 2U);
+}
+
 TEST_F(BatchOrderTest, MissesNothingWhereAProbeBeginsAgain) {
     take({.first = 100});
-    const Brought again = take({.run = "fedcba9876543210"});
+    const Brought again = take({.run = "fedcba9876543210", .time = 2'000});
     EXPECT_EQ(again.bytes.size(), 3U);
     EXPECT_TRUE(again.lostOnWay.empty());
     EXPECT_TRUE(again.taken.problem.empty());
@@ -98,7 +108,7 @@ TEST_F(BatchOrderTest, MissesNothingWhereAProbeBeginsAgain) {
 
 TEST_F(BatchOrderTest, FindsTwoProbesOfOneName) {
     take({});
-    take({.run = "fedcba9876543210"});
+    take({.run = "fedcba9876543210", .time = 2'000});
     EXPECT_FALSE(take({.first = 3}).taken.problem.empty());
 }
 
