@@ -2,7 +2,6 @@
 #include "app/stage/batch.h"
 
 #include <algorithm>
-#include <cstring>
 #include <random>
 
 namespace posewire::stage {
@@ -26,7 +25,7 @@ public:
     explicit MemorySource(std::span<const std::byte> bytes) : m_left(bytes) {}
     tl::expected<std::size_t, log::FileError> read(std::span<std::byte> into) override {
         const std::size_t size = std::min(into.size(), m_left.size());
-        std::memcpy(into.data(), m_left.data(), size);
+        std::ranges::copy(m_left.first(size), into.begin());
         m_left = m_left.subspan(size);
         return size;
     }
