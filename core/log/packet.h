@@ -26,7 +26,7 @@ inline constexpr std::array<std::string_view, 4> kTransportNames{"udp", "tcp", "
     return kTransportNames[static_cast<std::size_t>(transport)];
 }
 
-/// What counters of dropped datagrams are of.
+/// A port of one computer, which counts the datagrams that it drops.
 struct ReceivingPort {
     std::string probe; ///< that has it; empty for this computer
     std::uint16_t number = 0;
@@ -34,7 +34,7 @@ struct ReceivingPort {
     friend bool operator==(const ReceivingPort&, const ReceivingPort&) = default;
 };
 
-/// Where packets come from. Two packets have the same SenderId exactly if all members are equal.
+/// The source of packets. Two packets have the same SenderId exactly if all members are equal.
 struct SenderInfo {
     std::string address; ///< "127.0.0.1:40001", "[::1]:40001", a file name, the name of a performer
     Transport transport = Transport::Udp;

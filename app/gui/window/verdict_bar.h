@@ -81,7 +81,7 @@ public:
     [[nodiscard]] const model::TakeVerdict& verdict() const { return m_verdict; }
 
 signals:
-    /// What the last run has left need not be told again.
+    /// The operator has dismissed the line about the last run.
     void recoveryDismissed();
     /// `incident` is what the verdict in the headline rests on, where it rests on one.
     void evidenceRequested(std::optional<std::uint64_t> incident, bool isOfFile);

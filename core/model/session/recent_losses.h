@@ -24,8 +24,8 @@ public:
     /// Notes which parts of it are above their limit: now, with the hysteresis of limits; of all there is, or
     /// just after a reset, in that time. It is graver only while one is.
     void judge(Incident& incident);
-    /// What of a grave loss is shown: all of it, or only what makes it grave if that alone is above the
-    /// limit, so that a share below the limit is never what is wrong.
+    /// The parts of a grave loss to show: all, or only those above the limit if all together are below it, so
+    /// that no share below the limit is shown as the fault.
     [[nodiscard]] Incident shownOf(const Incident& incident);
     [[nodiscard]] LossShare shareOf(const Incident& incident);
 
