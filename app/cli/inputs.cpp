@@ -38,7 +38,7 @@ void joinGroups(std::vector<net::UdpInput>& inputs, const std::vector<std::strin
     }
 }
 
-/// Whether a port is heard on one address where the usual one is meant to be heard on all, for groups.
+/// True if the usual port is heard on one address only, so that it receives no multicast.
 bool isAlone(const std::vector<net::UdpInput>& inputs, const net::UdpInput& input) {
     const QHostAddress address(QString::fromStdString(input.endpoint.host));
     const bool isUsual = input.endpoint.port == net::Endpoint{}.port;
@@ -142,6 +142,12 @@ std::array<DeclaredOption, 5> addPlaces(Arguments arguments, InputOptions& optio
             addPlace(arguments, "--from HOST|NET", options.allowed,
                      "listen only to this address, net (such as 192.168.1.0/24) or host; others are not "
                      "recorded, only counted")};
+}
+
+void addDuration(Arguments arguments, double& seconds) {
+    arguments.add("--duration SECONDS", seconds, "stop after this many seconds; 0: never")
+        .seconds()
+        .showDefault();
 }
 
 bool openInputs(const Places& places, const InputOptions& options, bool isVerbose, net::Receiver& receiver,

@@ -4,13 +4,15 @@
 #include "app/cli/command.h"
 #include "app/net/receiver.h"
 
+#include <QCoreApplication>
+
 #include <array>
 #include <string>
 #include <vector>
 
 namespace posewire::cli {
 
-/// Where to receive from, as it was typed.
+/// The inputs, as they were typed.
 struct InputOptions {
     std::vector<std::string> udp;
     std::vector<std::string> multicast;
@@ -30,6 +32,17 @@ struct Places {
 
 /// Port 9763 of UDP if none is named. The error is one line for the user.
 [[nodiscard]] tl::expected<Places, std::string> placesOf(const InputOptions& options);
+
+/// `--duration`, of a command that goes on until it is interrupted.
+void addDuration(Arguments arguments, double& seconds);
+
+/// The application that Qt's sockets want to exist. One at a time.
+class SocketApplication {
+    std::string m_name = "posewire-cli";
+    std::array<char*, 2> m_arguments{m_name.data(), nullptr};
+    int m_count = 1;
+    QCoreApplication m_application{m_count, m_arguments.data()};
+};
 
 /// As messages have it: "port 9763", or an address with a port.
 [[nodiscard]] std::string placeOf(const net::InputStatus& input);

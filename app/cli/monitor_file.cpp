@@ -234,9 +234,7 @@ Command withOutlet(const std::string& name, Arguments arguments,
     options->isQuiet = true;
     addPlaces(arguments, *options);
     stage::addStageSince(arguments, options->stage);
-    arguments.add("--duration SECONDS", options->durationSeconds, "stop after this many seconds; 0: never")
-        .seconds()
-        .showDefault();
+    addDuration(arguments, options->durationSeconds);
     addUp(arguments, options->up);
     arguments.verbose(options->isVerbose, "where it listens and each new sender");
     return {name, [options](Console& console) { return monitorNetwork(*options, console); }};

@@ -8,8 +8,6 @@
 #include "core/model/session/roster.h"
 #include "core/words/say.h"
 
-#include <QCoreApplication>
-
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -247,11 +245,7 @@ ExitStatus monitorNetwork(const MonitorOptions& options, Console& console) {
     if (const auto checked = checkOutputs(options); !checked) {
         return console.unusable(checked.error());
     }
-    // Qt's sockets want an application to be there.
-    std::string name = "posewire-cli";
-    std::array<char*, 2> arguments{name.data(), nullptr};
-    int argumentCount = 1;
-    const QCoreApplication application(argumentCount, arguments.data());
+    const SocketApplication application;
 
     const log::SystemClock clock;
     MonitorRun run(options, console);

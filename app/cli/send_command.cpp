@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/command.h"
+#include "app/cli/inputs.h"
 #include "app/cli/send.h"
 #include "app/system/interruption.h"
 #include "core/performer/motion.h"
 #include "core/wire/codec.h"
-
-#include <QCoreApplication>
 
 #include <chrono>
 #include <cmath>
@@ -154,11 +153,7 @@ ExitStatus send(const SendOptions& options, Console& console) {
             return console.unusable(checked.error().text);
         }
     }
-    // Qt's sockets need an application object.
-    std::string name = "posewire-cli";
-    std::array<char*, 2> arguments{name.data(), nullptr};
-    int argumentCount = 1;
-    const QCoreApplication application(argumentCount, arguments.data());
+    const SocketApplication application;
     auto lines = linesOf(options, *targets);
     if (!lines) {
         return console.unusable(lines.error());

@@ -8,7 +8,6 @@
 #include "app/usage/usage.h"
 #include "core/log/file_names.h"
 
-#include <QCoreApplication>
 #include <QStandardPaths>
 #include <QSysInfo>
 
@@ -120,25 +119,21 @@ ExitStatus runProbe(const ProbeOptions& options, Console& console) {
     if (!places) {
         return console.unusable(places.error());
     }
-    // Qt's sockets want an application to be there.
-    std::string program = "posewire-cli";
-    std::array<char*, 2> arguments{program.data(), nullptr};
-    int argumentCount = 1;
-    const QCoreApplication application(argumentCount, arguments.data());
+    const SocketApplication application;
 
     const system::Interruption interruption;
     const log::SystemClock clock;
     log::PacketLog log({.memoryCap = std::size_t{96} << 20});
-    auto receiver = std::make_unique<net::Receiver>(log, clock);
+    net::Receiver receiver(log, clock);
     stage::Probe probe(log, clock,
                        {options.stage.servers, options.stage.site, options.name,
                         options.spool.empty() ? usualSpool(options) : options.spool,
                         static_cast<std::uint64_t>(options.spoolMegabytes * 1e6)},
-                       [&receiver = *receiver] { return healthOf(receiver); });
-    if (!openInputs(*places, options, options.isVerbose, *receiver, console)) {
+                       [&receiver] { return healthOf(receiver); });
+    if (!openInputs(*places, options, options.isVerbose, receiver, console)) {
         return ExitStatus::Unusable;
     }
-    ProbeWatch watch(*receiver, probe, console);
+    ProbeWatch watch(receiver, probe, console);
     const auto start = steady_clock::now();
     const auto isOver = [&] {
         const duration<double> elapsed = steady_clock::now() - start;
@@ -149,8 +144,8 @@ ExitStatus runProbe(const ProbeOptions& options, Console& console) {
         std::this_thread::sleep_for(milliseconds(50));
         watch.look();
     }
-    for (const net::InputStatus& input : receiver->inputs()) {
-        receiver->remove(input.id); // what has arrived there still comes into the log
+    for (const net::InputStatus& input : receiver.inputs()) {
+        receiver.remove(input.id); // what has arrived there still comes into the log
     }
     return ExitStatus::Fine;
 }
@@ -204,9 +199,7 @@ Command addProbeCommand(CommandLine& program) {
     arguments.add("--spool-limit MB", options->spoolMegabytes, "the most it keeps there")
         .within(16.0, 1e9)
         .showDefault();
-    arguments.add("--duration SECONDS", options->durationSeconds, "stop after this many seconds; 0: never")
-        .seconds()
-        .showDefault();
+    addDuration(arguments, options->durationSeconds);
     arguments.verbose(options->isVerbose, "where it listens");
     return {"probe", [options](Console& console) { return runProbe(*options, console); }};
 }

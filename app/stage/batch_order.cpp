@@ -9,17 +9,13 @@
 #include <utility>
 
 namespace posewire::stage {
-namespace {
 
-std::optional<std::uint64_t> numberIn(const Message& batch, const char* header) {
-    const std::string text = headerOf(batch, header);
+std::optional<std::uint64_t> numberOf(std::string_view text) {
     std::uint64_t number = 0;
     const auto read = std::from_chars(text.data(), text.data() + text.size(), number);
     return read.ec == std::errc() && read.ptr == text.data() + text.size() ? std::optional(number)
                                                                            : std::nullopt;
 }
-
-} // namespace
 
 bool isName(const std::string& name) {
     constexpr std::size_t kMost = 64;
@@ -41,9 +37,12 @@ std::string probeOf(const Message& message) {
 BatchOrder::Taken BatchOrder::take(const Message& batch, const log::FileVisitor& visit) {
     Taken taken;
     taken.probe = probeOf(batch);
+    if (taken.probe.empty()) {
+        return taken;
+    }
     Course& course = m_courses[taken.probe];
     const bool isFirst = course.run != headerOf(batch, kRunHeader);
-    if (taken.probe.empty() || !isNews(course, batch, taken)) {
+    if (!isNews(course, batch, taken)) {
         return taken;
     }
     // A server may have stored the last batch of a probe that died before it was acknowledged: the next run
@@ -88,9 +87,9 @@ BatchOrder::Taken BatchOrder::take(const Message& batch, const log::FileVisitor&
 /// Notes how far the probe has come. Returns false if the batch came before or cannot be read.
 bool BatchOrder::isNews(Course& course, const Message& batch, Taken& taken) const {
     const std::string run = headerOf(batch, kRunHeader);
-    const auto layout = numberIn(batch, kLayoutHeader);
-    const auto first = numberIn(batch, kFirstHeader);
-    const auto count = numberIn(batch, kCountHeader);
+    const auto layout = numberOf(headerOf(batch, kLayoutHeader));
+    const auto first = numberOf(headerOf(batch, kFirstHeader));
+    const auto count = numberOf(headerOf(batch, kCountHeader));
     if (layout != kLayout || !first || !count || run.empty()) {
         taken.problem = "it publishes in a layout that this version does not know; have the same version of "
                         "Posewire on both computers";

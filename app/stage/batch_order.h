@@ -9,6 +9,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace posewire::stage {
@@ -43,6 +44,9 @@ private:
 
 /// A site or probe is named in subjects, files and tables: letters, digits, - and _, 64 at most.
 [[nodiscard]] bool isName(const std::string& name);
+
+/// Decimal digits alone.
+[[nodiscard]] std::optional<std::uint64_t> numberOf(std::string_view text);
 
 /// "STAGE-A" of "posewire.SITE.STAGE-A.batch"; empty if it is no name.
 [[nodiscard]] std::string probeOf(const Message& message);

@@ -139,7 +139,8 @@ bool Probe::publishLeft(const std::stop_token& stop) {
         }
         if (isStored) {
             batch.add(packet, record.sender.value_or(log::SenderInfo{}));
-            last = {time, {record.bytes.begin(), record.bytes.end()}};
+            last.first = time;
+            last.second.assign(record.bytes.begin(), record.bytes.end());
             ++number;
         }
     });
@@ -259,9 +260,7 @@ void Probe::pulse(const std::stop_token& stop) {
             server->reply(asked, std::to_string(now));
         }
         while (const Message heard = twins ? Server::next(twins, kRest) : nullptr) {
-            const auto bytes = bytesOf(heard);
-            const auto json = nlohmann::json::parse(
-                std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()), nullptr, false);
+            const auto json = nlohmann::json::parse(textOf(heard), nullptr, false);
             if (const auto run = json.find("run"); run != json.end() && run->is_string() && *run != m_run) {
                 const std::lock_guard lock(m_mutex);
                 m_figures.hasTwin = true;

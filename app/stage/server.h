@@ -11,6 +11,7 @@
 #include <mutex>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -41,6 +42,10 @@ using Message = std::unique_ptr<__natsMsg, MessageFreer>;
 
 [[nodiscard]] std::string subjectOf(const Message& message);
 [[nodiscard]] std::span<const std::byte> bytesOf(const Message& message);
+[[nodiscard]] inline std::string_view textOf(const Message& message) {
+    const auto bytes = bytesOf(message);
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
 /// Empty if it has none of that name.
 [[nodiscard]] std::string headerOf(const Message& message, const char* name);
 /// The sequence number in the stream; 0 if it is not stored.

@@ -4,22 +4,13 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
-#include <string_view>
 
 namespace posewire::stage {
 namespace {
 
 constexpr std::chrono::milliseconds kLook(50);
 constexpr std::chrono::milliseconds kBeforeSubscribing(200);
-
-std::optional<std::uint64_t> numberOf(std::string_view text) {
-    std::uint64_t number = 0;
-    const auto read = std::from_chars(text.data(), text.data() + text.size(), number);
-    return read.ec == std::errc() && read.ptr == text.data() + text.size() ? std::optional(number)
-                                                                           : std::nullopt;
-}
 
 /// The probe's own time.
 log::Stamp stampOf(const log::FileRecord& record) {
@@ -82,6 +73,11 @@ std::string StageReader::problem() const {
     return m_problem.empty() && m_server != nullptr ? m_server->refusal() : m_problem;
 }
 
+std::shared_ptr<Server> StageReader::server() const {
+    const std::lock_guard lock(m_mutex);
+    return m_server;
+}
+
 void StageReader::setProblem(std::string text) {
     const std::lock_guard lock(m_mutex);
     m_problem = std::move(text);
@@ -108,10 +104,7 @@ void StageReader::read(const std::stop_token& stop) {
 }
 
 bool StageReader::subscribe() {
-    auto server = [this] {
-        const std::lock_guard lock(m_mutex);
-        return m_server;
-    }();
+    auto server = this->server();
     if (server == nullptr) {
         auto connected = Server::connect(m_choice.servers, "posewire");
         if (!connected) {
@@ -165,10 +158,7 @@ void StageReader::pulse(const std::stop_token& stop) {
     Subscription health;
     log::Moment compared{};
     while (!stop.stop_requested()) {
-        const auto server = [this] {
-            const std::lock_guard lock(m_mutex);
-            return m_server;
-        }();
+        const auto server = this->server();
         if (server != nullptr && health == nullptr) {
             health = server->listen("posewire." + m_choice.site + ".*.health").value_or(nullptr);
         }
@@ -186,9 +176,7 @@ void StageReader::pulse(const std::stop_token& stop) {
 
 void StageReader::takeHealth(const Message& health) {
     const std::string name = probeOf(health);
-    const auto bytes = bytesOf(health);
-    const auto json = nlohmann::json::parse(
-        std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()), nullptr, false);
+    const auto json = nlohmann::json::parse(textOf(health), nullptr, false);
     if (!json.is_object() || name.empty()) {
         return;
     }
@@ -224,8 +212,7 @@ void StageReader::compareClocks(Server& server) {
         if (!answer) {
             continue;
         }
-        const auto bytes = bytesOf(*answer);
-        const auto there = numberOf({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+        const auto there = numberOf(textOf(*answer));
         const std::lock_guard lock(m_mutex);
         ProbeState& known = m_probes[probe.name];
         known.uncertainty = log::durationOf(log::secondsOf(known.uncertainty) * kForget);

@@ -76,6 +76,7 @@ private:
     void takeHealth(const Message& health);
     void compareClocks(Server& server);
     void setProblem(std::string text);
+    [[nodiscard]] std::shared_ptr<Server> server() const;
 
     net::Receiver& m_receiver;
     const log::PacketLog& m_log;

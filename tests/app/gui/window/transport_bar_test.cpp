@@ -20,6 +20,14 @@ namespace {
 class TransportBarTest : public testing::Test {
 protected:
     QAction* named(const char* text) { return new QAction(text, &m_actions); }
+    void showTwoSeconds() {
+        performer::Performer one(sending(1, {2}, 60.0));
+        m_stage.perform(one, 0, 120);
+        m_stage.follow();
+        m_bar.resize(1280, 40);
+        m_bar.show();
+        m_bar.refresh();
+    }
 
     Stage m_stage;
     QObject m_actions;
@@ -94,12 +102,7 @@ TEST_F(TransportBarTest, ANarrowBarHasRoomForWhatIsShownBesideSeveralInputs) {
 }
 
 TEST_F(TransportBarTest, SaysThatARangeIsSelectedAndMovesNothing) {
-    performer::Performer one(sending(1, {2}, 60.0));
-    m_stage.perform(one, 0, 120);
-    m_stage.follow();
-    m_bar.resize(1280, 40);
-    m_bar.show();
-    m_bar.refresh();
+    showTwoSeconds();
     const auto* detail = m_bar.findChild<ElidedLabel*>();
     EXPECT_FALSE(detail->text().contains("selection"));
     const QRect place = detail->geometry();
@@ -110,12 +113,7 @@ TEST_F(TransportBarTest, SaysThatARangeIsSelectedAndMovesNothing) {
 }
 
 TEST_F(TransportBarTest, PausingAndRecordingMoveNothing) {
-    performer::Performer one(sending(1, {2}, 60.0));
-    m_stage.perform(one, 0, 120);
-    m_stage.follow();
-    m_bar.resize(1280, 40);
-    m_bar.show();
-    m_bar.refresh();
+    showTwoSeconds();
     const std::array parts{"timeControls", "modeButton", "transportTime"};
     const auto places = [&] {
         QTest::qWait(1); // the layout follows
