@@ -149,8 +149,17 @@ private:
                 return held != m_recent.end() ? held->message(place) : nullptr;
             });
         const model::Message* last = model::newestOf(chosen);
-        return last != nullptr && last->datagram.header.sampleCounter == m_recent.back().number() &&
-               model::assemble(chosen, part().units, character().bodyAt(last->packet), m_sample.pose);
+        if (last == nullptr || last->datagram.header.sampleCounter != m_recent.back().number()) {
+            return false;
+        }
+        const auto place = model::rememberingPlace(chosen);
+        if (place) {
+            std::swap(m_before, m_sample.pose);
+        }
+        const bool isSame = place && m_placeBefore == place && !m_sample.beginsRun;
+        m_placeBefore = place;
+        return model::assemble(chosen, part().units, character().bodyAt(last->packet),
+                               isSame ? &m_before : nullptr, m_sample.pose);
     }
 
     const PoseSource& m_source;
@@ -160,6 +169,8 @@ private:
     std::deque<HeldSample> m_recent; ///< that were released, the newest last
     const TakePose* m_to = nullptr;
     PoseSample m_sample;
+    model::CharacterPose m_before;            ///< of the sample before
+    std::optional<std::size_t> m_placeBefore; ///< in kPoseTypes, if it is to be remembered
     wire::Datagram m_datagram;
     std::size_t m_part = 0;
     model::CharacterKey m_key; ///< of the part
@@ -196,8 +207,12 @@ std::vector<PoseBody> bodiesOf(const model::SessionView& session, const PoseChar
     if (later != bodies.begin()) {
         bodies.erase(later, bodies.end());
     }
+    const model::BodyOrigins& known = session.messages().bodyOrigins(character.key);
     if (bodies.empty()) {
-        bodies.push_back({0, session.messages().bodyOrigins(character.key)});
+        bodies.push_back({0, known});
+    }
+    for (PoseBody& body : bodies) {
+        body.origins.bends = known.bends;
     }
     return bodies;
 }

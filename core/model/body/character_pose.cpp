@@ -94,11 +94,11 @@ bool read(const Items& items, const wire::Header& header, CharacterPose& pose, T
     return true;
 }
 
-/// Chains the local rotations from the pelvis outward over the null pose, parents before children. Positions
-/// count as sent where the wire's own agree.
+/// Chains the local rotations from the pelvis outward, parents before children, by the positions that were
+/// sent; by the bones of the null pose if those are not filled in, or of another meaning.
 bool readUnity(const wire::PoseUnity& message, const wire::Header& header,
                std::span<const Eigen::Vector3d> origins, LengthUnit unit, CharacterPose& pose) {
-    constexpr double kAgreement = 0.03; // metres: more than joints open
+    constexpr double kAgreement = 0.5; // of a bone: more than people differ by, less than from zero
     prepare(pose, header, segmentLayout(header, kBodySegments));
     if (message.segments.size() < kBodySegments || origins.size() < kBodySegments) {
         return false;
@@ -109,13 +109,15 @@ bool readUnity(const wire::PoseUnity& message, const wire::Header& header,
         const SegmentPose local = poseFromUnity(item, unit);
         const int parent = bodySegments()[i].parent;
         const auto from = static_cast<std::size_t>(std::max(parent, 0));
-        const SegmentPose bone{origins[i] - origins[from], local.orientation};
+        const Eigen::Vector3d bone = origins[i] - origins[from];
+        const bool isSent = parent < 0 || (local.position - bone).norm() < kAgreement * bone.norm();
         const bool isFinite = local.orientation.coeffs().allFinite() &&
                               (parent >= 0 ? pose.isPresent(from) : isPlace(local.position));
         if (isFinite) {
-            const bool isSent = parent < 0 || (local.position - bone.position).norm() < kAgreement;
-            pose.segments[i] = parent < 0 ? local : composed(pose.segments[from], bone);
-            pose.sources[i] = {isSent ? Provenance::Sent : Provenance::Solved,
+            const SegmentPose shown{isSent ? local.position : bone, local.orientation};
+            pose.segments[i] = parent < 0 ? local : composed(pose.segments[from], shown);
+            const Provenance basis = parent < 0 ? Provenance::Sent : pose.sources[from].position;
+            pose.sources[i] = {isSent ? basis : Provenance::Solved,
                                isRotation(item.orientation) ? Provenance::Sent : Provenance::None};
         }
     }
@@ -234,9 +236,22 @@ void takeOthers(const SentItems& sent, std::size_t first, CharacterPose& pose) {
     }
 }
 
-bool solve(std::span<const PosePart> parts, const BodyOrigins& body, CharacterPose& pose) {
+PoseEvidence::Before beforeOf(const CharacterPose& pose, double seconds) {
+    PoseEvidence::Before before{{}, {}, seconds};
+    for (std::size_t i = 0; i < kBodySegments; ++i) {
+        before.orientations[i] = pose.segments[i].orientation;
+        before.heldSeconds[i] = pose.sources[i].heldSeconds;
+    }
+    return before;
+}
+
+bool solve(std::span<const PosePart> parts, const BodyOrigins& body, const CharacterPose* before,
+           double seconds, CharacterPose& pose) {
     SentItems sent;
     PoseEvidence evidence;
+    if (before != nullptr && !before->isObjects && before->segments.size() >= kBodySegments) {
+        evidence.before = beforeOf(*before, seconds);
+    }
     for (const PosePart& part : parts) {
         const wire::Datagram& datagram = *part.datagram;
         if (const auto* linear = std::get_if<wire::LinearKinematics>(&datagram.body)) {
@@ -351,13 +366,14 @@ bool poseFromMessage(const wire::Datagram& datagram, std::span<const Eigen::Vect
     return false;
 }
 
-bool poseFromParts(std::span<const PosePart> parts, const BodyOrigins& body, CharacterPose& pose) {
+bool poseFromParts(std::span<const PosePart> parts, const BodyOrigins& body, const CharacterPose* before,
+                   double seconds, CharacterPose& pose) {
     if (parts.empty()) {
         return false;
     }
     const wire::Datagram& first = *parts.front().datagram;
     if (!hasWholePoses(first.header.type())) {
-        return solve(parts, body, pose);
+        return solve(parts, body, before, seconds, pose);
     }
     return poseFromMessage(first, body.places, parts.front().unit, pose) && complete(body, pose);
 }

@@ -79,8 +79,8 @@ std::vector<std::uint32_t> idsOf(const Items& items) {
 
 /// Pose from a message of type 01, 02 or 05, as sent; false for any other body. Items of the body are placed
 /// by their IDs, the first of those that have the same; for type 05 by the Unity3D order, chained from the
-/// pelvis over `nullPose` (23 segment origins, metres), since wire positions of that type are relative and
-/// not always filled in. `unit` is what the sender's positions of this type are in.
+/// pelvis by the relative positions on the wire, or, where these are not filled in, over `nullPose` (23
+/// segment origins, metres). `unit` is what the sender's positions of this type are in.
 [[nodiscard]] bool poseFromMessage(const wire::Datagram& datagram, std::span<const Eigen::Vector3d> nullPose,
                                    LengthUnit unit, CharacterPose& pose);
 
@@ -102,8 +102,9 @@ inline constexpr log::Duration kSentTogether = std::chrono::milliseconds(250);
 
 /// A whole pose from what was sent for one sample: one message of type 01, 02 or 05, or any of 21
 /// (positions), 22 (orientations) and 03 (markers). What is missing of a body is solved (solveBody) with the
-/// performer's own body. False if the messages hold no pose, or nothing of one.
+/// performer's own body and `before`, the pose of an earlier message of the same type and `seconds` ago, null
+/// for none. False if the messages hold no pose, or nothing of one.
 [[nodiscard]] bool poseFromParts(std::span<const PosePart> parts, const BodyOrigins& body,
-                                 CharacterPose& pose);
+                                 const CharacterPose* before, double seconds, CharacterPose& pose);
 
 } // namespace posewire::model

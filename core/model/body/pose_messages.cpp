@@ -89,7 +89,7 @@ const Message* newestOf(const PoseMessages& chosen) {
 }
 
 bool assemble(const PoseMessages& chosen, const std::array<LengthUnit, kPoseTypes.size()>& units,
-              const BodyOrigins& body, CharacterPose& pose) {
+              const BodyOrigins& body, const CharacterPose* before, CharacterPose& pose) {
     std::array<PosePart, kPoseTypes.size()> parts{};
     std::size_t count = 0;
     for (std::size_t i = 0; i < chosen.size(); ++i) {
@@ -97,10 +97,18 @@ bool assemble(const PoseMessages& chosen, const std::array<LengthUnit, kPoseType
             parts[count++] = {&chosen[i]->datagram, units[i]};
         }
     }
-    if (!poseFromParts(std::span(parts).first(count), body, pose)) {
+    const Message* last = newestOf(chosen);
+    if (last == nullptr) {
         return false;
     }
-    const Message& newest = *newestOf(chosen);
+    const Message& newest = *last;
+    constexpr double kMostApart = 0.5; // seconds
+    const double seconds =
+        before != nullptr ? std::chrono::duration<double>(newest.stamp - before->stamp).count() : 0;
+    const bool isBefore = seconds > 0 && seconds < kMostApart;
+    if (!poseFromParts(std::span(parts).first(count), body, isBefore ? before : nullptr, seconds, pose)) {
+        return false;
+    }
     pose.packet = newest.packet;
     pose.stamp = newest.stamp;
     if (pose.isPlaceAssumed) {
@@ -108,6 +116,18 @@ bool assemble(const PoseMessages& chosen, const std::array<LengthUnit, kPoseType
         pose.move({0, kApart * newest.datagram.header.character, 0});
     }
     return true;
+}
+
+std::optional<std::size_t> rememberingPlace(const PoseMessages& chosen) {
+    const auto isThere = [](const Message* one) { return one != nullptr; };
+    const auto one = std::ranges::find_if(chosen, isThere);
+    if (one == chosen.end() || std::ranges::count_if(chosen, isThere) != 1) {
+        return std::nullopt;
+    }
+    const auto place = static_cast<std::size_t>(one - chosen.begin());
+    const std::uint8_t type = kPoseTypes[place];
+    const bool isIt = type == wire::LinearKinematics::kType || type == wire::PointPositions::kType;
+    return isIt && (*one)->datagram.header.isLast() ? std::optional(place) : std::nullopt;
 }
 
 void addTags(const Message& message, LengthUnit unit, std::vector<TagPlace>& tags) {

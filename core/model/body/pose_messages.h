@@ -47,9 +47,15 @@ using FindPoseMessage =
 
 /// The pose that the chosen messages make, with the stamp and packet of the newest of them. `units` are what
 /// their positions are in. Several characters without a known place stand side by side. False if the messages
-/// hold no pose.
+/// hold no pose. `before` is the pose of an earlier message of the same type, for types that remember: null
+/// for none.
 bool assemble(const PoseMessages& chosen, const std::array<LengthUnit, kPoseTypes.size()>& units,
-              const BodyOrigins& body, CharacterPose& pose);
+              const BodyOrigins& body, const CharacterPose* before, CharacterPose& pose);
+
+/// The place in kPoseTypes of the one message of a choice, if its type says too little for a body to be known
+/// without those before it: 21 or 03, in one datagram. Such a body is what its messages of the last
+/// kForgotten seconds make it.
+[[nodiscard]] std::optional<std::size_t> rememberingPlace(const PoseMessages& chosen);
 
 /// A MotionGrid tag where a message had it last.
 struct TagPlace {

@@ -70,9 +70,13 @@ void addMissing(const CharacterPose& pose, PoseRemark& remark) {
         remark.lines.push_back(ofSegments(isWhole ? SegmentsAssumed : TurnsAssumed, pose, assumed));
         remark.reason = remark.reason.isNothing() ? remark.lines.back() : remark.reason;
     }
-    remark.isAssumed = !assumed.empty() || !broken.empty() || pose.isPlaceAssumed;
-    if (remark.isAssumed || !solved.empty()) {
-        remark.brief = {remark.isAssumed ? PartlyAssumed : PartlySolved};
+    // That a limb may be turned otherwise about itself is no doubt about a body that was fitted.
+    const auto isDoubted = [](const SegmentSource& source) {
+        return std::min(source.position, source.orientation) == Provenance::Assumed;
+    };
+    remark.isAssumed = !segmentsWhere(pose, isDoubted).empty() || !broken.empty() || pose.isPlaceAssumed;
+    if (remark.isAssumed) {
+        remark.brief = {PartlyAssumed};
     }
 }
 

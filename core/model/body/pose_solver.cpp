@@ -51,8 +51,9 @@ public:
         fitAllMarkers();
         fitMarkersAndJoints();
         placePelvis();
+        fitAsBefore(segment::kT8, segment::kPelvis);
         if (!has(segment::kT8, &SegmentSource::orientation)) {
-            turn(segment::kT8, m_solved.segments[segment::kPelvis].orientation);
+            turn(segment::kT8, segment::kPelvis, m_solved.segments[segment::kPelvis].orientation);
         }
         for (std::size_t i = 1; i < kCount; ++i) {
             solve(i);
@@ -147,7 +148,7 @@ private:
         SegmentSource& source = m_solved.sources[kPelvis];
         if (source.orientation == Provenance::None) {
             if (source.position != Provenance::None) {
-                turn(kPelvis, Quaterniond::Identity());
+                turn(kPelvis, std::nullopt, Quaterniond::Identity());
             } else if (const auto fit = fitMarkers(joints(kPelvis), std::numeric_limits<double>::max())) {
                 pelvis = {fit->position, fit->rotation};
                 source = {Provenance::Solved, Provenance::Solved};
@@ -206,6 +207,9 @@ private:
         SegmentSource& source = m_solved.sources[i];
         const std::size_t parent = parentOf(i);
         const SegmentPose& from = m_solved.segments[parent];
+        if (!isSpine(i)) {
+            fitAsBefore(i, parent);
+        }
         if (source.position == Provenance::None) {
             m_solved.segments[i].position = from.position + from.orientation * bone(i);
             const SegmentSource& basis = m_solved.sources[parent];
@@ -215,7 +219,7 @@ private:
             source.position = isAssumed ? Provenance::Assumed : Provenance::Solved;
         }
         if (source.orientation == Provenance::None) {
-            turn(i, priorOf(i));
+            turn(i, parent, priorOf(i));
             if (isSpine(i) && isSpineKnown() && !m_evidence.positions[i]) {
                 placeByMarkers(i);
             }
@@ -234,8 +238,8 @@ private:
     }
 
     /// Turns a segment to what is known of its joints, its markers and the plane of its limb, and for the
-    /// rest as `prior`.
-    void turn(std::size_t i, const Quaterniond& prior) {
+    /// rest as it was before in `parent`, or as `prior`.
+    void turn(std::size_t i, std::optional<std::size_t> parent, const Quaterniond& prior) {
         SegmentSource& source = m_solved.sources[i];
         const bool isSolvedSpine = isSpine(i) && isSpineKnown();
         std::vector<VectorPair> vectors;
@@ -247,16 +251,79 @@ private:
             }
         }
         // That knees and elbows are hinges is an assumption: what they tell of the twist is no knowledge.
-        const RotationRank rank = fitRotation(vectors, prior).rank;
-        for (const Hinge& hinge : hinges()) {
-            if (static_cast<std::size_t>(hinge.upper) == i || static_cast<std::size_t>(hinge.lower) == i) {
-                addHinge(hinge, vectors);
+        const std::vector<VectorPair> known = vectors;
+        const RotationRank rank = fitRotation(known, prior).rank;
+        double bent = 0;
+        for (std::size_t k = 0; k < hinges().size(); ++k) {
+            const Hinge& hinge = hinges()[k];
+            const LimbBend& bend = m_body.bends[k];
+            if (static_cast<std::size_t>(hinge.upper) == i) {
+                bent = std::max(bent, addHinge(hinge, bend.upper, vectors));
+            } else if (static_cast<std::size_t>(hinge.lower) == i) {
+                bent = std::max(bent, addHinge(hinge, bend.lower, vectors));
             }
         }
         m_solved.segments[i].orientation = fitRotation(vectors, prior).rotation;
+        if (m_evidence.before && rank != RotationRank::Whole && !isSpine(i)) {
+            hold(i, fitRotation(known, asBefore(i, parent)).rotation, bent);
+        }
         source.isTwistAssumed = rank == RotationRank::Direction && !isSolvedSpine;
         source.orientation =
             rank == RotationRank::Nothing && !isSolvedSpine ? Provenance::Assumed : Provenance::Solved;
+    }
+
+    /// The few markers of a segment with the joints beside it, and for the rest as it was before: its origin
+    /// moves with them.
+    void fitAsBefore(std::size_t i, std::optional<std::size_t> parent) {
+        SegmentSource& source = m_solved.sources[i];
+        const std::vector<MarkerPair> pairs = jointsAround(i);
+        if (!m_evidence.before || m_evidence.markers[i].empty() || pairs.size() < 2 ||
+            source.orientation != Provenance::None || source.position != Provenance::None) {
+            return;
+        }
+        MarkerPair centre;
+        for (const MarkerPair& pair : pairs) {
+            centre.local += pair.local / static_cast<double>(pairs.size());
+            centre.world += pair.world / static_cast<double>(pairs.size());
+        }
+        std::vector<VectorPair> vectors;
+        for (const MarkerPair& pair : pairs) {
+            vectors.push_back({pair.local - centre.local, pair.world - centre.world});
+        }
+        source.heldSeconds =
+            m_evidence.before->heldSeconds[i] + static_cast<float>(m_evidence.before->seconds);
+        // In a twentieth of a second a segment turns by less than a marker that is so near to it is off.
+        constexpr double kPriorWeight = 0.16;
+        constexpr double kPriorSeconds = 0.05;
+        const double priorWeight = kPriorWeight * std::exp(-source.heldSeconds / kPriorSeconds);
+        const FittedRotation fitted = fitRotation(vectors, asBefore(i, parent), priorWeight);
+        m_solved.segments[i] = {centre.world - fitted.rotation * centre.local, fitted.rotation};
+        source.position = Provenance::Solved;
+        source.orientation = Provenance::Solved;
+        source.isTwistAssumed = fitted.rank != RotationRank::Whole;
+    }
+
+    /// Turned in its parent as it was before; in the world if it has none.
+    [[nodiscard]] Quaterniond asBefore(std::size_t i, std::optional<std::size_t> parent) const {
+        const auto& before = m_evidence.before->orientations;
+        return parent ? m_solved.segments[*parent].orientation * before[*parent].conjugate() * before[i]
+                      : before[i];
+    }
+
+    /// Leads from a rotation that is held to the one that was solved, which a bent limb tells, and which time
+    /// does for what is not bent: never at once.
+    void hold(std::size_t i, const Quaterniond& held, double bent) {
+        constexpr double kFollowing = 1.6; // radians a second: 1.5° at 60 Hz
+        constexpr double kReturning = 1.6;
+        const double seconds = m_evidence.before->seconds;
+        Quaterniond& solved = m_solved.segments[i].orientation;
+        float& age = m_solved.sources[i].heldSeconds;
+        age = bent > 0.5 ? 0.0F : m_evidence.before->heldSeconds[i] + static_cast<float>(seconds);
+        const double most = seconds * std::max(kFollowing * bent, age > kHold ? kReturning : 0.0);
+        const double apart = held.angularDistance(solved);
+        if (apart > most) {
+            solved = held.slerp(most / apart, solved);
+        }
     }
 
     [[nodiscard]] bool isSpineKnown() const {
@@ -264,26 +331,29 @@ private:
                m_solved.sources[segment::kT8].orientation > Provenance::Assumed;
     }
 
-    /// The axis that a limb bends about, the surer the more it is bent.
-    void addHinge(const Hinge& hinge, std::vector<VectorPair>& vectors) const {
+    /// The axis that a limb bends about, the surer the more it is bent: from 0 to 1, which it returns.
+    double addHinge(const Hinge& hinge, const Vector3d& learned, std::vector<VectorPair>& vectors) const {
         constexpr double kSure = 0.17; // sine of 10°
         constexpr double kWeight = 0.3;
         const auto upper = static_cast<std::size_t>(hinge.upper);
         const auto lower = static_cast<std::size_t>(hinge.lower);
         const auto end = static_cast<std::size_t>(hinge.end);
         if (!m_evidence.positions[upper] || !m_evidence.positions[lower] || !m_evidence.positions[end]) {
-            return;
+            return 0;
         }
         const Vector3d first = (*m_evidence.positions[lower] - *m_evidence.positions[upper]).normalized();
         const Vector3d second = (*m_evidence.positions[end] - *m_evidence.positions[lower]).normalized();
         const Vector3d normal = first.cross(second);
         const double sine = normal.norm();
-        if (sine > 1e-6) {
-            const double bent = std::pow(sine, 4);
-            const double weight = kWeight * bent / (bent + std::pow(kSure, 4));
-            constexpr double kLength = 0.1; // that of a vector with this weight
-            vectors.push_back({kLength * hinge.axis, kLength * normal / sine, weight});
+        if (sine <= 1e-6) {
+            return 0;
         }
+        const double bent = std::pow(sine, 4);
+        const double sureness = bent / (bent + std::pow(kSure, 4));
+        constexpr double kLength = 0.1; // that of a vector with this weight
+        vectors.push_back({kLength * (learned.isZero() ? hinge.axis : learned), kLength * normal / sine,
+                           kWeight * sureness});
+        return sureness;
     }
 
     /// Moves the body so that the lowest point of its soles is on the floor.
@@ -326,6 +396,46 @@ void addChain(const Points& points, std::vector<Vector3d>& hull) {
 
 SolvedBody solveBody(const PoseEvidence& evidence, const BodyOrigins& body) {
     return Solver(evidence, body).run();
+}
+
+void BendMeasure::add(const wire::Datagram& datagram) {
+    const bool isEnough = std::ranges::all_of(m_counts, [](std::uint32_t count) { return count >= kEnough; });
+    if (isEnough || !datagram.header.isLast() || m_seen++ % kEvery != 0) {
+        return;
+    }
+    const PosePart part{&datagram};
+    CharacterPose pose;
+    if (!poseFromParts({&part, 1}, {referenceOrigins()}, nullptr, 0, pose) || pose.isObjects) {
+        return;
+    }
+    constexpr double kBent = 0.34; // sine of 20°
+    for (std::size_t i = 0; i < m_counts.size(); ++i) {
+        const auto& [upper, lower, end, axis] = hinges()[i];
+        const SegmentPose& from = pose.segments[static_cast<std::size_t>(upper)];
+        const SegmentPose& to = pose.segments[static_cast<std::size_t>(lower)];
+        const bool isSent = pose.sources[static_cast<std::size_t>(upper)].orientation == Provenance::Sent &&
+                            pose.sources[static_cast<std::size_t>(lower)].orientation == Provenance::Sent;
+        const Vector3d normal =
+            (to.position - from.position)
+                .normalized()
+                .cross((pose.segments[static_cast<std::size_t>(end)].position - to.position).normalized());
+        if (isSent && normal.allFinite() && normal.norm() > kBent) {
+            m_sums[i].upper += from.orientation.conjugate() * normal;
+            m_sums[i].lower += to.orientation.conjugate() * normal;
+            ++m_counts[i];
+        }
+    }
+}
+
+std::array<LimbBend, 6> BendMeasure::bends() const {
+    constexpr std::uint32_t kFewest = 8;
+    std::array<LimbBend, 6> bends{};
+    for (std::size_t i = 0; i < bends.size(); ++i) {
+        if (m_counts[i] >= kFewest) {
+            bends[i] = {m_sums[i].upper.normalized(), m_sums[i].lower.normalized()};
+        }
+    }
+    return bends;
 }
 
 std::vector<Vector3d> soleContacts(const CharacterPose& pose, const BodyOrigins& body) {

@@ -22,6 +22,14 @@ struct PoseEvidence {
     /// How far a marker may be from where its segment puts it; more where the performer's own points are not
     /// known.
     double markerTolerance = 0.015;
+
+    /// The body as it was solved a little before, from messages of the same types.
+    struct Before {
+        std::array<Eigen::Quaterniond, kBodySegmentCount> orientations;
+        std::array<float, kBodySegmentCount> heldSeconds;
+        double seconds = 0; ///< between it and now
+    };
+    std::optional<Before> before{};
 };
 
 /// A whole body.
@@ -36,10 +44,29 @@ struct SolvedBody {
 /// Segments with three markers or more are fitted to them, those with fewer to theirs and to the joints of
 /// fitted ones beside them where these make three. What is left is solved from the pelvis outward:
 /// an origin by the bone from its parent, an orientation from the joints and markers of its segment, and from
-/// the plane in which a knee or an elbow bends; the spine turns as MVN interpolates it. How a limb is turned
-/// about itself where nothing tells goes with its parent by the shortest way, so it moves steadily; it is
-/// marked, as is everything that rests on nothing that was sent.
+/// the plane in which a knee or an elbow bends; the spine turns as MVN interpolates it. How a segment is
+/// turned as nothing tells is held in its parent as it was before, for kHold, and then goes steadily to where
+/// it would be without a before: with its parent by the shortest way. It is marked, as is everything that
+/// rests on nothing that was sent. No before is of influence for longer than kForgotten.
 [[nodiscard]] SolvedBody solveBody(const PoseEvidence& evidence, const BodyOrigins& body);
+inline constexpr double kHold = 1.0;      ///< seconds
+inline constexpr double kForgotten = 2.5; ///< seconds
+
+/// Learns how the limbs of a performer bend from poses whose orientations were sent: the axes of elbows and
+/// knees that bodies without orientations are solved with.
+class BendMeasure {
+public:
+    /// Of a datagram that holds a whole sample. One of 16 is looked at, until all limbs have bent often.
+    void add(const wire::Datagram& datagram);
+    [[nodiscard]] std::array<LimbBend, 6> bends() const;
+
+private:
+    static constexpr std::uint32_t kEvery = 16;
+    static constexpr std::uint32_t kEnough = 256;
+    std::array<LimbBend, 6> m_sums{};
+    std::array<std::uint32_t, 6> m_counts{};
+    std::uint32_t m_seen = 0;
+};
 
 /// Nearer to the floor than this, a point of a sole stands on it: soles of recordings are up to 4 mm above
 /// it, and flesh gives way. Metres.

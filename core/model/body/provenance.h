@@ -19,10 +19,15 @@ struct SegmentSource {
     Provenance orientation = Provenance::None;
     /// The direction of the segment is known, how it is turned about itself is not.
     bool isTwistAssumed = false;
+    /// For how long it has been held as it was, since nothing says how it is turned.
+    float heldSeconds = 0;
     /// It was sent, and is of no use: not finite, or a quaternion of no length.
     bool isBroken = false;
 
-    [[nodiscard]] constexpr Provenance weaker() const { return std::min(position, orientation); }
+    /// Of position and orientation, also of how it is turned about itself.
+    [[nodiscard]] constexpr Provenance weaker() const {
+        return std::min({position, orientation, isTwistAssumed ? Provenance::Assumed : Provenance::Sent});
+    }
     friend constexpr bool operator==(const SegmentSource&, const SegmentSource&) = default;
 };
 

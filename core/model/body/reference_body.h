@@ -49,6 +49,13 @@ enum class BodySource : std::uint8_t {
     NullPose,  ///< a scale message
 };
 
+/// The axis about which a limb of two bones bends, in the frame of each: upper × lower bone. Zero if it is
+/// not known.
+struct LimbBend {
+    Eigen::Vector3d upper = Eigen::Vector3d::Zero();
+    Eigen::Vector3d lower = Eigen::Vector3d::Zero();
+};
+
 /// A body in the null pose. Metres.
 struct BodyOrigins {
     struct Point {
@@ -59,8 +66,9 @@ struct BodyOrigins {
     std::array<Eigen::Vector3d, kBodySegmentCount> places; ///< origins of the body segments
     double floor = 0;                                      ///< z of the soles
     BodySource source = BodySource::Reference;
-    bool hasMeshScale = false;   ///< a scale of type 10 came, which tells no lengths
-    std::vector<Point> points{}; ///< as sent; see pointOf() for those that were not
+    bool hasMeshScale = false;       ///< a scale of type 10 came, which tells no lengths
+    std::vector<Point> points{};     ///< as sent; see pointOf() for those that were not
+    std::array<LimbBend, 6> bends{}; ///< of arms, legs, and shanks with feet; each right, left
 
     /// The pelvis above the soles, against the reference body.
     [[nodiscard]] double scale() const;

@@ -105,7 +105,8 @@ PlainFit fitWithoutWorst(std::vector<MarkerPair>& markers) {
 
 } // namespace
 
-FittedRotation fitRotation(std::span<const VectorPair> vectors, const Eigen::Quaterniond& prior) {
+FittedRotation fitRotation(std::span<const VectorPair> vectors, const Eigen::Quaterniond& prior,
+                           double weight) {
     Eigen::Matrix3d correlation = Eigen::Matrix3d::Zero();
     Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
     for (const VectorPair& pair : vectors) {
@@ -116,7 +117,7 @@ FittedRotation fitRotation(std::span<const VectorPair> vectors, const Eigen::Qua
     FittedRotation fitted;
     const Eigen::Vector3d known = Eigen::JacobiSVD<Eigen::Matrix3d>(spread).singularValues();
     // The less the more is known, without a step.
-    const double priorWeight = kPriorWeight * kLeastWeight / (kLeastWeight + known[1]);
+    const double priorWeight = weight + kPriorWeight * kLeastWeight / (kLeastWeight + known[1]);
     fitted.rotation = rotationOf(correlation + priorWeight * prior.toRotationMatrix());
     fitted.rank = known[0] < kLeastWeight   ? RotationRank::Nothing
                   : known[1] < kLeastWeight ? RotationRank::Direction

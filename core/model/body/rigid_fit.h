@@ -25,9 +25,10 @@ struct FittedRotation {
 
 /// The rotation that turns the local vectors onto those in the world with the least squared error (Wahba
 /// 1965, by singular values as Markley 1988). What they leave open is nearest to `prior`, which weighs so
-/// little that it plays no part elsewhere; so the result moves steadily when the vectors do.
-[[nodiscard]] FittedRotation fitRotation(std::span<const VectorPair> vectors,
-                                         const Eigen::Quaterniond& prior);
+/// little that it plays no part elsewhere, or as much as three vectors of `priorWeight`; so the result moves
+/// steadily when the vectors do.
+[[nodiscard]] FittedRotation fitRotation(std::span<const VectorPair> vectors, const Eigen::Quaterniond& prior,
+                                         double priorWeight = 0);
 
 /// A marker of a segment.
 struct MarkerPair {

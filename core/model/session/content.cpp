@@ -114,6 +114,9 @@ void Content::take(const Observed& seen) {
                                     seen.sender->positionUnit(seen.header->type()), seen.sender->up()},
                                    nullPose, m_incidents);
         }
+        if (hasPoses(seen.header->type())) {
+            seen.character->bends.add(*seen.datagram);
+        }
         if (BodyMeasure& body = seen.character->measuredBody;
             !body.isSettled() && hasPoses(seen.header->type()) && seen.character->nullPoses == nullptr) {
             body.add(*seen.datagram, seen.sender->positionUnit(seen.header->type()));

@@ -11,6 +11,20 @@
 
 namespace posewire::model {
 
+struct Messages::PoseOrigin {
+    std::array<std::uint64_t, kPoseTypes.size()> packets{}; ///< one past each; 0 for none
+    std::array<LengthUnit, kPoseTypes.size()> units{};
+    std::array<bool, kPoseTypes.size()> areYUp{};
+    std::uint64_t body = UINT64_MAX;
+    bool isLifted = false;
+
+    friend bool operator==(const PoseOrigin&, const PoseOrigin&) = default;
+    /// But for the packets.
+    [[nodiscard]] bool isLike(const PoseOrigin& other) const {
+        return units == other.units && areYUp == other.areYUp && body == other.body;
+    }
+};
+
 /// Bounded by the streams and characters of the session; what is asked for again while the cursor is where it
 /// was is not decoded again. For the implementation of Messages alone.
 struct Messages::Decoded {
@@ -18,14 +32,6 @@ struct Messages::Decoded {
         std::uint64_t packet = UINT64_MAX; ///< the newest datagram it was made from
         bool isValid = false;
         Message message;
-    };
-    struct PoseOrigin {
-        std::array<std::uint64_t, kPoseTypes.size()> packets{}; ///< one past each; 0 for none
-        std::array<LengthUnit, kPoseTypes.size()> units{};
-        std::array<bool, kPoseTypes.size()> areYUp{};
-        std::uint64_t body = UINT64_MAX;
-        bool isLifted = false;
-        friend bool operator==(const PoseOrigin&, const PoseOrigin&) = default;
     };
     struct OfTags {
         LengthUnit unit = LengthUnit::Centimetre;
@@ -36,6 +42,8 @@ struct Messages::Decoded {
         PoseOrigin poseOrigin;
         bool isValid = false;
         CharacterPose pose;
+        CharacterPose before; ///< of the message before, if `pose` is one that remembers
+        CharacterPose next;   ///< while messages are followed
         std::array<OfStream, kPoseTypes.size()> parts; ///< of samples before the newest
         /// What the body was made of: the packet of a null pose, else how many poses it was measured on,
         /// with the highest bit.

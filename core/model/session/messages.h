@@ -93,6 +93,9 @@ private:
     [[nodiscard]] Decoded& decoded() const;
     bool readMessage(const log::StreamEntries& entries, std::size_t count, Message& message) const;
     bool readWhole(const log::StreamEntry& entry, Message& message) const;
+    struct PoseOrigin;
+    const CharacterPose* poseBefore(const CharacterKey& key, std::size_t place, const Message& newest,
+                                    const PoseOrigin& origin) const;
     [[nodiscard]] const Message* messageOfSample(const CharacterKey& key, std::size_t place,
                                                  std::uint32_t sample) const;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/body/null_pose_measures.h"
 #include "core/model/body/pose_remark.h"
+#include "core/model/body/pose_solver.h"
 #include "core/model/session/decoded.h"
 
 #include <algorithm>
@@ -43,6 +44,35 @@ const Message* Messages::messageOfSample(const CharacterKey& key, std::size_t pl
     return nullptr;
 }
 
+/// The pose of the message before `newest`, in kPoseTypes at `place`; null for none. What was followed to an
+/// earlier one is followed on.
+const CharacterPose* Messages::poseBefore(const CharacterKey& key, std::size_t place, const Message& newest,
+                                          const PoseOrigin& origin) const {
+    constexpr std::size_t kMost = 1024;
+    const std::uint8_t type = kPoseTypes[place];
+    Decoded::OfCharacter& read = decoded().characters[key];
+    const BodyOrigins& body = *read.origins;
+    const log::Stamp from =
+        newest.stamp - std::chrono::duration_cast<log::Duration>(std::chrono::duration<double>(kForgotten));
+    const bool goesOn = read.isValid && read.pose.types == std::vector{type} && read.pose.stamp >= from &&
+                        read.pose.stamp < newest.stamp && read.poseOrigin.isLike(origin);
+    bool isBefore = goesOn;
+    if (goesOn) {
+        read.before = read.pose;
+    }
+    PoseMessages one{};
+    visit({newest.sender, newest.datagram.header.character, type},
+          goesOn ? read.pose.stamp + log::Duration(1) : from, kMost, [&](const Message& message) {
+              one[place] = &message;
+              if (message.packet < newest.packet &&
+                  assemble(one, origin.units, body, isBefore ? &read.before : nullptr, read.next)) {
+                  std::swap(read.before, read.next);
+                  isBefore = true;
+              }
+          });
+    return isBefore ? &read.before : nullptr;
+}
+
 const CharacterPose* Messages::pose(const CharacterKey& key) const {
     PoseMessages newest{};
     for (std::size_t i = 0; i < newest.size(); ++i) {
@@ -57,7 +87,7 @@ const CharacterPose* Messages::pose(const CharacterKey& key) const {
     }
     const BodyOrigins& body = bodyOrigins(key);
     Decoded::OfCharacter& read = decoded().characters[key];
-    Decoded::PoseOrigin origin;
+    PoseOrigin origin;
     origin.body = read.bodyOrigin;
     origin.isLifted = m_roster.isLifted(key);
     for (std::size_t i = 0; i < chosen.size(); ++i) {
@@ -69,7 +99,9 @@ const CharacterPose* Messages::pose(const CharacterKey& key) const {
         }
     }
     if (read.poseOrigin != origin) {
-        read.isValid = assemble(chosen, origin.units, body, read.pose);
+        const auto place = rememberingPlace(chosen);
+        const CharacterPose* before = place ? poseBefore(key, *place, *chosen[*place], origin) : nullptr;
+        read.isValid = assemble(chosen, origin.units, body, before, read.pose);
         if (read.isValid && origin.isLifted && isBelowFloor(read.pose)) {
             lift(body, read.pose);
         }
@@ -126,6 +158,7 @@ const BodyOrigins& Messages::bodyOrigins(const CharacterKey& key) const {
         const auto measured = measure != nullptr ? measure->body() : std::nullopt;
         read.origins = pose != nullptr ? bodyOf(*pose) : measured.value_or(BodyOrigins{referenceOrigins()});
     }
+    read.origins->bends = character != nullptr ? character->bends.bends() : read.origins->bends;
     read.origins->hasMeshScale = message(key, wire::ScaleInformation::kType) != nullptr;
     return *read.origins;
 }

@@ -7,6 +7,7 @@
 #include "core/model/accounting/count_history.h"
 #include "core/model/accounting/stream.h"
 #include "core/model/body/body_measure.h"
+#include "core/model/body/pose_solver.h"
 #include "core/model/content/content_watch.h"
 #include "core/model/keys.h"
 #include "core/model/session/detection.h"
@@ -103,6 +104,7 @@ struct Character {
     bool isNullPoseUsable = false; ///< the newest is whole, and does not contradict itself
     ContentWatch content;
     BodyMeasure measuredBody; ///< for as long as no scale message has come
+    BendMeasure bends;
     log::Stamp lastStamp{};
     bool isConfirmed = true; ///< else its datagrams are counted, and it is on no list of performers
     std::uint64_t firstPacket = 0;

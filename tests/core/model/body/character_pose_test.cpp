@@ -64,7 +64,7 @@ TEST(LayoutOfPose, HasNoMoreSegmentsThanThereMayBe) {
     }
     const PosePart part{&datagram};
     CharacterPose pose;
-    ASSERT_TRUE(poseFromParts({&part, 1}, {referenceOrigins()}, pose));
+    ASSERT_TRUE(poseFromParts({&part, 1}, {referenceOrigins()}, nullptr, 0, pose));
     EXPECT_EQ(pose.segments.size(), static_cast<std::size_t>(kMaxSegmentCount));
 }
 
