@@ -137,20 +137,21 @@ float hatching(vec3 at, float metresPerPixel) {
                smoothstep(0.5, 1.0, fract(octave)));
 }
 
-// What was solved is plain cloth of the suit's colour, without gloss; what is assumed is hatched in it. A trace of the
-// pattern stays, so that a head still looks somewhere.
+// What was solved is plain cloth with half of the suit's colour, without gloss; what is assumed is hatched in it. The
+// visor stays, and a trace of the pattern, so that one sees where a body faces.
 void showProvenance(inout Paint paint, vec2 solvedAndAssumed, float metresPerPixel) {
     float solved = solvedAndAssumed.x;
     float assumed = solvedAndAssumed.y;
-    // Orange and red would fade to the colour of skin: they fade further, to cooler cloth.
+    // Orange and red would fade to the colour of skin: they fade less, and to cooler cloth.
     float warmth = clamp(2.5 * (colour.r - colour.b), 0.0, 1.0);
-    vec3 plain = mix(colour * 0.86 + 0.10, mix(kPlainCloth, kCoolCloth, warmth), 0.72 + 0.05 * warmth);
-    paint.colour = mix(paint.colour, plain, (0.74 + 0.12 * warmth) * solved);
+    vec3 plain = mix(colour * 0.86 + 0.10, mix(kPlainCloth, kCoolCloth, warmth), 0.46 - 0.22 * warmth);
+    float cloth = 1.0 - 0.8 * paint.mirror;
+    paint.colour = mix(paint.colour, plain, 0.74 * solved * cloth);
     float plainness = max(solved, assumed);
-    paint.gloss *= 1.0 - 0.9 * plainness;
-    paint.mirror *= 1.0 - plainness;
+    paint.gloss *= 1.0 - 0.9 * plainness * cloth;
+    paint.mirror *= 1.0 - 0.6 * plainness;
     vec3 hatched = mix(kPlainCloth, 0.5 * colour + 0.08, 0.9 * hatching(suitPosition, metresPerPixel));
-    paint.colour = mix(paint.colour, hatched, 0.82 * assumed);
+    paint.colour = mix(paint.colour, hatched, 0.82 * assumed * cloth);
 }
 #endif
 

@@ -201,6 +201,16 @@
     </message>
 </context>
 <context>
+    <name>posewire::gui::ViewportOverlay</name>
+    <message numerus="yes">
+        <source>%n names have no room: come closer</source>
+        <translation>
+            <numerusform>%n name has no room: come closer</numerusform>
+            <numerusform>%n names have no room: come closer</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
     <name>posewire::words</name>
     <message numerus="yes">
         <source>{n} samples</source>

@@ -63,9 +63,13 @@ qreal entryInto(const QRectF& box, const QLineF& line) {
 /// From what a plate belongs to: the point above a head, or the head, which is large where the eye is near.
 qreal awayFrom(const LabelPlace& place, const QRectF& plate) {
     const QRectF& head = place.head;
-    const qreal x = std::max({plate.left() - head.right(), head.left() - plate.right(), 0.0});
-    const qreal y = std::max({plate.top() - head.bottom(), head.top() - plate.bottom(), 0.0});
-    return std::min(distanceTo(plate, place.anchor), std::hypot(x, y));
+    qreal away = distanceTo(plate, place.anchor);
+    for (const QRectF& box : {head, place.arms[0], place.arms[1]}) {
+        const qreal x = std::max({plate.left() - box.right(), box.left() - plate.right(), 0.0});
+        const qreal y = std::max({plate.top() - box.bottom(), box.top() - plate.bottom(), 0.0});
+        away = box.isEmpty() ? away : std::min(away, std::hypot(x, y));
+    }
+    return away;
 }
 
 QRectF plateAt(const LabelPlace& place, const QSizeF& size, const QPointF& offset, const QRectF& view) {
@@ -95,9 +99,17 @@ std::vector<Candidate> candidatesOf(const LabelPlace& place, const QSizeF& size,
             all.push_back({plate, offset, costOf(place, plate)});
         }
     };
-    for (int up = 0; up <= static_cast<int>(most) + 1; ++up) {
-        for (const qreal aside : {0.0, -0.25, 0.25, -0.5, 0.5, -0.75, 0.75}) {
-            add({aside * size.width(), -up * row});
+    const auto addRows = [&](qreal from) {
+        for (int up = 0; up <= static_cast<int>(most) + 1; ++up) {
+            for (const qreal aside : {0.0, -0.25, 0.25, -0.5, 0.5, -0.75, 0.75}) {
+                add({aside * size.width(), from - up * row});
+            }
+        }
+    };
+    addRows(0);
+    for (const QRectF& arm : place.arms) {
+        if (!arm.isEmpty() && arm.top() < place.anchor.y()) {
+            addRows(arm.top() - place.anchor.y() - kApart);
         }
     }
     const qreal beside = size.width() / 2 + place.head.width() / 2 + kApart;
@@ -165,6 +177,11 @@ public:
         : m_places(places), m_view(view), m_heads(view), m_taken(view) {
         for (std::size_t i = 0; i < places.size(); ++i) {
             m_heads.add(places[i].head, i);
+            for (const QRectF& arm : places[i].arms) {
+                if (!arm.isEmpty()) {
+                    m_heads.add(arm, i);
+                }
+            }
         }
         std::ranges::for_each(taken, [this](const QRectF& room) { m_taken.add(room); });
     }
@@ -232,7 +249,9 @@ private:
     }
     [[nodiscard]] bool isFree(const QRectF& plate, std::size_t which, qreal spare) const {
         const QRectF wide = plate.adjusted(-kApart - spare, -kApart, kApart + spare, kApart);
-        return !isTaken(wide) && !m_places[which].head.intersects(plate) && !isOnHead(plate, which, true);
+        const LabelPlace& own = m_places[which];
+        return !isTaken(wide) && !own.head.intersects(plate) && !own.arms[0].intersects(plate) &&
+               !own.arms[1].intersects(plate) && !isOnHead(plate, which, true);
     }
     [[nodiscard]] bool isTaken(const QRectF& room) const {
         return m_taken.isAnyIn(room, [](std::size_t) { return true; });

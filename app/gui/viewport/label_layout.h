@@ -7,6 +7,7 @@
 #include <QSizeF>
 #include <QString>
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -38,6 +39,7 @@ struct LabelPlace {
     QSizeF brief{};
     std::optional<PlacedLabel> before{}; ///< in the picture before, so that nothing flickers
     QSizeF named{};                      ///< empty if the brief form shows as much
+    std::array<QRectF, 2> arms{};        ///< that are raised: as little to be covered as a head
 };
 
 /// Finds a place for each label by its head: nowhere on another, on what is `taken`, on its own head or

@@ -128,10 +128,12 @@ std::optional<Eigen::Vector3d> positionIn(const wire::Body& body, std::size_t se
 } // namespace
 
 void drawSegmentNames(const OverlaySubject& subject, SceneFrame& frame) {
+    frame.hasNamesLeftOut = frame.hasNamesLeftOut || !subject.isAlone;
     for (std::size_t i = 0; subject.isAlone && i < subject.pose.segments.size(); ++i) {
         if (i < kBody + static_cast<std::size_t>(subject.pose.layout.props) && subject.pose.isPresent(i)) {
             const auto name = model::segmentTitle(subject.pose.layout, static_cast<int>(i));
-            frame.texts.push_back({pointOf(subject.pose.segments[i].position), fromUtf8(name), theme().text});
+            frame.texts.push_back(
+                {pointOf(subject.pose.segments[i].position), fromUtf8(name), theme().text, false, true});
         }
     }
 }
@@ -155,13 +157,15 @@ void drawMarkers(const OverlaySubject& subject, SceneFrame& frame) {
     const wire::Datagram& datagram = freshMessage(subject, wire::PointPositions::kType)->datagram;
     const model::LengthUnit unit = unitOf(subject, wire::PointPositions::kType);
     const std::size_t markers = model::countMarkers(*sent); // the tags behind them are drawn anyway
+    frame.hasNamesLeftOut = frame.hasNamesLeftOut || !subject.isAlone;
     for (std::size_t i = 0; i < markers; ++i) {
         const wire::Point& point = sent->points[i];
         const glm::vec3 place = pointOf(model::pointFromYUp(point.position, unit) + subject.pose.moved);
         frame.points.push_back({place, inkOf(theme().text, subject.strength), 6.0F});
         if (subject.isAlone) {
             const QString name = fromUtf8(model::itemName(datagram, i));
-            frame.texts.push_back({place, name.isEmpty() ? QString::number(point.id) : name, theme().dim});
+            frame.texts.push_back(
+                {place, name.isEmpty() ? QString::number(point.id) : name, theme().text, false, true});
         }
     }
 }

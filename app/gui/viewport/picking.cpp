@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 namespace posewire::gui {
@@ -34,6 +35,33 @@ std::optional<PickedSegment> pickOrigin(const SceneFrame& frame, const QPointF& 
     return picked;
 }
 
+/// From elbow to fingertips, if these are as high as the head.
+QRectF raisedArm(const Figure& figure, std::size_t foreArm, const render::Camera& camera,
+                 const QSizeF& size) {
+    constexpr float kTips = 0.75F;  // of a forearm, beyond the wrist
+    constexpr float kThick = 0.06F; // metres
+    constexpr float kBelow = 0.45F; // the label's place above the shoulders
+    if (figure.body == nullptr) {
+        return {};
+    }
+    const auto place = [&figure](std::size_t segment) {
+        return render::transformPoint(figure.palette[segment], figure.body->fit.origins[segment]);
+    };
+    const glm::vec3 elbow = place(foreArm);
+    const glm::vec3 wrist = place(foreArm + 1);
+    const glm::vec3 tips = wrist + kTips * (wrist - elbow);
+    const auto from = camera.project(elbow, aspectOf(size));
+    const auto to = camera.project(tips, aspectOf(size));
+    const auto beside = camera.project(tips + kThick * camera.right(), aspectOf(size));
+    if (tips.z < figure.labelPosition.z - kBelow || !from || !to || !beside) {
+        return {};
+    }
+    const qreal thick = QLineF(pointerAt(*to, size), pointerAt(*beside, size)).length();
+    return QRectF(pointerAt(*from, size), pointerAt(*to, size))
+        .normalized()
+        .adjusted(-thick, -thick, thick, thick);
+}
+
 /// Nothing where the head is behind the eye.
 std::optional<ViewportLabel> labelOf(const Figure& figure, const render::Camera& camera,
                                      model::SessionView& session, const QSizeF& size) {
@@ -52,6 +80,8 @@ std::optional<ViewportLabel> labelOf(const Figure& figure, const render::Camera&
     const QPointF above = pointerAt(*crown, size);
     const qreal height = std::abs(pointerAt(*chin, size).y() - above.y());
     label.head = QRectF(above.x() - 0.4 * height, above.y(), 0.8 * height, height);
+    label.arms = {raisedArm(figure, render::RightForeArm, camera, size),
+                  raisedArm(figure, render::LeftForeArm, camera, size)};
     label.depth = glm::dot(figure.labelPosition - camera.eye(), camera.forward());
     label.mark = {QColor::fromRgbF(figure.look.colour.r, figure.look.colour.g, figure.look.colour.b),
                   figure.key.character};
@@ -59,6 +89,34 @@ std::optional<ViewportLabel> labelOf(const Figure& figure, const render::Camera&
     label.state = characterHealth(session, figure.key);
     label.isSelected = session.roster().isSelected(figure.key);
     return label;
+}
+
+/// Whether a ray meets a body before it is so far; `without` is left out.
+bool isMet(const SceneFrame& frame, const render::Ray& ray, float distance, const Figure* without) {
+    constexpr float kFlesh = 0.3F; // metres around the origins of segments
+    const auto mayMeet = [&](const Figure& figure) {
+        const glm::vec3 least = (figure.bounds.min - kFlesh - ray.origin) / ray.direction;
+        const glm::vec3 most = (figure.bounds.max + kFlesh - ray.origin) / ray.direction;
+        const glm::vec3 in = glm::min(least, most);
+        const glm::vec3 out = glm::max(least, most);
+        const float begin = std::max({in.x, in.y, in.z});
+        return begin < distance && begin <= std::min({out.x, out.y, out.z});
+    };
+    return std::ranges::any_of(frame.figures, [&](const Figure& figure) {
+        if (&figure == without || figure.body == nullptr || figure.bounds.isEmpty() || !mayMeet(figure)) {
+            return false;
+        }
+        const render::PickTarget target = targetOf(figure, 0);
+        const auto pick = render::pickSegment(ray, std::span(&target, 1));
+        return pick && pick->distance < distance;
+    });
+}
+
+/// Deeper in a body than its middle is: on the side that is not seen.
+bool isOnFarSide(const SceneFrame& frame, const glm::vec3& place, const QPointF& there, const QSizeF& view) {
+    constexpr float kHalfBody = 0.13F; // metres
+    const render::Ray ray = frame.camera.rayThrough(screenPoint(there, view), aspectOf(view));
+    return isMet(frame, ray, glm::dot(place - ray.origin, ray.direction) - kHalfBody, nullptr);
 }
 
 } // namespace
@@ -84,27 +142,9 @@ render::PickTarget targetOf(const Figure& figure, std::uint32_t id) {
 }
 
 bool isBehindAnother(const SceneFrame& frame, std::size_t which, const QPointF& there, const QSizeF& view) {
-    constexpr float kFlesh = 0.3F; // metres around the origins of segments
     const render::Ray ray = frame.camera.rayThrough(screenPoint(there, view), aspectOf(view));
     const float own = glm::dot(frame.figures[which].labelPosition - ray.origin, ray.direction);
-    const auto mayMeet = [&](const Figure& figure) {
-        const glm::vec3 least = (figure.bounds.min - kFlesh - ray.origin) / ray.direction;
-        const glm::vec3 most = (figure.bounds.max + kFlesh - ray.origin) / ray.direction;
-        const glm::vec3 in = glm::min(least, most);
-        const glm::vec3 out = glm::max(least, most);
-        const float begin = std::max({in.x, in.y, in.z});
-        return begin < own && begin <= std::min({out.x, out.y, out.z});
-    };
-    const auto isInTheWay = [&](const Figure& figure) {
-        if (&figure == &frame.figures[which] || figure.body == nullptr || figure.bounds.isEmpty() ||
-            !mayMeet(figure)) {
-            return false;
-        }
-        const render::PickTarget target = targetOf(figure, 0);
-        const auto pick = render::pickSegment(ray, std::span(&target, 1));
-        return pick && pick->distance < own;
-    };
-    return std::ranges::any_of(frame.figures, isInTheWay);
+    return isMet(frame, ray, own, &frame.figures[which]);
 }
 
 QRectF roomOf(const SceneFrame& frame, const model::CharacterKey& key, const QSizeF& view) {
@@ -131,17 +171,26 @@ std::vector<ViewportLabel> labelsOf(const SceneFrame& frame, model::SessionView&
 }
 
 std::vector<ViewportText> textsOf(const SceneFrame& frame, const QSizeF& size) {
-    std::vector<std::pair<std::pair<bool, float>, ViewportText>> all;
+    constexpr float kFarStrength = 0.5F;
+    using Order = std::tuple<bool, bool, float>; // of the floor, of a far side, depth
+    std::vector<std::pair<Order, ViewportText>> all;
     for (const SceneText& text : frame.texts) {
         if (const auto place = frame.camera.project(text.position, aspectOf(size))) {
+            const QPointF there = pointerAt(*place, size);
+            const bool isFar = text.isOfBody && isOnFarSide(frame, text.position, there, size);
             const float depth = glm::dot(text.position - frame.camera.eye(), frame.camera.forward());
-            all.push_back({{text.isScale, depth}, {pointerAt(*place, size), text.text, text.colour}});
+            QColor colour = text.colour;
+            colour.setAlphaF(isFar ? kFarStrength : 1.0F);
+            all.push_back({{text.isScale, isFar, depth}, {there, text.text, colour, text.isOfBody}});
         }
     }
     std::ranges::stable_sort(all, {}, [](const auto& one) { return one.first; });
     std::vector<ViewportText> texts;
     for (auto& [order, text] : all) {
         texts.push_back(std::move(text));
+    }
+    if (frame.hasNamesLeftOut) {
+        texts.push_back({{}, tr("Names are shown of the selected character"), theme().dim, false, true});
     }
     return texts;
 }

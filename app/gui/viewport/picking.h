@@ -12,6 +12,7 @@
 #include <QSizeF>
 #include <QString>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -46,7 +47,8 @@ struct ViewportLabel {
     model::CharacterKey key;
     QPointF anchor; ///< just above its head
     QRectF head;
-    double depth = 0; ///< of the head, metres from the eye
+    std::array<QRectF, 2> arms; ///< forearm and hand where they are raised; else empty
+    double depth = 0;           ///< of the head, metres from the eye
     CharacterMark mark;
     QString name;
     PropertyValue state; ///< how it does
@@ -58,12 +60,14 @@ struct ViewportText {
     QPointF place; ///< its left end, at half its height
     QString text;
     QColor colour;
+    bool isOfBody = false; ///< is moved aside, with a line to its place, rather than left out
+    bool isHint = false;   ///< says something about the others, and has no place
 };
 
 /// Of the figures in a picture of that size, in logical pixels; none of a head that is behind the eye.
 [[nodiscard]] std::vector<ViewportLabel> labelsOf(const SceneFrame& frame, model::SessionView& session,
                                                   const QSizeF& size);
-/// The nearest first, numbers of the floor last.
+/// The nearest first, those on the far sides of bodies after them and fainter, numbers of the floor last.
 [[nodiscard]] std::vector<ViewportText> textsOf(const SceneFrame& frame, const QSizeF& size);
 
 } // namespace posewire::gui

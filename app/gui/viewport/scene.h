@@ -97,7 +97,8 @@ struct SceneText {
     glm::vec3 position{0.0F};
     QString text;
     QColor colour;
-    bool isScale = false; ///< a number of the floor: it gives way to all others
+    bool isScale = false;  ///< a number of the floor: it gives way to all others
+    bool isOfBody = false; ///< names something on a body: fainter on its far side
 
     bool operator==(const SceneText&) const = default;
 };
@@ -115,7 +116,8 @@ struct SceneFrame {
     std::vector<render::LineInstance> lines;
     std::vector<render::PointInstance> points;
     std::vector<SceneText> texts;
-    int x = 0; ///< of a pane in the picture, device pixels
+    bool hasNamesLeftOut = false; ///< of several figures with none selected: too many for words
+    int x = 0;                    ///< of a pane in the picture, device pixels
     int y = 0;
     int width = 1; ///< device pixels
     int height = 1;

@@ -109,7 +109,20 @@ void addFloorNumbers(SceneFrame& frame) {
     }
 }
 
-/// Numbers grow to the right of the picture and upward; 0 is the origin of the world.
+/// The axis of the world that goes across a picture, and whether it grows to the right; no name if none does.
+std::pair<QString, double> acrossOf(const render::Camera& camera) {
+    constexpr float kAlong = 0.9995F; // cosine of 2°
+    const glm::vec3 right = camera.right();
+    for (const auto& [name, share] : {std::pair{tr("x"), right.x}, std::pair{tr("y"), right.y}}) {
+        if (std::abs(share) > kAlong) {
+            return {name + QLatin1Char(' '), share > 0 ? 1.0 : -1.0};
+        }
+    }
+    return {};
+}
+
+/// 0 is the origin of the world. Numbers are those of its axis; where the picture is oblique to both, they
+/// are distances, without a sign.
 void addRules(SceneFrame& frame) {
     const render::Camera& camera = frame.camera;
     const double pixel = metresPerPixel(frame);
@@ -130,10 +143,13 @@ void addRules(SceneFrame& frame) {
         frame.lines.push_back({from, to, ink, 1.2F, 1.0F});
     };
     line(at(middle - 1.2 * halfWidth, 0), at(middle + 1.2 * halfWidth, 0));
+    const auto [axis, sign] = acrossOf(camera);
     for (double along = std::ceil((middle - halfWidth) / step) * step; along < middle + halfWidth;
          along += step) {
         line(at(along, 0), at(along, -tick));
-        frame.texts.push_back({at(along - 7 * pixel, -3 * tick), metres(along, step), theme().dim, true});
+        const double value = sign == 0 ? std::abs(along) : sign * along;
+        frame.texts.push_back(
+            {at(along - 7 * pixel, -3 * tick), axis + metres(value, step), theme().dim, true});
     }
     constexpr double kEdge = 18; // logical pixels
     const double edge = middle - halfWidth + kEdge * pixel;
@@ -141,7 +157,8 @@ void addRules(SceneFrame& frame) {
     line(at(edge, 0), at(edge, top));
     for (double height = step; height < top; height += step) {
         line(at(edge, height), at(edge + tick, height));
-        frame.texts.push_back({at(edge + tick, height), metres(height, step), theme().dim, true});
+        frame.texts.push_back(
+            {at(edge + tick, height), tr("z") + QLatin1Char(' ') + metres(height, step), theme().dim, true});
     }
 }
 

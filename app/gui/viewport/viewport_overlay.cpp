@@ -317,7 +317,7 @@ std::vector<LabelPlace> ViewportOverlay::placeAll(const std::vector<QRectF>& tak
         places.push_back({label.anchor, label.head, label.depth, weightOf(label), QSizeF(text.whole, height),
                           QSizeF(text.brief, height),
                           before == m_before.end() ? std::nullopt : std::optional(before->second),
-                          QSizeF(text.named, height)});
+                          QSizeF(text.named, height), label.arms});
     }
     m_placed = placeLabels(places, rect(), taken);
     m_before.clear();
@@ -382,31 +382,86 @@ void ViewportOverlay::paintLabel(QPainter& painter, const ViewportLabel& label, 
     }
 }
 
-/// Each with a halo of the background, so that it can be read over anything.
-void ViewportOverlay::paintTexts(QPainter& painter, std::vector<QRectF>& taken) const {
-    constexpr qreal kAside = 7;
+namespace {
+
+constexpr qreal kAside = 7;
+
+/// With a halo of the background, so that it can be read over anything.
+void paintWithHalo(QPainter& painter, const QPointF& place, const QString& text, const QColor& colour) {
     constexpr std::array<QPointF, 8> kAround{
         {{-1.5, 0}, {1.5, 0}, {0, -1.5}, {0, 1.5}, {-1, -1}, {1, -1}, {-1, 1}, {1, 1}}};
+    painter.setPen(withAlpha(theme().window, colour.alphaF()));
+    for (const QPointF& around : kAround) {
+        painter.drawText(place + around, text);
+    }
+    painter.setPen(colour);
+    painter.drawText(place, text);
+}
+
+/// Beside its place; what is of a body also farther aside, row by row. Empty if all is taken.
+QRectF roomFor(const ViewportText& text, const QSizeF& size, const QRectF& view,
+               const std::vector<QRectF>& taken) {
+    constexpr int kRows = 8;
+    for (int row = 0; row <= (text.isOfBody ? kRows : 0); ++row) {
+        const qreal aside = row == 0 ? kAside : kAside + 0.8 * row * size.height();
+        for (const qreal up : {-1.0, 1.0}) {
+            for (const bool isRight : {true, false}) {
+                const QRectF room(
+                    QPointF(isRight ? text.place.x() + aside : text.place.x() - aside - size.width(),
+                            text.place.y() - size.height() / 2 + up * row * size.height()),
+                    size);
+                const bool isTried = (isRight || text.isOfBody) && (row != 0 || up < 0);
+                if (isTried && view.contains(room) &&
+                    std::ranges::none_of(taken,
+                                         [&room](const QRectF& other) { return other.intersects(room); })) {
+                    return room;
+                }
+            }
+        }
+    }
+    return {};
+}
+
+} // namespace
+
+void ViewportOverlay::paintTexts(QPainter& painter, std::vector<QRectF>& taken) const {
     QFont small = tabularFont();
     small.setPointSizeF(0.85 * small.pointSizeF());
     painter.setFont(small);
     const QFontMetricsF metrics(small);
+    int left = 0;
+    QString hint;
     for (const ViewportText& text : m_texts) {
-        const QRectF room(text.place.x() + kAside, text.place.y() - metrics.height() / 2,
-                          metrics.horizontalAdvance(text.text), metrics.height());
-        if (!QRectF(rect()).contains(room) ||
-            std::ranges::any_of(taken, [&room](const QRectF& other) { return other.intersects(room); })) {
+        if (text.isHint) {
+            hint = text.text;
+            continue;
+        }
+        const QRectF room =
+            roomFor(text, {metrics.horizontalAdvance(text.text), metrics.height()}, rect(), taken);
+        if (room.isEmpty()) {
+            left += text.isOfBody && rect().contains(text.place.toPoint()) ? 1 : 0;
             continue;
         }
         taken.push_back(room);
-        const QPointF place(room.left(), room.bottom() - metrics.descent());
-        painter.setPen(theme().window);
-        for (const QPointF& around : kAround) {
-            painter.drawText(place + around, text.text);
+        const qreal side = room.left() > text.place.x() ? room.left() - 2 : room.right() + 2;
+        const QLineF leader(text.place, {side, room.center().y()});
+        if (leader.length() > 2 * kAside) {
+            painter.setPen(QPen(withAlpha(text.colour, 0.5 * text.colour.alphaF()), 1));
+            painter.drawLine(leader);
         }
-        painter.setPen(text.colour);
-        painter.drawText(place, text.text);
+        paintWithHalo(painter, {room.left(), room.bottom() - metrics.descent()}, text.text, text.colour);
     }
+    if (left != 0) {
+        hint = tr("%n names have no room: come closer", nullptr, left);
+    }
+    const qreal margin = metrics.height();
+    QRectF room({0, 0}, QSizeF(metrics.horizontalAdvance(hint), metrics.height()));
+    room.moveBottomRight({width() - margin, height() - margin / 2});
+    const auto isCovered = [&room](const QRectF& other) { return other.intersects(room); };
+    while (room.top() > margin && std::ranges::any_of(taken, isCovered)) {
+        room.translate(0, -margin / 2);
+    }
+    paintWithHalo(painter, {room.left(), room.bottom() - metrics.descent()}, hint, theme().dim);
 }
 
 } // namespace posewire::gui

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <tuple>
 
 namespace posewire::gui {
 namespace {
@@ -47,11 +48,26 @@ TEST(FloorScale, AViewAlongTheFloorHasRules) {
     ASSERT_FALSE(frame.lines.empty());
     EXPECT_EQ(frame.lines[0].from.z, 0.0F);
     EXPECT_EQ(frame.lines[0].to.z, 0.0F);
-    const SceneText* height = find(frame, QStringLiteral("1.5 m"));
+    const SceneText* height = find(frame, QStringLiteral("z 1.5 m"));
     ASSERT_NE(height, nullptr);
     EXPECT_TRUE(std::ranges::any_of(frame.texts, [](const SceneText& one) {
-        return one.text == QStringLiteral("1.5 m") && one.position.z == 1.5F;
+        return one.text == QStringLiteral("z 1.5 m") && one.position.z == 1.5F;
     }));
+}
+
+TEST(FloorScale, RulesAreOfTheAxisThatGoesAcross) {
+    for (const auto& [heading, axis, sign] :
+         {std::tuple{0.0F, 1, 1}, {90.0F, 0, -1}, {180.0F, 1, -1}, {270.0F, 0, 1}}) {
+        render::Camera camera = render::facing({}, render::StandardView::Front);
+        camera.projection = render::Projection::Orthographic;
+        camera.yaw += glm::radians(heading);
+        const SceneFrame frame = frameOf(camera);
+        const SceneText* text =
+            find(frame, (axis == 0 ? QStringLiteral("x ") : QStringLiteral("y ")) + QStringLiteral("1.0 m"));
+        ASSERT_NE(text, nullptr) << heading;
+        EXPECT_GT(text->position[axis], 0.5F) << heading;
+        EXPECT_EQ(camera.right()[axis] > 0 ? 1 : -1, sign) << heading;
+    }
 }
 
 TEST(FloorScale, KeepsOutOfFigures) {

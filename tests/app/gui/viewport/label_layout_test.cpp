@@ -38,6 +38,19 @@ TEST(LabelLayout, StandsAboveTheHeadWhereThereIsRoom) {
     EXPECT_FALSE(leaderOf(placed[0], std::vector{labelAt(300, 200, 5)}, 0));
 }
 
+TEST(LabelLayout, StandsAboveRaisedArmsOrBesideThem) {
+    for (const double x : {30.0, 300.0, 610.0}) {
+        LabelPlace raised = labelAt(x, 200, 5);
+        raised.arms = {QRectF(x - 25, 150, 15, 60), QRectF(x + 10, 140, 15, 70)};
+        const auto placed = placeLabels(std::vector{raised, labelAt(x, 230, 8)}, kViewport, {});
+        for (const PlacedLabel& label : placed) {
+            EXPECT_LE(label.form, LabelForm::Brief);
+            EXPECT_FALSE(label.plate.intersects(raised.arms[0]) || label.plate.intersects(raised.arms[1]));
+        }
+        EXPECT_EQ(placed[0].form, LabelForm::Whole);
+    }
+}
+
 TEST(LabelLayout, NeverLiesOnAnotherLabelOnButtonsOrOnItsOwnOrANearerHead) {
     const QRectF buttons(10, 10, 260, 30);
     for (unsigned seed = 1; seed <= 60; ++seed) {

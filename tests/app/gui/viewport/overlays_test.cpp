@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/viewport/overlays.h"
 
+#include "app/gui/viewport/picking.h"
 #include "core/model/body/character_pose.h"
 #include "core/model/session/messages.h"
 #include "tests/app/gui/models/stage.h"
@@ -76,6 +77,30 @@ TEST_F(OverlayTest, AreOfTheSelectedCharacterOrOfAll) {
     select(0);
     EXPECT_EQ(with(Overlay::Markers).points.size(), 64U);
     EXPECT_EQ(with(Overlay::Markers).texts.size(), 64U);
+}
+
+TEST_F(OverlayTest, NamesOfTheFarSideAreFainterAndAllHaveAPlace) {
+    perform({2, 3, 13});
+    EXPECT_TRUE(with(Overlay::Markers).hasNamesLeftOut) << "of two";
+    select(0);
+    SceneFrame frame = with(Overlay::Markers);
+    EXPECT_FALSE(frame.hasNamesLeftOut);
+    const model::CharacterPose& pose = *stage.session.messages().pose(stage.key());
+    const Eigen::Vector3d ahead = pose.segments[0].orientation * Eigen::Vector3d::UnitX();
+    frame.camera.target = pointOf(pose.segments[0].position);
+    frame.camera.distance = 3;
+    frame.camera.pitch = 0;
+    const auto strengthOf = [&](const char* name, bool isFromAhead) {
+        frame.camera.yaw =
+            static_cast<float>(std::atan2(ahead.y(), ahead.x())) + (isFromAhead ? 0.0F : glm::pi<float>());
+        const auto texts = textsOf(frame, {800, 800});
+        const auto found = std::ranges::find(texts, QString::fromLatin1(name), &ViewportText::text);
+        return found == texts.end() ? 0.0 : found->colour.alphaF();
+    };
+    const bool isLookedAtFromAhead = strengthOf("pPX", true) == 1.0;
+    EXPECT_NE(strengthOf("pPX", true), strengthOf("pPX", false)) << "the sternum";
+    EXPECT_LT(strengthOf("pSacrum", isLookedAtFromAhead), 0.6);
+    EXPECT_EQ(strengthOf("pSacrum", !isLookedAtFromAhead), 1.0);
 }
 
 TEST_F(OverlayTest, MarkersAreWhereTheirSegmentsHaveThem) {
