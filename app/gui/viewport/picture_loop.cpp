@@ -104,9 +104,14 @@ void PictureLoop::drawNext() {
     const model::Cursor& cursor = m_session->choices().cursor;
     const bool isAtRest = cursor.mode == model::Cursor::Mode::Paused && cursor.speed == 0;
     const bool isElsewhere = isAtRest && cursor.packet != m_followedPacket;
-    const double seconds =
-        isElsewhere ? std::numeric_limits<double>::infinity() : log::secondsOf(m_session->now() - m_followed);
+    // A recording that plays stays as it is: there the cursor tells how time goes by.
+    const log::Stamp moment = m_session->cursorStamp();
+    const log::Duration played =
+        moment > m_followedMoment ? moment - m_followedMoment : m_followedMoment - moment;
+    const double seconds = isElsewhere ? std::numeric_limits<double>::infinity()
+                                       : log::secondsOf(std::max(m_session->now() - m_followed, played));
     m_followedPacket = cursor.packet;
+    m_followedMoment = moment;
     if (m_look.panes.isSplit()) {
         m_look.fillPanes(*m_builder, seconds, *frame);
     } else {

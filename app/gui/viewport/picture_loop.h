@@ -74,7 +74,8 @@ private:
     bool m_hasPicture = false;
     log::Stamp m_followed{};
     std::uint64_t m_followedPacket = 0; ///< of a moment at rest
-    log::Stamp m_drawingBuilt{};        ///< the session's time of m_drawing
+    log::Stamp m_followedMoment{};
+    log::Stamp m_drawingBuilt{}; ///< the session's time of m_drawing
     log::Stamp m_shownBuilt{};
 };
 

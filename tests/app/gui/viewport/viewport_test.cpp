@@ -241,6 +241,23 @@ TEST_F(Viewport, ShowsTheBodyWhereverAPausedMomentHasIt) {
     }
 }
 
+TEST_F(Viewport, FollowsWhileARecordingPlays) {
+    performer::Performer performer(sending(1, {2, 12, 13}));
+    stage.perform(performer, 3, 1'200);
+    stage.follow(); // its time stands still from here on, as that of a file does
+    model::Cursor cursor{model::Cursor::Mode::Paused, 20};
+    cursor.speed = 1;
+    for (std::uint64_t packet = 20; packet < stage.session.end(); packet += 24) {
+        cursor.packet = packet;
+        stage.session.setCursor(cursor);
+        viewport.refresh();
+        ASSERT_TRUE(settle());
+    }
+    ASSERT_EQ(viewport.overlay().labels().size(), 1U);
+    const double x = viewport.overlay().labels().front().anchor.x();
+    EXPECT_NEAR(x, viewport.width() / 2.0, 0.4 * viewport.width());
+}
+
 TEST_F(Viewport, TheCameraFinishesItsWayWhilePaused) {
     stage.session.setCursor({model::Cursor::Mode::Paused, stage.session.end() - 1});
     viewport.refresh();
