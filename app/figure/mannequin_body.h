@@ -5,8 +5,8 @@
 
 namespace posewire::figure {
 
-/// The mannequin fitted to a performer, as exports take it: what twist joints move is moved by their segments
-/// here, which other programs know.
-[[nodiscard]] exporting::BodyMesh mannequinBody(const model::BodyOrigins& performer);
+/// The mannequin fitted to a performer, as exports take it: see exporting::MakeBodyMesh. Joints between
+/// segments keep its form in programs that blend matrices.
+[[nodiscard]] exporting::BodyMesh mannequinBody(const exporting::SegmentPlaces& performer);
 
 } // namespace posewire::figure

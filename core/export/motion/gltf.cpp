@@ -89,54 +89,56 @@ private:
     std::uint64_t m_size = 0;
 };
 
-/// The keys of one character: times, and for each joint its position and its rotation relative to its parent.
-/// Y-up; rotations x y z w, each on the side of the one before, so that players turn the short way.
-class KeyColumns {
-public:
-    KeyColumns(const Skeleton& skeleton, const std::shared_ptr<log::Scratch>& scratch)
-        : m_times(scratch),
-          m_positions(skeleton.joints.size(), FloatColumn(scratch)),
-          m_rotations(skeleton.joints.size(), FloatColumn(scratch)),
-          m_newest(skeleton.joints.size(), Eigen::Quaterniond::Identity()) {}
+/// The keys of one joint relative to its parent. Y-up; rotations x y z w, each on the side of the one before,
+/// so that players turn the short way.
+struct JointKeys {
+    explicit JointKeys(const std::shared_ptr<log::Scratch>& scratch)
+        : positions(scratch), rotations(scratch) {}
 
-    void add(double seconds, std::span<const model::SegmentPose> local) {
+    void addPosition(const Vector3d& zUp) {
+        const Vector3d position = model::yUpFromZUp(zUp);
+        for (const double value : {position.x(), position.y(), position.z()}) {
+            positions.add(static_cast<float>(value));
+        }
+    }
+    void addRotation(const Eigen::Quaterniond& zUp) {
+        Eigen::Quaterniond turn = model::yUpFromZUp(zUp);
+        if (turn.dot(newest) < 0) {
+            turn.coeffs() = -turn.coeffs();
+        }
+        newest = turn;
+        for (const double value : {turn.x(), turn.y(), turn.z(), turn.w()}) {
+            rotations.add(static_cast<float>(value));
+        }
+    }
+
+    FloatColumn positions;
+    FloatColumn rotations;
+    Eigen::Quaterniond newest = Eigen::Quaterniond::Identity();
+};
+
+/// When the keys of one character are: each later than the one before.
+class KeyTimes {
+public:
+    explicit KeyTimes(std::shared_ptr<log::Scratch> scratch) : m_times(std::move(scratch)) {}
+
+    void add(double seconds) {
         float time = static_cast<float>(seconds);
-        if (count() == 0) {
+        if (m_times.size() == 0) {
             m_first = time;
         } else if (time <= m_last) {
             time = std::nextafter(m_last, std::numeric_limits<float>::infinity());
         }
         m_last = time;
         m_times.add(time);
-        for (std::size_t i = 0; i < local.size(); ++i) {
-            const Eigen::Vector3d position = model::yUpFromZUp(local[i].position);
-            for (const double value : {position.x(), position.y(), position.z()}) {
-                m_positions[i].add(static_cast<float>(value));
-            }
-            Eigen::Quaterniond turn = model::yUpFromZUp(local[i].orientation);
-            if (turn.dot(m_newest[i]) < 0) {
-                turn.coeffs() = -turn.coeffs();
-            }
-            m_newest[i] = turn;
-            for (const double value : {turn.x(), turn.y(), turn.z(), turn.w()}) {
-                m_rotations[i].add(static_cast<float>(value));
-            }
-        }
     }
 
-    [[nodiscard]] std::uint64_t count() const { return m_times.size(); }
-    /// Of the first key and of the last; each is later than the one before.
-    [[nodiscard]] float firstTime() const { return m_first; }
-    [[nodiscard]] float lastTime() const { return m_last; }
-    [[nodiscard]] const FloatColumn& times() const { return m_times; }
-    [[nodiscard]] const FloatColumn& positions(std::size_t joint) const { return m_positions[joint]; }
-    [[nodiscard]] const FloatColumn& rotations(std::size_t joint) const { return m_rotations[joint]; }
+    [[nodiscard]] float first() const { return m_first; }
+    [[nodiscard]] float last() const { return m_last; }
+    [[nodiscard]] const FloatColumn& column() const { return m_times; }
 
 private:
     FloatColumn m_times;
-    std::vector<FloatColumn> m_positions;
-    std::vector<FloatColumn> m_rotations;
-    std::vector<Eigen::Quaterniond> m_newest; ///< by joint
     float m_first = 0;
     float m_last = 0;
 };
@@ -188,50 +190,126 @@ private:
     std::uint64_t m_bytes = 0;
 };
 
-/// One character in the file.
+/// A joint of the body that no segment is.
+struct ExtraJoint {
+    std::size_t place = 0;  ///< in the skeleton of the mesh
+    std::size_t parent = 0; ///< in that of the character
+};
+
+/// One character in the file. Its nodes are the joints of its skeleton, then the extra ones.
 struct Animated {
     Animated(const MotionTask& task, std::size_t place)
         : character(task.characterAt(place)),
           skeleton(skeletonOf(character, task.surveyAt(place), true)),
           motion(skeleton),
-          keys(skeleton, task.source.log->scratch()) {}
+          times(task.source.log->scratch()) {
+        slotToJoint.fill(-1);
+        for (std::size_t i = 0; i < skeleton.joints.size(); ++i) {
+            if (const auto segment = model::placeOf(skeleton.layout, skeleton.joints[i].position)) {
+                slotToJoint[static_cast<std::size_t>(model::slotOf(*segment))] = static_cast<int>(i);
+            }
+        }
+        if (task.makeBody && skeleton.layout.body == model::kBodySegmentCount) {
+            mesh = task.makeBody(origins());
+        }
+        for (std::size_t i = 0; i < mesh.skeleton.size(); ++i) {
+            if (!mesh.skeleton[i].name.empty()) {
+                extra.push_back({i, jointOf(mesh.skeleton[i])});
+            }
+        }
+        meshPoses.resize(mesh.skeleton.size());
+        keys.assign(skeleton.joints.size() + extra.size(), JointKeys(task.source.log->scratch()));
+    }
+
+    [[nodiscard]] std::size_t jointOf(const BodyJoint& joint) const {
+        return static_cast<std::size_t>(slotToJoint[static_cast<std::size_t>(joint.slot)]);
+    }
+
+    void add(const MotionFrame& frame) {
+        times.add(frame.seconds);
+        motion.set(*frame.pose);
+        for (std::size_t i = 0; i < skeleton.joints.size(); ++i) {
+            keys[i].addPosition(motion.local()[i].position);
+            keys[i].addRotation(motion.local()[i].orientation);
+        }
+        if (!extra.empty()) {
+            addExtra();
+        }
+    }
 
     const feed::PoseCharacter& character;
     Skeleton skeleton;
     JointMotion motion;
-    KeyColumns keys;
+    KeyTimes times;
+    std::vector<JointKeys> keys; ///< by node
     BodyMesh mesh;
+    std::vector<ExtraJoint> extra;
     std::vector<std::array<float, 16>> inverseBinds;
-};
 
-/// The null pose that the joints make, also where none was sent.
-model::BodyOrigins originsOf(const Animated& one) {
-    model::BodyOrigins body = one.character.body();
-    for (const SkeletonJoint& joint : one.skeleton.joints) {
-        const auto position = static_cast<std::size_t>(joint.position);
-        if (joint.parent >= 0 && position < body.places.size()) {
-            const auto parent = static_cast<std::size_t>(
-                one.skeleton.joints[static_cast<std::size_t>(joint.parent)].position);
-            body.places[position] = body.places[parent] + joint.offset;
+private:
+    /// The null pose that the joints make, also where none was sent.
+    [[nodiscard]] SegmentPlaces origins() const {
+        SegmentPlaces places;
+        places.fill(Vector3d::Constant(std::numeric_limits<double>::quiet_NaN()));
+        std::ranges::copy(character.body().places, places.begin());
+        for (std::size_t slot = 0; slot < places.size(); ++slot) {
+            const int joint = slotToJoint[slot];
+            const int parent = joint < 0 ? -1 : skeleton.joints[static_cast<std::size_t>(joint)].parent;
+            if (parent >= 0) {
+                const auto from = std::ranges::find(slotToJoint, parent) - slotToJoint.begin();
+                places[slot] = places[static_cast<std::size_t>(from)] +
+                               skeleton.joints[static_cast<std::size_t>(joint)].offset;
+            }
+        }
+        return places;
+    }
+
+    void addExtra() {
+        std::array<model::SegmentPose, model::kMaxSegmentCount> segments;
+        for (std::size_t slot = 0; slot < segments.size(); ++slot) {
+            if (slotToJoint[slot] >= 0) {
+                segments[slot] = motion.world()[static_cast<std::size_t>(slotToJoint[slot])];
+            }
+        }
+        mesh.pose(segments, meshPoses);
+        for (std::size_t i = 0; i < extra.size(); ++i) {
+            const model::SegmentPose local =
+                model::relativeTo(motion.world()[extra[i].parent], meshPoses[extra[i].place]);
+            JointKeys& node = keys[skeleton.joints.size() + i];
+            if (mesh.skeleton[extra[i].place].isShifted) {
+                node.addPosition(local.position);
+            }
+            node.addRotation(local.orientation);
         }
     }
-    return body;
-}
+
+    std::array<int, model::kMaxSegmentCount> slotToJoint{}; ///< in the skeleton; -1 if it has none
+    std::vector<model::SegmentPose> meshPoses;
+};
 
 void addJoints(const Animated& one, std::size_t firstNode, Document& document, List& roots) {
-    for (const SkeletonJoint& joint : one.skeleton.joints) {
+    for (std::size_t i = 0; i < one.skeleton.joints.size(); ++i) {
+        const SkeletonJoint& joint = one.skeleton.joints[i];
         JsonValue node{{"name", joint.name}, {"translation", vectorList(model::yUpFromZUp(joint.offset))}};
-        if (!joint.children.empty()) {
-            List children;
-            for (const std::size_t child : joint.children) {
-                children.emplace_back(firstNode + child);
+        List children;
+        for (const std::size_t child : joint.children) {
+            children.emplace_back(firstNode + child);
+        }
+        for (std::size_t k = 0; k < one.extra.size(); ++k) {
+            if (one.extra[k].parent == i) {
+                children.emplace_back(firstNode + one.skeleton.joints.size() + k);
             }
+        }
+        if (!children.empty()) {
             node["children"] = children;
         }
         const std::size_t number = document.addNode(node);
         if (joint.parent < 0) {
             roots.emplace_back(number);
         }
+    }
+    for (const ExtraJoint& joint : one.extra) {
+        document.addNode({{"name", one.mesh.skeleton[joint.place].name}});
     }
 }
 
@@ -241,22 +319,24 @@ void addKeys(const Animated& one, std::size_t firstNode, Document& document) {
             floats.size() * sizeof(float), [&floats](const Document::Visit& visit) { floats.visit(visit); },
             std::move(accessor));
     };
-    const std::uint64_t count = one.keys.count();
-    const std::size_t times = column(one.keys.times(), {{"componentType", kFloat},
-                                                        {"type", "SCALAR"},
-                                                        {"count", count},
-                                                        {"min", List{floatJson(one.keys.firstTime())}},
-                                                        {"max", List{floatJson(one.keys.lastTime())}}});
-    for (std::size_t joint = 0; joint < one.skeleton.joints.size(); ++joint) {
+    const std::uint64_t count = one.times.column().size();
+    const std::size_t times = column(one.times.column(), {{"componentType", kFloat},
+                                                          {"type", "SCALAR"},
+                                                          {"count", count},
+                                                          {"min", List{floatJson(one.times.first())}},
+                                                          {"max", List{floatJson(one.times.last())}}});
+    for (std::size_t i = 0; i < one.keys.size(); ++i) {
         const auto channel = [&](const char* path, const FloatColumn& floats, const char* type) {
             const std::size_t output =
                 column(floats, {{"componentType", kFloat}, {"type", type}, {"count", count}});
             document.channels.push_back({{"sampler", document.samplers.size()},
-                                         {"target", JsonValue{{"node", firstNode + joint}, {"path", path}}}});
+                                         {"target", JsonValue{{"node", firstNode + i}, {"path", path}}}});
             document.samplers.push_back({{"input", times}, {"interpolation", "LINEAR"}, {"output", output}});
         };
-        channel("translation", one.keys.positions(joint), "VEC3");
-        channel("rotation", one.keys.rotations(joint), "VEC4");
+        if (one.keys[i].positions.size() != 0) {
+            channel("translation", one.keys[i].positions, "VEC3");
+        }
+        channel("rotation", one.keys[i].rotations, "VEC4");
     }
 }
 
@@ -291,22 +371,18 @@ std::size_t addBody(Animated& one, std::size_t firstNode, Document& document) {
     };
     const std::size_t positions = array(mesh.positions, kFloat, "VEC3", kArrayBuffer);
     const std::size_t normals = array(mesh.normals, kFloat, "VEC3", kArrayBuffer);
-    const std::size_t joints = array(mesh.segments, kUnsignedByte, "VEC4", kArrayBuffer);
+    const std::size_t joints = array(mesh.joints, kUnsignedByte, "VEC4", kArrayBuffer);
     const std::size_t weights = array(mesh.weights, kFloat, "VEC4", kArrayBuffer);
     const std::size_t indices = array(mesh.indices, kUnsignedInt, "SCALAR", kElementArrayBuffer);
-    for (const Vector3d& origin : mesh.origins) {
-        const Vector3d at = model::yUpFromZUp(origin);
+    std::size_t extra = firstNode + one.skeleton.joints.size();
+    List joined;
+    for (const BodyJoint& joint : mesh.skeleton) {
+        const Vector3d at = model::yUpFromZUp(joint.origin);
         one.inverseBinds.push_back({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, static_cast<float>(-at.x()),
                                     static_cast<float>(-at.y()), static_cast<float>(-at.z()), 1});
+        joined.emplace_back(joint.name.empty() ? firstNode + one.jointOf(joint) : extra++);
     }
     const std::size_t binds = array(one.inverseBinds, kFloat, "MAT4", 0);
-    List joined(model::kBodySegmentCount);
-    for (std::size_t i = 0; i < one.skeleton.joints.size(); ++i) {
-        const auto position = static_cast<std::size_t>(one.skeleton.joints[i].position);
-        if (position < joined.size()) {
-            joined[position] = firstNode + i;
-        }
-    }
     const model::Colour& colour = one.character.colour;
     document.materials.push_back(
         {{"pbrMetallicRoughness",
@@ -334,16 +410,14 @@ public:
 
     void add(const MotionFrame& frame, MotionOutput&) override {
         if (!frame.isGap()) {
-            Animated& one = *m_characters.at(frame.character);
-            one.motion.set(*frame.pose);
-            one.keys.add(frame.seconds, one.motion.local());
+            m_characters.at(frame.character)->add(frame);
         }
     }
 
     void finish(MotionOutput& out) override {
         Document document;
         for (const auto& [place, one] : m_characters) {
-            if (one->keys.count() != 0) {
+            if (one->times.column().size() != 0) {
                 addCharacter(*one, document);
             }
         }
@@ -372,10 +446,6 @@ private:
         List children;
         addJoints(one, firstNode, document, children);
         addKeys(one, firstNode, document);
-        const bool isWholeBody = one.skeleton.layout.body == model::kBodySegmentCount;
-        if (m_task.makeBody && isWholeBody) {
-            one.mesh = m_task.makeBody(originsOf(one));
-        }
         if (!one.mesh.positions.empty()) {
             document.roots.emplace_back(addBody(one, firstNode, document));
         }

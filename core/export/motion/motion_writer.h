@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,19 +35,31 @@ private:
     tl::expected<void, log::FileError> m_result;
 };
 
+/// Joint of a skin: a segment of the body or of its hands, or one that no segment is and that moves with one.
+struct BodyJoint {
+    std::string name; ///< "RightForeArm bend 2"; empty of segments
+    int slot = 0;     ///< in model::kAllSegments: the segment that it is or moves with
+    Eigen::Vector3d origin = Eigen::Vector3d::Zero(); ///< in the null pose that the mesh was made for
+    bool isShifted = false;                           ///< its origin leaves that of its segment
+};
+
 /// A skinned body in the null pose of a performer, from whoever has one: core has none. Metres, Z-up,
 /// triangles counter-clockwise seen from outside.
 struct BodyMesh {
     std::vector<std::array<float, 3>> positions;
-    std::vector<std::array<float, 3>> normals;                     ///< of unit length, one for each position
-    std::vector<std::array<std::uint8_t, 4>> segments;             ///< body segments that move it, each once
-    std::vector<std::array<float, 4>> weights;                     ///< of these; sum 1
-    std::vector<std::uint32_t> indices;                            ///< three for each triangle
-    std::array<Eigen::Vector3d, model::kBodySegmentCount> origins; ///< of the segments that it was made for
+    std::vector<std::array<float, 3>> normals;       ///< of unit length, one for each position
+    std::vector<std::array<std::uint8_t, 4>> joints; ///< places in `skeleton` that move it, each once
+    std::vector<std::array<float, 4>> weights;       ///< of these; sum 1
+    std::vector<std::uint32_t> indices;              ///< three for each triangle
+    std::vector<BodyJoint> skeleton;
+    /// Writes the pose in the world of each joint of `skeleton` for the poses of model::kAllSegments.
+    std::function<void(std::span<const model::SegmentPose>, std::span<model::SegmentPose>)> pose;
 };
 
-/// The body of a performer with these segment origins.
-using MakeBodyMesh = std::function<BodyMesh(const model::BodyOrigins&)>;
+/// Origins in the null pose of model::kAllSegments; not finite for those of which no sample has any.
+using SegmentPlaces = std::array<Eigen::Vector3d, model::kMaxSegmentCount>;
+/// The body of a performer with these segment origins. Hands without fingers are at rest.
+using MakeBodyMesh = std::function<BodyMesh(const SegmentPlaces&)>;
 
 /// All of it outlives the writer.
 struct MotionTask {
@@ -109,9 +122,10 @@ public:
 [[nodiscard]] std::unique_ptr<MotionWriter> makeBvh(const MotionTask& task);
 
 /// Binary glTF 2.0: each character a node with its segments as joints, and a skinned body where the task has
-/// one; one animation moves all. Metres, Y up, Z forward. Joints have position and rotation, so that each
-/// stands exactly where its segment was sent. Keys are at the samples' times (MotionFrame::seconds): a sample
-/// that did not come whole has none, so players go on evenly from the one before to the next.
+/// one, whose joints without a segment are leaves below theirs; one animation moves all. Metres, Y up, Z
+/// forward. Joints have position and rotation, so that each stands exactly where its segment was sent. Keys
+/// are at the samples' times (MotionFrame::seconds): a sample that did not come whole has none, so players go
+/// on evenly from the one before to the next.
 [[nodiscard]] std::unique_ptr<MotionWriter> makeGlb(const MotionTask& task);
 
 /// C3D of one character (c3d.org, Intel byte order, floats): the markers of type 03 where those were sent,

@@ -43,6 +43,8 @@ public:
     void set(const model::CharacterPose& pose);
     /// Z-up; of the newest sample, in the order of the skeleton. Before the first it is the null pose.
     [[nodiscard]] const std::vector<model::SegmentPose>& local() const { return m_local; }
+    /// The same in the world.
+    [[nodiscard]] const std::vector<model::SegmentPose>& world() const { return m_world; }
 
 private:
     const Skeleton* m_skeleton;

@@ -124,21 +124,34 @@ TEST_F(BvhTest, KeepsAnglesThroughAnyTurn) {
 
 class GlbTest : public MotionTest {
 protected:
-    /// A triangle for each segment, at its origin.
-    static BodyMesh triangles(const model::BodyOrigins& body) {
+    /// A triangle for each segment that has an origin, at that; and one more joint that moves none, a metre
+    /// above the head and turned against it.
+    static BodyMesh triangles(const SegmentPlaces& places) {
         BodyMesh mesh;
-        mesh.origins = body.places;
-        for (std::size_t segment = 0; segment < body.places.size(); ++segment) {
+        for (std::size_t slot = 0; slot < places.size(); ++slot) {
+            if (!places[slot].allFinite()) {
+                continue;
+            }
             for (const Vector3d& corner : {Vector3d(0, 0, 0), Vector3d(0.1, 0, 0), Vector3d(0, 0.1, 0)}) {
                 mesh.indices.push_back(static_cast<std::uint32_t>(mesh.positions.size()));
-                mesh.positions.push_back(model::toFloats(Vector3d(body.places[segment] + corner)));
+                mesh.positions.push_back(model::toFloats(Vector3d(places[slot] + corner)));
                 mesh.normals.push_back({0, 0, 1});
-                mesh.segments.push_back({static_cast<std::uint8_t>(segment), 0, 0, 0});
+                mesh.joints.push_back({static_cast<std::uint8_t>(mesh.skeleton.size()), 0, 0, 0});
                 mesh.weights.push_back({1, 0, 0, 0});
             }
+            mesh.skeleton.push_back({"", static_cast<int>(slot), places[slot], false});
         }
+        mesh.skeleton.push_back({"Head halo", kHead, places[kHead], true});
+        mesh.pose = [](std::span<const model::SegmentPose> segments, std::span<model::SegmentPose> joints) {
+            joints.back() = haloOf(segments[kHead]);
+        };
         return mesh;
     }
+    static model::SegmentPose haloOf(const model::SegmentPose& head) {
+        return {head.position + Vector3d::UnitZ(),
+                head.orientation * Eigen::AngleAxisd(0.5, Vector3d::UnitY())};
+    }
+    static constexpr int kHead = model::segment::kHead;
     void writeWithBodies(const feed::PoseSource& from) const {
         const auto exported =
             exportMotion({from, *findMotionFormat("glb"), path("take.glb"), {}, "Test", triangles});
@@ -189,26 +202,46 @@ TEST_F(GlbTest, HasNoKeysInGapsAndKeepsTime) {
 }
 
 TEST_F(GlbTest, SkinsEachBodyToItsOwnJoints) {
-    perform(settings(), 30);
+    auto whole = settings();
+    whole.props = 1;
+    whole.fingers = true;
+    perform(whole, 30);
     writeWithBodies(source());
     const ImportedMotion motion(path("take.glb"));
     ASSERT_NE(motion.animation(), nullptr) << motion.problem();
     ASSERT_EQ(motion.scene()->mNumMeshes, 1U);
     const aiMesh& mesh = *motion.scene()->mMeshes[0];
-    EXPECT_EQ(mesh.mNumVertices, 3U * 23);
-    ASSERT_EQ(mesh.mNumBones, 23U);
-    for (unsigned bone = 0; bone < mesh.mNumBones; ++bone) {
+    EXPECT_EQ(mesh.mNumVertices, 3U * 63);
+    ASSERT_EQ(mesh.mNumBones, 64U);
+    const model::SegmentLayout layout{23, 1, 40};
+    for (unsigned bone = 0; bone + 1 < mesh.mNumBones; ++bone) {
         const aiBone& one = *mesh.mBones[bone];
-        const auto segment = model::findBodySegment(one.mName.C_Str());
-        ASSERT_TRUE(segment);
+        const int position =
+            static_cast<int>(bone) < 23 ? static_cast<int>(bone) : static_cast<int>(bone) + 1;
+        ASSERT_EQ(one.mName.C_Str(), std::string(model::segmentName(layout, position)));
         const aiMatrix4x4& m = one.mOffsetMatrix;
         Eigen::Affine3d bind;
         bind.matrix() << m.a1, m.a2, m.a3, m.a4, m.b1, m.b2, m.b3, m.b4, m.c1, m.c2, m.c3, m.c4, m.d1, m.d2,
             m.d3, m.d4;
-        const aiVector3D& corner = mesh.mVertices[3 * *segment]; // at the segment's origin
+        const aiVector3D& corner = mesh.mVertices[3 * bone]; // at the segment's origin
         const Vector3d drawn = motion.worldOf(motion.node(one.mName.C_Str()), 17) * bind *
                                Vector3d(corner.x, corner.y, corner.z);
-        EXPECT_LT((zUp(drawn, 1) - sent(0, 18)[static_cast<std::size_t>(*segment)].position).norm(), 1e-4);
+        EXPECT_LT((zUp(drawn, 1) - sent(0, 18)[static_cast<std::size_t>(position)].position).norm(), 1e-4);
+    }
+}
+
+TEST_F(GlbTest, PosesJointsThatNoSegmentIs) {
+    perform(settings(), 30);
+    writeWithBodies(source());
+    const ImportedMotion motion(path("take.glb"));
+    ASSERT_NE(motion.animation(), nullptr) << motion.problem();
+    const aiNode* halo = motion.node("Head halo");
+    ASSERT_NE(halo, nullptr);
+    EXPECT_EQ(halo->mParent, motion.node("Head"));
+    for (unsigned frame = 0; frame < 30; frame += 7) {
+        const model::SegmentPose expected = haloOf(sent(0, frame + 1)[kHead]);
+        EXPECT_LT((zUp(motion.worldOf(halo, frame).translation(), 1) - expected.position).norm(), 1e-5);
+        EXPECT_LT(angleBetween(motion.worldOf(halo, frame), expected.orientation), 1e-3);
     }
 }
 
@@ -217,7 +250,7 @@ TEST_F(GlbTest, HoldsSeveralCharacters) {
     writeWithBodies(source());
     const ImportedMotion motion(path("take.glb"));
     ASSERT_NE(motion.animation(), nullptr) << motion.problem();
-    EXPECT_EQ(motion.animation()->mNumChannels, 2U * 23);
+    EXPECT_EQ(motion.animation()->mNumChannels, 2U * 24);
     EXPECT_EQ(motion.scene()->mNumMeshes, 2U);
     for (const feed::PoseCharacter& character : source().characters) {
         EXPECT_NE(motion.node(character.name.shown()), nullptr);
