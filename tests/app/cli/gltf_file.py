@@ -116,8 +116,9 @@ class GltfFile:
                 from_plane, to_plane = corners[a][axis] - centre[axis], corners[b][axis] - centre[axis]
                 if (from_plane < 0) != (to_plane < 0):
                     cuts.append((triangle[a], triangle[b], from_plane / (from_plane - to_plane)))
-            if cuts:
-                pieces.append(tuple(cuts))
+            if cuts:  # one edge comes from below the plane, one goes back: all pieces run the same way around
+                comes = self.positions[cuts[0][0]][axis] < centre[axis]
+                pieces.append(tuple(cuts) if comes else (cuts[1], cuts[0]))
         return pieces
 
 
@@ -127,3 +128,15 @@ def length_of(ring: list, positions: list) -> float:
         a, b, share = cut
         return [p + share * (q - p) for p, q in zip(positions[a], positions[b])]
     return sum(math.dist(at(a), at(b)) for a, b in ring)
+
+
+def area_of(ring: list, positions: list) -> float:
+    """The area of a ring as its plane sees it, in square metres."""
+    total = [0.0, 0.0, 0.0]
+    for piece in ring:
+        ends = []
+        for a, b, share in piece:
+            ends.append([p + share * (q - p) for p, q in zip(positions[a], positions[b])])
+        (ax, ay, az), (bx, by, bz) = ends
+        total = [t + c for t, c in zip(total, (ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx))]
+    return 0.5 * math.hypot(*total)
