@@ -105,6 +105,8 @@ class C3d:
         size = 16 * self.used
         points = (start - 1) * 512
         expect(len(data) == points + self.frames * size, "size", len(data), points, self.frames, size)
+        # The fourth number is a word of 16 bits: cameras that saw the point, and a residual; 0 of computed points.
+        expect(not any(data[152:302]), "header: what is reserved")
         self.points = [[struct.unpack_from("<4f", data, points + frame * size + 16 * i) for i in range(self.used)]
                        for frame in range(self.frames)]
 
@@ -206,6 +208,15 @@ class Tests:
     def test_c3d_counts_beyond_sixteen_bits(self):
         file = self.c3d(b"".join(pose(i, 1) for i in range(66_000)))
         expect(file.frames == 66_000 and file.value("POINT", "LONG_FRAMES") == 66_000, file.frames)
+
+    def test_c3d_splits_long_lists_of_labels(self):
+        ids = [60001 + i for i in range(300)]
+        frames = [[datagram("03", sample, len(part), b"".join(struct.pack(">I3f", one, 100, 200, 300) for one in part))]
+                  for sample, part in enumerate((ids[:200], ids[200:]))]
+        file = self.c3d(frames)
+        labels = file.value("POINT", "LABELS") + file.value("POINT", "LABELS2")
+        expect(labels == [f"P{one}" for one in ids] and len(file.value("POINT", "LABELS")) == 255, len(labels))
+        expect([sum(point[3] == 0 for point in frame) for frame in file.points] == [200, 100], "what was sent")
 
     def test_a_single_frame_has_a_rate(self):
         expect(self.c3d([[pose(0)]]).rate == RATE, "C3D")
