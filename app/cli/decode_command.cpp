@@ -145,7 +145,7 @@ public:
         if (m_filter && !m_filter->matches(record, place.index)) {
             return;
         }
-        if (!wire::decode(record.bytes)) {
+        if (!wire::decodeInto(record.bytes, m_datagram)) {
             m_firstFault = m_faults == 0 ? record.offset : m_firstFault;
             ++m_faults;
         }
@@ -219,7 +219,8 @@ private:
     bool m_hasNames;
     std::optional<RecordFilter> m_filter;
     std::vector<std::byte>
-        m_firstSkipped; ///< the part of skipped bytes that a filter sees: at most one packet's worth
+        m_firstSkipped;        ///< the part of skipped bytes that a filter sees: at most one packet's worth
+    wire::Datagram m_datagram; ///< the newest; its memory is reused
     std::uint64_t m_index = 0;
     std::uint64_t m_datagrams = 0;
     std::uint64_t m_faults = 0;

@@ -6,6 +6,9 @@
 #include "tests/support/paths.h"
 
 #include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include <bit>
 
 namespace posewire::exporting {
 namespace {
@@ -53,6 +56,23 @@ TEST(DatagramJson, WritesFloatsThatReadBackToTheSame32Bits) {
         EXPECT_THAT(json, HasSubstr("\"position\":[" + text + ",-1.5,0.25]"));
         EXPECT_THAT(json, Not(HasSubstr("\"bytes\"")));
         EXPECT_EQ(*datagramFromJson(json), bytes);
+    }
+}
+
+TEST(DatagramJson, WritesFloatsAsDocumentsAreDumped) {
+    using Floats = nlohmann::basic_json<nlohmann::ordered_map, std::vector, std::string, bool, std::int64_t,
+                                        std::uint64_t, float>;
+    constexpr std::uint32_t kInfinity = 0x7f800000;
+    std::uint32_t bits = 0;
+    for (int i = 0; i < 200'000; ++i) {
+        bits = bits * 1'664'525 + 1'013'904'223;
+        // Every size, and half of them with few bits: 30619.0625 has two shortest numbers that are as near.
+        const std::uint32_t word = i % 2 == 0 ? bits : bits & 0xffffff00;
+        if ((word & kInfinity) != kInfinity) {
+            const std::string dumped = Floats(std::bit_cast<float>(word)).dump();
+            const std::string json = jsonOf(withWord("24_centre_12_counted", 24, word));
+            ASSERT_THAT(json, HasSubstr("\"position\":[" + dumped + ",-1.5,0.25]"));
+        }
     }
 }
 
