@@ -142,6 +142,21 @@ public:
 /// `index` counts it.
 [[nodiscard]] std::unique_ptr<MotionWriter> makeMvnx(const MotionTask& task);
 
+/// The words of model::Provenance, by its values.
+inline constexpr std::array<std::string_view, 4> kProvenanceNames{"", "assumed", "solved", "sent"};
+
+/// Archive of numpy (.npz) of one character, without objects that need pickle. n rows, one for each sample, s
+/// segments: body, props, fingers.
+///
+///     time [n] f8 s; position [n, s, 3] f4 m, Z up; orientation [n, s, 4] f4 w x y z, world from segment;
+///     provenance [n, s] u1, place in provenance_names; names [s]; sample [n] u4, run [n] u4;
+///     time_code_ms [n] i8; received_ns [n] i8 since 1970 UTC; type [n] u1
+///
+/// Of a sample that did not come whole, and of a segment that it lacks, position and orientation are NaN and
+/// provenance is 0; of the former, time code and receipt are -1 and the type is 0. A receipt that the file
+/// does not say is -1 too. The values wait in a file without a name until the last one is there: memory stays bounded.
+[[nodiscard]] std::unique_ptr<MotionWriter> makeNumpy(const MotionTask& task);
+
 /// The fewest digits that read back to the same 32 bits.
 void appendNumber(double value, std::string& text);
 /// With so many decimals.

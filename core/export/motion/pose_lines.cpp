@@ -24,7 +24,6 @@ void appendList(std::initializer_list<double> values, std::string& text) {
 } // namespace
 
 void appendSegments(const model::CharacterPose& pose, bool hasProvenance, std::string& text) {
-    constexpr std::array<std::string_view, 4> kFrom{"", "assumed", "solved", "sent"}; // by Provenance
     bool isFirst = true;
     for (std::size_t i = 0; i < pose.segments.size(); ++i) {
         const std::string_view name = model::segmentName(pose.layout, static_cast<int>(i));
@@ -41,7 +40,7 @@ void appendSegments(const model::CharacterPose& pose, bool hasProvenance, std::s
         appendList({turn.w(), turn.x(), turn.y(), turn.z()}, text);
         if (hasProvenance) {
             const auto from = static_cast<std::size_t>(pose.sources[i].weaker());
-            text.append(",\"from\":\"").append(kFrom[from]).append("\"");
+            text.append(",\"from\":\"").append(kProvenanceNames[from]).append("\"");
         }
         text += '}';
         isFirst = false;

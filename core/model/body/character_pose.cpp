@@ -13,8 +13,9 @@ namespace {
 
 /// A quaternion of no length tells nothing.
 bool isRotation(const std::array<float, 4>& wire) {
-    const double length = toQuaternion(wire).norm();
-    return std::isfinite(length) && length > 1e-6;
+    constexpr double kShortest = 1e-6;
+    const double squares = toQuaternion(wire).squaredNorm();
+    return std::isfinite(squares) && squares > kShortest * kShortest;
 }
 
 /// Type 01 has angles, which always tell an orientation.

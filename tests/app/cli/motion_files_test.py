@@ -1,16 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What `posewire-cli export` writes as C3D and MVNX, of datagrams made here, read by somebody else.
+"""What `posewire-cli export` writes as C3D, MVNX and arrays of NumPy, of datagrams made here, read by others.
 
 usage: motion_files_test.py CLI SUPPORT_DIR
 
 The C3D reader below follows the format's public description (c3d.org) and shares nothing with the writer; MVNX is read
-as XML by Python's own parser.
+as XML by Python's own parser, arrays by NumPy (skipped if it is not installed) and, as an archive, by Python's own.
 """
 import math
+import os
 import struct
 import subprocess
 import sys
 import tempfile
+import zipfile
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
@@ -23,6 +25,16 @@ NAME = 'Anna <b> & "Co" \'\x1b'
 HOSTILE = [b"]]><!--", b"&lt;!ENTITY x 'y'>", b"\xff\xfe not UTF-8 \xed\xa0\x80", b"\x00\x01\x7f\xc2\x9b", b"x" * 60_000,
            "\ufffe\uffff\u202e".encode(), b"../../etc/passwd", b"=cmd|' /C calc'!A0"]
 MARKERS = [(256 * 1 + 13, "pSacrum"), (256 * 7 + 2, "pTopOfHead"), (256 * 19 + 2, "pRightToe"), (60001, "P60001")]
+
+
+try:
+    import numpy
+except ImportError:
+    numpy = None
+
+
+class Skipped(Exception):
+    """A program that the test needs is missing."""
 
 
 class Failure(Exception):
@@ -299,8 +311,50 @@ class Tests:
         expect(not subject.findall("frames/frame[@type='tpose']"), "a null pose")
         expect(not subject.findall("segments/segment/points/point"), "points")
 
+    def numpy(self, frames):
+        if numpy is None:
+            raise Skipped("python3-numpy is not installed")
+        path = self.export(frames, "npz")
+        with zipfile.ZipFile(path) as archive:
+            expect(archive.testzip() is None, "a wrong checksum")
+        return numpy.load(path, allow_pickle=False)
+
+    def test_numpy_holds_what_was_sent(self):
+        arrays = self.numpy([[pose(i)] for i in range(40)])
+        expect(list(arrays["names"]) == BODY, arrays["names"])
+        places = numpy.float32([[place_of(i, segment) for segment in range(len(BODY))] for i in range(40)])
+        turns = numpy.float32([[turn_of(i, segment) for segment in range(len(BODY))] for i in range(40)])
+        expect(numpy.array_equal(arrays["position"], places), "positions")
+        expect(numpy.abs(arrays["orientation"] - turns).max() < 1e-6, "orientations")
+        expect(list(arrays["provenance_names"]) == ["", "assumed", "solved", "sent"], arrays["provenance_names"])
+        expect((arrays["provenance"] == 3).all() and arrays["provenance"].shape == (40, 23), "provenance")
+        expect((arrays["sample"] == range(40)).all() and (arrays["run"] == 1).all(), "counters")
+        expect(numpy.abs(arrays["time"] - numpy.arange(40) / RATE).max() < 1e-9, arrays["time"])
+        expect((arrays["time_code_ms"] == [round(i * 1000 / RATE) for i in range(40)]).all(), "time codes")
+        expect(arrays["received_ns"][0] == START and (arrays["type"] == 2).all(), arrays["received_ns"])
+
+    def test_numpy_has_rows_of_nan_for_what_is_missing(self):
+        arrays = self.numpy([[pose(i)] for i in range(40) if i not in (7, 8)])
+        missing = numpy.isin(numpy.arange(40), (7, 8))
+        for name in ("position", "orientation"):
+            expect((numpy.isnan(arrays[name]).all(axis=(1, 2)) == missing).all(), name)
+            expect((numpy.isnan(arrays[name]).any(axis=(1, 2)) == missing).all(), name)
+        expect(((arrays["provenance"] == 0).all(axis=1) == missing).all(), "provenance")
+        expect(((arrays["time_code_ms"] == -1) == missing).all() and ((arrays["received_ns"] == -1) == missing).all(),
+               "times")
+        expect((arrays["sample"] == range(40)).all(), arrays["sample"])
+
+    def test_numpy_of_many_pieces(self):
+        count = 3000
+        arrays = self.numpy([[pose(i)] for i in range(count)])
+        expected = numpy.float32([place_of(i, 22) for i in range(count)])
+        expect(numpy.array_equal(arrays["position"][:, 22], expected), "positions beyond the first piece")
+
 
 def main() -> int:
+    system = "/usr/bin/python3"  # it has what the distribution packages
+    if numpy is None and os.path.exists(system) and os.path.realpath(sys.executable) != os.path.realpath(system):
+        return subprocess.run([system, *sys.argv], check=False).returncode
     sys.path.insert(0, sys.argv[2])
     import capture_writer  # pylint: disable=import-outside-toplevel
     failures = 0
@@ -309,6 +363,8 @@ def main() -> int:
             try:
                 getattr(Tests(sys.argv[1], capture_writer, Path(folder)), name)()
                 print("ok     ", name)
+            except Skipped as reason:
+                print("skipped", name, reason)
             except Failure as failure:
                 failures += 1
                 print("FAILED ", name, failure)
