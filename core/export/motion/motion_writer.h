@@ -94,20 +94,23 @@ public:
 /// columns
 ///
 ///     character,id,run,sample,time (s),received (ns since 1970 UTC),time code (ms),type,
-///     Pelvis x (m),Pelvis y (m),Pelvis z (m),Pelvis qw,Pelvis qx,Pelvis qy,Pelvis qz, … all other segments
+///     Pelvis x (m),Pelvis y (m),Pelvis z (m),Pelvis qw,Pelvis qx,Pelvis qy,Pelvis qz, … all other segments,
+///     Pelvis from, … all other segments
 ///
 /// `run` counts from 1: a restart of the sender begins the next. `sample` is the sender's counter, `time`
 /// counts from the first sample of the file by that, `type` is the message it came in. Positions are of
-/// segment origins in the world (Z up), quaternions turn segment coordinates into world coordinates. The row
-/// of a sample that did not come whole has no cells after `time`; of a file that does not say when its
-/// datagrams were received, `received` is empty; a segment that a sample lacks has empty cells. Columns are
-/// those of all segments that any sample has: body, props, left and right fingers.
+/// segment origins in the world (Z up), quaternions turn segment coordinates into world coordinates; "from"
+/// is "sent", "solved" or "assumed", the weaker of both. The row of a sample that did not come whole has no
+/// cells after `time`; of a file that does not say when its datagrams were received, `received` is empty; a
+/// segment that a sample lacks has empty cells. Columns are those of all segments that any sample has: body,
+/// props, left and right fingers.
 [[nodiscard]] std::unique_ptr<MotionWriter> makeMotionCsv(const MotionTask& task);
 
 /// One object on each line, in the same order:
 ///
 ///     {"character":"…","id":0,"run":1,"sample":1,"time":0.000000,"receivedNs":…,"timeCode":…,"type":"02",
-///      "segments":[{"id":1,"name":"Pelvis","position":[x,y,z],"orientation":[w,x,y,z]},…]}
+///      "segments":[{"id":1,"name":"Pelvis","position":[x,y,z],"orientation":[w,x,y,z],
+///       "from":"sent"},…]}
 ///
 /// Units as in the table; "id" of a segment is its place in the message, from 1. Of a sample that did not
 /// come whole "segments" is null, and what is between "time" and that is missing; "receivedNs" is missing
@@ -154,7 +157,8 @@ inline constexpr std::array<std::string_view, 4> kProvenanceNames{"", "assumed",
 ///
 /// Of a sample that did not come whole, and of a segment that it lacks, position and orientation are NaN and
 /// provenance is 0; of the former, time code and receipt are -1 and the type is 0. A receipt that the file
-/// does not say is -1 too. The values wait in a file without a name until the last one is there: memory stays bounded.
+/// does not say is -1 too. The values wait in a file without a name until the last one is there: memory stays
+/// bounded.
 [[nodiscard]] std::unique_ptr<MotionWriter> makeNumpy(const MotionTask& task);
 
 /// The fewest digits that read back to the same 32 bits.

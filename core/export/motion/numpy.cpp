@@ -289,12 +289,11 @@ private:
         if (segment == nullptr) {
             return;
         }
-        const auto place = static_cast<std::size_t>(segment - pose.segments.data());
         const Eigen::Vector3f at = segment->position.cast<float>();
         const Eigen::Quaternionf turn = segment->orientation.cast<float>();
         std::ranges::copy(std::array{at.x(), at.y(), at.z()}, &m_positions[3 * column]);
         std::ranges::copy(std::array{turn.w(), turn.x(), turn.y(), turn.z()}, &m_orientations[4 * column]);
-        m_sources[column] = static_cast<std::uint8_t>(pose.sources[place].weaker());
+        m_sources[column] = static_cast<std::uint8_t>(provenanceAt(pose, m_layout, static_cast<int>(column)));
     }
     NumpyArray array(std::string name, std::string type, std::string shape = {}) const {
         return {std::move(name), std::move(type), std::move(shape), *m_scratch};

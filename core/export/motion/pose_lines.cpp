@@ -23,7 +23,7 @@ void appendList(std::initializer_list<double> values, std::string& text) {
 
 } // namespace
 
-void appendSegments(const model::CharacterPose& pose, bool hasProvenance, std::string& text) {
+void appendSegments(const model::CharacterPose& pose, std::string& text) {
     bool isFirst = true;
     for (std::size_t i = 0; i < pose.segments.size(); ++i) {
         const std::string_view name = model::segmentName(pose.layout, static_cast<int>(i));
@@ -38,11 +38,8 @@ void appendSegments(const model::CharacterPose& pose, bool hasProvenance, std::s
         text += ",\"orientation\":";
         const Eigen::Quaterniond& turn = segment.orientation;
         appendList({turn.w(), turn.x(), turn.y(), turn.z()}, text);
-        if (hasProvenance) {
-            const auto from = static_cast<std::size_t>(pose.sources[i].weaker());
-            text.append(",\"from\":\"").append(kProvenanceNames[from]).append("\"");
-        }
-        text += '}';
+        const auto from = static_cast<std::size_t>(pose.sources[i].weaker());
+        text.append(",\"from\":\"").append(kProvenanceNames[from]).append("\"}");
         isFirst = false;
     }
 }
@@ -59,7 +56,7 @@ std::string poseLine(const log::PacketLog& log, const feed::PoseCharacter& chara
     line += ",\"receivedNs\":" + std::to_string(log::nanosecondsOf(log.timeline().wallOf(pose.stamp))) +
             ",\"timeCode\":" + std::to_string(pose.timeCode) + ",\"type\":\"" + wire::typeDigits(pose.type) +
             "\",\"segments\":[";
-    appendSegments(pose, true, line);
+    appendSegments(pose, line);
     return line += "]}";
 }
 

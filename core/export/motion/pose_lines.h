@@ -10,10 +10,10 @@ namespace posewire::exporting {
 
 /// Appends the segments that a pose has, as the items of an array:
 ///
-///     {"id":1,"name":"Pelvis","position":[x,y,z],"orientation":[w,x,y,z]},…
+///     {"id":1,"name":"Pelvis","position":[x,y,z],"orientation":[w,x,y,z],"from":"sent"},…
 ///
-/// With provenance each also has "from": "sent", "solved" or "assumed", the weaker of both.
-void appendSegments(const model::CharacterPose& pose, bool hasProvenance, std::string& text);
+/// "from" is "sent", "solved" or "assumed", the weaker of position and orientation.
+void appendSegments(const model::CharacterPose& pose, std::string& text);
 
 /// One pose as an object without a newline; packaging/formats.md lists its keys. The log is the one that it
 /// was read from.

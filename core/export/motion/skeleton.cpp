@@ -65,6 +65,14 @@ const SegmentPose* poseAt(const model::CharacterPose& pose, const model::Segment
     return at >= 0 && index < pose.segments.size() && pose.isPresent(index) ? &pose.segments[index] : nullptr;
 }
 
+model::Provenance provenanceAt(const model::CharacterPose& pose, const model::SegmentLayout& layout,
+                               int position) {
+    const SegmentPose* segment = poseAt(pose, layout, position);
+    return segment != nullptr
+               ? pose.sources[static_cast<std::size_t>(segment - pose.segments.data())].weaker()
+               : model::Provenance::None;
+}
+
 Skeleton skeletonOf(const feed::PoseCharacter& character, const CharacterSurvey& survey, bool hasProps) {
     Skeleton skeleton{survey.layout, {}};
     const int count = survey.layout.count();

@@ -56,4 +56,8 @@ private:
 [[nodiscard]] const model::SegmentPose* poseAt(const model::CharacterPose& pose,
                                                const model::SegmentLayout& layout, int position);
 
+/// Where it comes from, the weaker of position and orientation; None if the sample lacks it.
+[[nodiscard]] model::Provenance provenanceAt(const model::CharacterPose& pose,
+                                             const model::SegmentLayout& layout, int position);
+
 } // namespace posewire::exporting

@@ -52,6 +52,9 @@ public:
                 cells.push_back(name + part);
             }
         }
+        for (int position = 0; position < m_layout.count(); ++position) {
+            cells.push_back(std::string(model::segmentName(m_layout, position)) + " from");
+        }
         out.write(csvLine(cells));
     }
 
@@ -61,12 +64,16 @@ public:
         appendFixed(frame.seconds, 6, m_line);
         m_line += ',';
         if (frame.isGap()) {
-            m_line.append(2 + kCells * static_cast<std::size_t>(m_layout.count()), ',');
+            m_line.append(2 + (kCells + 1) * static_cast<std::size_t>(m_layout.count()), ',');
         } else {
             m_line += receiptText(m_task, frame) + ',' + std::to_string(frame.pose->timeCode) + ',' +
                       wire::typeDigits(frame.pose->type);
             for (int position = 0; position < m_layout.count(); ++position) {
                 addSegment(*frame.pose, position);
+            }
+            for (int position = 0; position < m_layout.count(); ++position) {
+                const auto from = static_cast<std::size_t>(provenanceAt(*frame.pose, m_layout, position));
+                m_line.append(",").append(kProvenanceNames[from]);
             }
         }
         m_line += "\r\n";
@@ -119,7 +126,7 @@ public:
             m_line += (receipt.empty() ? "" : ",\"receivedNs\":" + receipt) +
                       ",\"timeCode\":" + std::to_string(frame.pose->timeCode) + ",\"type\":\"" +
                       wire::typeDigits(frame.pose->type) + "\",\"segments\":[";
-            appendSegments(*frame.pose, false, m_line);
+            appendSegments(*frame.pose, m_line);
             m_line += "]}\n";
         }
         out.write(m_line);

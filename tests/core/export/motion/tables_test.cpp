@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <set>
 
 namespace posewire::exporting {
 namespace {
@@ -23,7 +24,7 @@ TEST_F(MotionCsvTest, NamesItsColumnsWithUnits) {
     whole.fingers = true;
     perform(whole, 2);
     const auto head = rowsOf(written("csv", source()))[0];
-    EXPECT_EQ(head.size(), 8U + 7U * (23 + 1 + 40));
+    EXPECT_EQ(head.size(), 8U + 8U * (23 + 1 + 40));
     EXPECT_EQ((std::vector(head.begin(), head.begin() + 16)),
               (std::vector<std::string>{"character", "id", "run", "sample", "time (s)",
                                         "received (ns since 1970 UTC)", "time code (ms)", "type",
@@ -31,6 +32,8 @@ TEST_F(MotionCsvTest, NamesItsColumnsWithUnits) {
                                         "Pelvis qx", "Pelvis qy", "Pelvis qz", "L5 x (m)"}));
     EXPECT_EQ(head[8 + 7 * 23], "Prop1 x (m)");
     EXPECT_EQ(head[8 + 7 * 24], "LeftCarpus x (m)");
+    EXPECT_EQ(head[8 + 7 * 64], "Pelvis from");
+    EXPECT_EQ(head[8 + 7 * 64 + 23], "Prop1 from");
 }
 
 TEST_F(MotionCsvTest, HoldsWhatWasSentToTheLastBit) {
@@ -48,6 +51,7 @@ TEST_F(MotionCsvTest, HoldsWhatWasSentToTheLastBit) {
             EXPECT_EQ(std::stof(row[cell + 2]), static_cast<float>(poses[segment].position.z()));
             EXPECT_EQ(std::stof(row[cell + 3]), static_cast<float>(poses[segment].orientation.w()));
             EXPECT_EQ(std::stof(row[cell + 6]), static_cast<float>(poses[segment].orientation.z()));
+            EXPECT_EQ(row[8 + 7 * poses.size() + segment], "sent");
         }
     }
     EXPECT_EQ(rows[1][0], source().characters[0].name.shown());
@@ -94,10 +98,38 @@ TEST_F(MotionJsonLinesTest, IsAnObjectForEachSample) {
             EXPECT_EQ(segment["orientation"][0].get<float>(), static_cast<float>(poses[i].orientation.w()));
         }
         EXPECT_EQ(object["segments"][6]["name"], "Head");
+        EXPECT_EQ(object["segments"][6]["from"], "sent");
         EXPECT_EQ(object["type"], "02");
         EXPECT_EQ(object["timeCode"], 36'000'000 + std::lround((sample - 1) * 1000 / 60.0));
     }
     EXPECT_EQ(sample, 30U);
+}
+
+/// Types 21 alone have positions: how segments are turned is solved, or assumed.
+TEST_F(MotionCsvTest, SaysWhichSegmentsWereNotSent) {
+    auto linear = settings();
+    linear.types = {21, 13};
+    perform(linear, 30);
+    const auto rows = rowsOf(written("csv", source()));
+    const feed::PoseSource from = source();
+    const auto frames = framesOf(from);
+    ASSERT_EQ(rows.size(), frames.size() + 1);
+    constexpr std::array kWords{"", "assumed", "solved", "sent"};
+    std::istringstream lines(written("jsonl", from));
+    std::set<std::string> found;
+    std::string line;
+    for (std::size_t i = 0; i < frames.size() && std::getline(lines, line); ++i) {
+        const Json object = Json::parse(line);
+        for (std::size_t segment = 0; segment < 23; ++segment) {
+            const auto source = frames[i].pose.sources[segment].weaker();
+            const std::string& word = rows[i + 1][8 + 7 * 23 + segment];
+            EXPECT_EQ(word, kWords[static_cast<std::size_t>(source)]);
+            EXPECT_EQ(object["segments"][segment]["from"], word);
+            found.insert(word);
+        }
+    }
+    EXPECT_FALSE(found.contains("sent"));
+    EXPECT_FALSE(found.empty());
 }
 
 class HostileMotionTest : public MotionTest, public testing::WithParamInterface<std::string> {
