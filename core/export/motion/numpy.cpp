@@ -2,6 +2,7 @@
 #include "core/export/motion/motion_writer.h"
 #include "core/export/motion/skeleton.h"
 #include "core/log/scratch.h"
+#include "core/log/system_memory.h"
 
 #include <algorithm>
 #include <array>
@@ -125,11 +126,14 @@ public:
         appendZip(2, text.size(), bytes);
         return bytes + text;
     }
-    /// Hands out all values, piece by piece.
+    /// Hands out all values, piece by piece. Each leaves memory afterwards, if it is in a file.
     void forEachPiece(auto&& take) const {
         for (std::size_t i = 0; i < m_pieces.size(); ++i) {
             take(std::string_view(reinterpret_cast<const char*>(m_pieces[i].get()),
                                   i + 1 == m_pieces.size() ? m_used : kPiece));
+            if (m_scratch->hasFile()) {
+                log::letGo(m_pieces[i].get(), kPiece);
+            }
         }
     }
 
