@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/input_output.h"
 
+#include "core/mvnx/mvnx_source.h"
+
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -40,8 +42,10 @@ tl::expected<std::unique_ptr<log::ByteSource>, log::FileError> openInput(const s
     if (const auto checked = log::checkOutput(standardOutput, {.inUse = {path}}); !checked) {
         return tl::unexpected(checked.error());
     }
-    return path == "-" ? log::openStandardInput(std::move(isCancelled))
-                       : log::openFile(path, std::move(isCancelled));
+    if (path == "-") {
+        return std::make_unique<mvnx::MvnxSource>(log::openStandardInput(std::move(isCancelled)));
+    }
+    return mvnx::openFile(path, std::move(isCancelled));
 }
 
 tl::expected<std::size_t, log::FileError> WatchedInput::read(std::span<std::byte> into) {

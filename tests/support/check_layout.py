@@ -19,6 +19,7 @@ MAY_INCLUDE = [
     ("core/model/accounting", ["core/wire", "core/log", "core/words", "core/model/*"]),
     ("core/model/session", ["core/wire", "core/log", "core/words", "core/model"]),
     ("core/model", ["core/wire", "core/log", "core/words"]),
+    ("core/mvnx", ["core/wire", "core/log", "core/model/body"]),
     ("core/performer", ["core/wire", "core/log", "core/model/body"]),
     ("core/feed", ["core/wire", "core/log", "core/model", "core/field", "core/filter"]),
     ("core/export", ["core/wire", "core/log", "core/words", "core/model", "core/feed"]),

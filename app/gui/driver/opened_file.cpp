@@ -3,11 +3,13 @@
 
 #include "core/log/raw_pace.h"
 #include "core/model/accounting/other_formats.h"
+#include "core/mvnx/mvnx_source.h"
 
 #include <QFile>
 #include <QFileInfo>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 
 namespace posewire::gui {
@@ -39,7 +41,7 @@ private:
 ImportResult visitFile(const QString& path, const log::FileVisitor& visit,
                        const log::IsCancelled& isCancelled, const log::NotesVisitor& visitNotes = {},
                        log::FileContents* contents = nullptr) {
-    const auto source = log::openFile(QFile::encodeName(path).toStdString(), isCancelled);
+    const auto source = mvnx::openFile(QFile::encodeName(path).toStdString(), isCancelled);
     if (!source) {
         return tl::unexpected(QString::fromStdString(source.error().text));
     }
@@ -121,6 +123,8 @@ void FileImport::run(const std::stop_token& stop, log::Stamp end) {
     if (const auto store = log::openStore(QFile::encodeName(m_path).toStdString());
         store && m_log.scratch()->hasFile()) {
         m_past.emplace(m_log.past(), m_log.senders(), *store);
+        std::array<std::byte, mvnx::kLookedAt> head{};
+        m_isInPlace = !mvnx::isMvnx(std::span(head).first((*store)->readAt(0, head)));
     }
     std::uint64_t bytesInStep = 0;
     const PacketTaker taker = [&](const log::FileRecord& record, const log::SenderInfo& sender,
@@ -152,7 +156,7 @@ void FileImport::take(const log::FileRecord& record, log::Arrival arrival) {
         m_past.reset();
         m_log.past().dropBefore(UINT64_MAX);
     }
-    if (m_past && record.isInOnePiece) {
+    if (m_past && record.isInOnePiece && m_isInPlace) {
         m_past->add(m_packetsRead, arrival, record.offset, record.bytes.size());
     } else if (m_past) {
         m_past->keep(m_packetsRead, arrival, record.bytes);

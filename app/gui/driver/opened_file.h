@@ -87,6 +87,7 @@ private:
     std::uint64_t m_packetsRead = 0;       ///< the thread's own
     std::size_t m_commentCount = 0;        ///< likewise
     std::optional<log::PastWriter> m_past; ///< likewise
+    bool m_isInPlace = true;               ///< packets lie in the file as they are: not of MVNX
     mutable std::mutex m_mutex;            ///< guards the members below
     std::condition_variable_any m_moved;
     std::uint64_t m_followed = 0;

@@ -46,7 +46,7 @@ Takes& takesOf(const Window& window) {
 
 QString askForRecording(Window& window, const QString& title) {
     return QFileDialog::getOpenFileName(&window, title, window.opening().folder(),
-                                        tr("Recordings (*.pcapng *.pcap);;All files (*)"));
+                                        tr("Recordings (*.pcapng *.pcap *.mvnx);;All files (*)"));
 }
 
 void openFile(Window& window) {
