@@ -78,14 +78,14 @@ public:
         appendNumber(m_survey.writtenRateHz(), rate);
         text += "<subject label=\"" + xmlText(m_character.name) + "\" torsoColor=\"" +
                 model::colourText(m_character.colour) + "\" frameRate=\"" + rate + "\" segmentCount=\"" +
-                std::to_string(kBody) + '"' + dateAttributes() + " configuration=\"FullBody\">\n<comment/>\n";
+                std::to_string(kBody) + '"' + dateAttributes() +
+                " originalFilename=\"network stream\" configuration=\"" + configuration() +
+                "\" userScenario=\"singleLevel\">\n<comment>" + provenanceText() + "</comment>\n";
         addSegments(text);
-        text += "<sensors/>\n";
         addJoints(text);
-        text += "<ergonomicJointAngles/>\n<footContactDefinition/>\n<frames segmentCount=\"" +
-                std::to_string(kBody) + "\" sensorCount=\"0\" jointCount=\"" + std::to_string(kJoints) +
-                "\">\n";
-        addTPose(text);
+        text += "<frames segmentCount=\"" + std::to_string(kBody) + "\" jointCount=\"" +
+                std::to_string(kJoints) + "\">\n";
+        addNullPoses(text);
         out.write(text);
     }
 
@@ -96,9 +96,11 @@ public:
         }
         std::string text =
             "<frame time=\"" + std::to_string(static_cast<std::int64_t>(frame.seconds * 1000 + 0.5)) +
-            "\" index=\"" + std::to_string(index) + "\" tc=\"\" ms=\"" +
-            (m_character.hasReceipt ? std::to_string(millisecondsOf(wallOf(frame.pose->stamp))) : "") +
-            "\" type=\"normal\">\n";
+            "\" index=\"" + std::to_string(index) + "\" tc=\"" + timeCodeText(frame.pose->timeCode) + '"' +
+            (m_character.hasReceipt
+                 ? " ms=\"" + std::to_string(millisecondsOf(wallOf(frame.pose->stamp))) + '"'
+                 : std::string()) +
+            " type=\"normal\">\n";
         std::array<Eigen::Quaterniond, kBody> turns;
         text += "<orientation>";
         for (std::size_t i = 0; i < kBody; ++i) {
@@ -120,7 +122,7 @@ public:
 
     void finish(MotionOutput& out) override {
         // The code by which MVN knows its own files is not ours to make.
-        out.write("</frames>\n</subject>\n<securityCode code=\"\"/>\n</mvnx>\n");
+        out.write("</frames>\n</subject>\n<securityCode code=\"none\"/>\n</mvnx>\n");
     }
 
 private:
@@ -149,22 +151,43 @@ private:
         for (const model::Segment& segment : model::bodySegments()) {
             text += "<segment label=\"" + std::string(segment.name) + "\" id=\"" +
                     std::to_string(segment.id) + "\">\n<points>\n";
-            if (m_character.nullPose) {
-                addPoints(segment.id, text);
-            }
+            addPoints(segment.id, text);
             text += "</points>\n</segment>\n";
         }
         text += "</segments>\n";
     }
 
+    /// Of a segment without points, or without a null pose: its origin, which readers want to find.
     void addPoints(int segment, std::string& text) const {
-        for (const model::NullPose::Point& point : m_character.nullPose->points) {
-            if (point.segment == segment && point.position.allFinite()) {
-                text += "<point label=\"" + xmlText(point.name) + "\"><pos_b>";
-                appendNumbers(point.position, text);
-                text += "</pos_b></point>\n";
+        const std::size_t before = text.size();
+        const auto add = [&text](const std::string& label, const Eigen::Vector3d& place) {
+            text += "<point label=\"" + label + "\"><pos_b>";
+            appendNumbers(place, text);
+            text += "</pos_b></point>\n";
+        };
+        if (m_character.nullPose) {
+            for (const model::NullPose::Point& point : m_character.nullPose->points) {
+                if (point.segment == segment && point.position.allFinite()) {
+                    add(labelOf(point), point.position);
+                }
             }
         }
+        const model::AnatomicalPoint* origin = model::findPoint(segment - 1, 1);
+        if (text.size() == before && origin != nullptr) {
+            add(std::string(origin->name), Eigen::Vector3d::Zero());
+        }
+    }
+
+    /// Letters and digits alone, as MVNX wants labels; "P269" if there are none.
+    static std::string labelOf(const model::NullPose::Point& point) {
+        std::string label;
+        for (const char character : point.name.exact()) {
+            const bool isKept = (character >= '0' && character <= '9') ||
+                                (character >= 'a' && character <= 'z') ||
+                                (character >= 'A' && character <= 'Z');
+            label += isKept ? std::string(1, character) : std::string();
+        }
+        return label.empty() ? "P" + std::to_string(256 * point.segment + point.id) : label;
     }
 
     static void addJoints(std::string& text) {
@@ -184,20 +207,54 @@ private:
         text += "</joints>\n";
     }
 
-    /// In the null pose no segment is turned.
-    void addTPose(std::string& text) const {
-        if (!m_character.nullPose) {
-            return;
+    /// The pose that readers need before the first frame, thrice, as MVN writes it: where segments are in the
+    /// null pose of type 13, or in the body that stands in for it, none turned. MVN's own `tpose` is that of
+    /// its calibration, which is not sent. In `tpose-isb` arms have their ISB frames.
+    void addNullPoses(std::string& text) const {
+        int index = -3;
+        for (const std::string_view type : {"identity", "tpose", "tpose-isb"}) {
+            text += "<frame time=\"0\" index=\"" + std::to_string(index++) + "\" tc=\"" + timeCodeText(0) +
+                    "\" ms=\"0\" type=\"" + std::string(type) + "\">\n<orientation>";
+            for (int i = 0; i < model::kBodySegmentCount; ++i) {
+                const Eigen::Quaterniond turn =
+                    type == "tpose-isb" ? model::isbFrame(i) : Eigen::Quaterniond::Identity();
+                appendAll({turn.w(), turn.x(), turn.y(), turn.z()}, text);
+            }
+            text += "</orientation>\n<position>";
+            for (const Eigen::Vector3d& place : m_character.body().places) {
+                appendNumbers(place, text);
+            }
+            text += "</position>\n</frame>\n";
         }
-        text += "<frame time=\"0\" index=\"\" tc=\"\" ms=\"0\" type=\"tpose\">\n<orientation>";
-        for (std::size_t i = 0; i < kBody; ++i) {
-            appendAll({1, 0, 0, 0}, text);
+    }
+
+    /// UpperBody if the pelvis of the first sample is at the origin, where MVN keeps it without trackers on
+    /// the legs, and the feet hang below the floor. No stream tells LowerBody.
+    [[nodiscard]] std::string configuration() const {
+        constexpr double kNear = 0.02;    // metres
+        constexpr double kHanging = -0.5; // where MVN has feet: about -0.79
+        const auto& segments = m_survey.firstPose.segments;
+        const bool isUpper = segments.size() >= kBody && segments[0].position.norm() < kNear &&
+                             segments[model::segment::kRightFoot].position.z() < kHanging;
+        return isUpper ? "UpperBody" : "FullBody";
+    }
+
+    [[nodiscard]] std::string provenanceText() const {
+        std::array<int, 4> counts{};
+        for (const model::SegmentSource& source : m_survey.firstPose.sources) {
+            ++counts[std::min<std::size_t>(static_cast<std::size_t>(source.position), 3)];
         }
-        text += "</orientation>\n<position>";
-        for (const Eigen::Vector3d& place : m_character.body().places) {
-            appendNumbers(place, text);
-        }
-        text += "</position>\n</frame>\n";
+        const int sent = counts[static_cast<std::size_t>(model::Provenance::Sent)];
+        return "Null pose " + std::string(m_character.nullPose ? "as sent" : "assumed") + "; " +
+               std::to_string(sent) + " segments of the first sample with positions as sent, others computed";
+    }
+
+    /// HH:MM:SS and the frame in the second, with three digits from 100 Hz on, as MVN writes it.
+    [[nodiscard]] std::string timeCodeText(std::uint32_t ms) const {
+        const double rate = m_survey.writtenRateHz();
+        const auto frame = static_cast<std::int64_t>(ms % 1000 * rate / 1000 + 1e-6);
+        return model::padded(ms / 3'600'000 % 24, 2) + ':' + model::padded(ms / 60'000 % 60, 2) + ':' +
+               model::padded(ms / 1000 % 60, 2) + ':' + model::padded(frame, rate > 100 ? 3 : 2);
     }
 
     const MotionTask& m_task;

@@ -50,6 +50,8 @@ constexpr std::array<JointDefinition, kJointCount> kJoints{{
     {"Vertical_T8", "Vertical to T8", {1, 0}, {5, 0}, kCentreSigns, true},
 }};
 
+} // namespace
+
 Quaterniond isbFrame(int segment) {
     constexpr double kHalfRoot = std::numbers::sqrt2 / 2.0;
     switch (segment) {
@@ -67,8 +69,6 @@ Quaterniond isbFrame(int segment) {
         return Quaterniond::Identity();
     }
 }
-
-} // namespace
 
 const std::array<JointDefinition, kJointCount>& jointDefinitions() {
     return kJoints;

@@ -37,6 +37,9 @@ const std::array<JointDefinition, kJointCount>& jointDefinitions();
 Eigen::Vector3d jointAngle(const JointDefinition& joint, const Eigen::Quaterniond& parent,
                            const Eigen::Quaterniond& child);
 
+/// O of a body segment, by its place from 0: turns its T-pose frame into its ISB frame.
+Eigen::Quaterniond isbFrame(int segment);
+
 /// All rows of type 20 from the orientations of the 23 body segments.
 ///
 /// Which vertical frame the last two rows refer to is not published; here it is the world's, turned about z
