@@ -272,7 +272,8 @@ Command addDecodeCommand(CommandLine& program) {
     auto options = std::make_shared<DecodeOptions>();
     Arguments arguments =
         program.addCommand("decode", "Show the datagrams of files, field by field or as JSON Lines");
-    arguments.add("FILE", options->files, "datagrams back to back, or pcap or pcapng; - for standard input")
+    arguments
+        .add("FILE", options->files, "datagrams back to back, or pcap, pcapng or MVNX; - for standard input")
         .required();
     arguments.flag("--json", options->asJson, "one JSON object a line for each datagram");
     arguments.flag("--names", options->hasNames,

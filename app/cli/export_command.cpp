@@ -422,7 +422,8 @@ Command addExportCommand(CommandLine& program) {
     auto options = std::make_shared<ExportOptions>();
     Arguments arguments =
         program.addCommand("export", "Write the motion of a recording for other programs: " + formatNames());
-    arguments.add("FILE", options->input, "pcap, pcapng, or datagrams back to back; - for standard input")
+    arguments
+        .add("FILE", options->input, "pcap, pcapng, MVNX, or datagrams back to back; - for standard input")
         .required();
     arguments.add("--to PATH", options->output, "the file to write; - for standard output").required();
     arguments.add("--format FORMAT", options->format, formatHelp());

@@ -203,7 +203,7 @@ void addPlacesOrFile(Arguments arguments, MonitorOptions& options) {
     DeclaredOption file =
         arguments.add("FILE", options.file,
                       "a recording instead of the network, as fast as it goes, with its own "
-                      "stamps: pcap, pcapng, or datagrams back to back; - for standard input");
+                      "stamps: pcap, pcapng, MVNX, or datagrams back to back; - for standard input");
     for (const DeclaredOption place : places) {
         file.excludes(place);
     }
@@ -326,7 +326,7 @@ Command addReportCommand(CommandLine& program) {
         "Write a report on a recording as HTML: what was received, what not, and whose fault it was");
     addStageTimes(arguments, *options)
         .excludes(arguments.add("FILE", options->file,
-                                "pcap, pcapng, or datagrams back to back; - for standard input"));
+                                "pcap, pcapng, MVNX, or datagrams back to back; - for standard input"));
     arguments.add("-o,--output FILE", options->report, "the HTML file; - for standard output").required();
     addUp(arguments, options->up);
     addOutputs(arguments, options->replaces);

@@ -118,8 +118,9 @@ struct Declared {
     }
 
     void declareInputs(usage::Arguments arguments) {
-        const auto file = arguments.read("FILE", into(options.file),
-                                         "recording to look at: pcap, pcapng, or datagrams back to back");
+        const auto file =
+            arguments.read("FILE", into(options.file),
+                           "recording to look at: pcap, pcapng, MVNX, or datagrams back to back");
         arguments
             .read("--udp [ADDRESS:]PORT", into(options.udpPorts, InputAddress::Kind::Udp),
                   "listen on a UDP port (repeatable; 9763 if nothing else is asked for). ADDRESS is one of "
