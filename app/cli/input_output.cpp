@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/input_output.h"
 
-#include "core/mvnx/mvnx_source.h"
+#include "app/mvnx/mvnx_source.h"
 
 #include <cerrno>
 #include <cstdio>

@@ -3,7 +3,7 @@
 
 #include "core/log/raw_pace.h"
 #include "core/model/accounting/other_formats.h"
-#include "core/mvnx/mvnx_source.h"
+#include "app/mvnx/mvnx_source.h"
 
 #include <QFile>
 #include <QFileInfo>

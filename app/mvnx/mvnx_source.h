@@ -1,7 +1,7 @@
-// SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/mvnx/frame.h"
+#include "app/mvnx/frame.h"
 
 #include "core/log/pcapng_writer.h"
 

@@ -1,7 +1,7 @@
-// SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/mvnx/xml_reader.h"
+#include "app/mvnx/xml_reader.h"
 
 #include "core/wire/messages.h"
 

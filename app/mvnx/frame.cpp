@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: MIT
-#include "core/mvnx/frame.h"
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/mvnx/frame.h"
 
 #include "core/model/body/spaces.h"
 

@@ -1,7 +1,7 @@
-// SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/mvnx/subject.h"
+#include "app/mvnx/subject.h"
 
 #include "core/wire/codec.h"
 

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: MIT
-#include "core/mvnx/mvnx_source.h"
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/mvnx/mvnx_source.h"
 
 #include <algorithm>
 #include <cmath>
@@ -197,14 +197,14 @@ tl::expected<std::size_t, log::FileError> MvnxSource::read(std::span<std::byte> 
             return tl::unexpected(begun.error());
         }
     }
-    if (m_given == m_ready.size()) {
+    while (m_given == m_ready.size()) { // a frame may have no values
         m_ready.clear();
         m_given = 0;
         if (!m_reader) {
             return m_source->read(into);
         }
-        if (const auto more = m_reader->next(); !more) {
-            return tl::unexpected(more.error());
+        if (const auto more = m_reader->next(); !more || !*more) {
+            return more ? tl::expected<std::size_t, log::FileError>(0) : tl::unexpected(more.error());
         }
     }
     const std::size_t count = std::min(into.size(), m_ready.size() - m_given);

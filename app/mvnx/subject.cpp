@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: MIT
-#include "core/mvnx/subject.h"
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/mvnx/subject.h"
 
 #include "core/model/body/points.h"
 
