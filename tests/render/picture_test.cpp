@@ -132,6 +132,31 @@ TEST_F(Picture, KeepsTheFormOfRaisedArms) {
     expectMatchesBaseline(shoot(), "raised_arms");
 }
 
+TEST_F(Picture, OpensArmpitsUnderRaisedArms) {
+    add(raisedArmsPose(), kOrange);
+    look(0.7F, {0.0F, 0.1F, 1.38F}, 1.2F);
+    expectMatchesBaseline(shoot(), "overhead_near");
+}
+
+TEST_F(Picture, RoundsTheTrapeziusOfAShrugFromBehind) {
+    add(shrugPose(), kOrange);
+    look(2.7F, {0.0F, 0.0F, 1.44F}, 1.0F);
+    expectMatchesBaseline(shoot(), "shrug_near");
+}
+
+TEST_F(Picture, RoundsKneesAndSeatOfASitter) {
+    add(grounded(sittingPose(), mesh()), kOrange);
+    look(1.2F, {0.15F, 0.0F, 0.42F}, 1.3F);
+    expectMatchesBaseline(shoot(), "sit_near");
+}
+
+TEST_F(Picture, RoundsTheKnucklesOfAFist) {
+    add(tPose()).palette = addPalette(fist(tPose()));
+    look(0.6F, {0.0F, 0.77F, 1.40F}, 0.32F);
+    scene.camera.pitch = 0.35F;
+    expectMatchesBaseline(shoot(), "fist_near");
+}
+
 TEST_F(Picture, KeepsTheFormOfHipsInASplit) {
     add(grounded(spreadLegsPose(), mesh()));
     look(0.2F, {0.0F, 0.0F, 0.5F}, 1.9F);

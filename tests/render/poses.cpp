@@ -120,6 +120,15 @@ Pose raisedArmsPose() {
                      {RightUpperArm, turned(kX, -62)}});
 }
 
+Pose sittingPose() {
+    return poseFrom({{LeftUpperArm, turned(kX, -75)},
+                     {RightUpperArm, turned(kX, 75)},
+                     {LeftUpperLeg, turned(kZ, 4) * turned(kY, -90)},
+                     {LeftLowerLeg, turned(kY, 90)},
+                     {RightUpperLeg, turned(kZ, -4) * turned(kY, -90)},
+                     {RightLowerLeg, turned(kY, 90)}});
+}
+
 Pose spreadLegsPose() {
     return poseFrom({{LeftUpperArm, turned(kX, -40)},
                      {RightUpperArm, turned(kX, 40)},

@@ -31,6 +31,8 @@ Pose elbowPose();
 /// Shoulders drawn up, arms down.
 Pose shrugPose();
 Pose raisedArmsPose();
+/// On a chair: hips and knees at 90°.
+Pose sittingPose();
 /// Each leg 70° to its side.
 Pose spreadLegsPose();
 Pose nodPose();
