@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/body/joint_angles.h"
 
+#include "core/model/body/spaces.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
