@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "render/mesh/bone_mapping.h"
 
+#include "render/mesh/bone_shape.h"
+#include "render/mesh/bone_words.h"
+
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -192,7 +195,9 @@ std::string knownNamings() {
     return text;
 }
 
-BoneMapping mapBones(std::span<const ImportedBone> bones) {
+namespace {
+
+BoneMapping mapByNaming(std::span<const ImportedBone> bones) {
     BoneMapping best;
     auto most = std::tuple<std::ptrdiff_t, std::ptrdiff_t, std::size_t>(0, 0, 0);
     for (const BoneNaming& naming : kBoneNamings) {
@@ -210,6 +215,105 @@ BoneMapping mapBones(std::span<const ImportedBone> bones) {
     // A few names that many programs share say nothing about the rest.
     const bool isKnown = 2 * missingSegments(best).size() <= missingSegments({}).size();
     return isKnown ? best : BoneMapping();
+}
+
+bool isFit(const BoneMapping& mapping, std::span<const ImportedBone> bones) {
+    return checkMapping(mapping, bones).has_value();
+}
+
+/// Takes what one has and the other lacks, unless a bone would be taken twice.
+BoneMapping joined(BoneMapping mapping, const BoneMapping& guess, FoundBy by) {
+    for (std::size_t i = 0; i < kMappableCount; ++i) {
+        const int bone = guess.bones[i];
+        if (mapping.bones[i] < 0 && bone >= 0 &&
+            std::ranges::find(mapping.bones, bone) == mapping.bones.end()) {
+            mapping.bones[i] = bone;
+            mapping.foundBy[i] = by;
+        }
+    }
+    return mapping;
+}
+
+BoneMapping mirrored(const BoneMapping& mapping) {
+    BoneMapping swapped = mapping;
+    for (std::size_t i = 0; i < 4; ++i) {
+        std::swap(swapped.bones[RightShoulder + i], swapped.bones[LeftShoulder + i]);
+        std::swap(swapped.bones[RightUpperLeg + i], swapped.bones[LeftUpperLeg + i]);
+    }
+    return swapped;
+}
+
+std::vector<int> ancestry(int bone, std::span<const ImportedBone> bones) {
+    std::vector<int> path;
+    for (; bone >= 0; bone = bones[static_cast<std::size_t>(bone)].parent) {
+        path.push_back(bone);
+    }
+    return path;
+}
+
+/// The nearest bone that both hang on or are, or -1.
+int joining(int a, int b, std::span<const ImportedBone> bones) {
+    const std::vector<int> above = ancestry(a, bones);
+    for (const int bone : ancestry(b, bones)) {
+        if (std::ranges::find(above, bone) != above.end()) {
+            return bone;
+        }
+    }
+    return -1;
+}
+
+/// Pelvis and spine by what hangs on them: legs on the one, arms on the other.
+void mapTrunk(std::span<const ImportedBone> bones, FoundBy by, BoneMapping& mapping) {
+    int& pelvis = mapping.bones[Pelvis];
+    const int legs = joining(mapping.bones[LeftUpperLeg], mapping.bones[RightUpperLeg], bones);
+    if (pelvis < 0 && legs >= 0) {
+        pelvis = legs;
+        mapping.foundBy[Pelvis] = by;
+    }
+    const int chest = joining(mapping.bones[LeftUpperArm], mapping.bones[RightUpperArm], bones);
+    const std::vector<int> below = ancestry(pelvis, bones);
+    std::vector<int> spine;
+    for (const int bone : ancestry(chest, bones)) {
+        if (std::ranges::find(below, bone) != below.end()) {
+            break;
+        }
+        if (std::ranges::find(mapping.bones, bone) == mapping.bones.end()) {
+            spine.insert(spine.begin(), bone);
+        }
+    }
+    BoneMapping trunk;
+    spread(spine, trunk);
+    const bool hasSpine = mapping.bones[T8] >= 0;
+    mapping = hasSpine ? mapping : joined(mapping, trunk, by);
+}
+
+} // namespace
+
+BoneMapping mapBones(std::span<const ImportedBone> bones) {
+    const BoneMapping named = mapByNaming(bones);
+    if (isFit(named, bones)) {
+        return named;
+    }
+    BoneMapping words = joined({}, mapBonesByWords(bones), FoundBy::Word);
+    mapTrunk(bones, FoundBy::Word, words);
+    const bool isWorded = isFit(words, bones);
+    BoneMapping best =
+        isWorded || missingSegments(words).size() < missingSegments(named).size() ? words : named;
+    if (isWorded) {
+        return best;
+    }
+    const BoneMapping shape = mapBonesByShape(bones);
+    for (const BoneMapping& start : {best, BoneMapping()}) {
+        for (const BoneMapping& guess : {shape, mirrored(shape)}) {
+            BoneMapping whole = joined(start, guess, FoundBy::Shape);
+            mapTrunk(bones, FoundBy::Shape, whole);
+            if (isFit(whole, bones)) {
+                return whole;
+            }
+        }
+    }
+    // A few words that many things share say nothing about the rest.
+    return 2 * missingSegments(best).size() <= missingSegments({}).size() ? best : BoneMapping();
 }
 
 std::vector<std::size_t> missingSegments(const BoneMapping& mapping) {

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
@@ -30,10 +31,16 @@ constexpr std::string_view mappableName(std::size_t mappable) {
 /// What people read: "Left Upper Arm".
 std::string mappableTitle(std::size_t mappable);
 
+/// How certain a bone is: by the names of a program, by a word for the segment, by the skeleton's shape
+/// alone, or because the operator said so.
+enum class FoundBy : std::uint8_t { Naming, Word, Shape, Operator };
+
 /// Which bone follows which segment.
 struct BoneMapping {
     /// Index of the bone by mappable segment, or -1.
     std::array<int, kMappableCount> bones;
+    /// Of those that have a bone.
+    std::array<FoundBy, kMappableCount> foundBy{};
     /// The row of kBoneNamings by which the file names its bones; null for none.
     const BoneNaming* naming = nullptr;
 
@@ -41,7 +48,8 @@ struct BoneMapping {
     bool operator==(const BoneMapping&) const = default;
 };
 
-/// By the names of the bones, in the naming of kBoneNamings that finds most of what is required.
+/// By the names of the bones, in the naming of kBoneNamings that finds most of what is required; what that
+/// leaves open by words of kBoneWords, and what these leave open by the skeleton's shape.
 BoneMapping mapBones(std::span<const ImportedBone> bones);
 
 /// "MVN, Mixamo, … or Character Creator".

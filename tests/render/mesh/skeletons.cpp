@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tests/render/mesh/skeletons.h"
 
+#include "render/mesh/joints.h"
+
 #include <sstream>
 
 namespace posewire::render::test {
@@ -266,5 +268,107 @@ const Skeleton kBipedSkeleton{R"(Bip01
       Bip01 $ Toe0
        Bip01 $ Toe0Nub)",
                               "L", "R"};
+
+const Skeleton kAnatomicalSkeleton{R"(root_bind
+ pelvis_bind
+  spineLow_bind
+   spineHigh_bind
+    cervical_bind
+     skull_bind
+    clavicle_$_bind
+     humerus_$_bind
+      bicepTwist_$_bind
+      ulna_$_bind
+       wrist_$_bind
+        pinky_$_01_bind
+         pinky_$_02_bind
+          pinky_$_03_bind
+  femur_$_bind
+   tibia_$_bind
+    ankle_$_bind
+     ball_$_bind)",
+                                   "lf", "rt"};
+
+const Skeleton kPrefixedSkeleton{R"(hero_newSkeleton_root
+ hero_newSkeleton_hips
+  hero_newSkeleton_$_hip
+   hero_newSkeleton_$_knee
+    hero_newSkeleton_$_ankle
+     hero_newSkeleton_$_ball
+  hero_newSkeleton_back01
+   hero_newSkeleton_chest01
+    hero_newSkeleton_neck01
+     hero_newSkeleton_head
+    hero_newSkeleton_$_clavicle
+     hero_newSkeleton_$_shoulder
+      hero_newSkeleton_$_elbow
+       hero_newSkeleton_$_wrist)",
+                                 "L", "R"};
+
+const Skeleton kGluedSkeleton{R"(hip
+ abdomen
+  chest
+   neck
+    head
+   $shoulder
+    $arm
+     $forearm
+      $hand
+ $thigh
+  $shin
+   $foot)",
+                              "Left", "right"};
+
+const Skeleton kDazSkeleton{R"(hip
+ pelvis
+  $ThighBend
+   $ThighTwist
+    $Shin
+     $Foot
+      $Toe
+ abdomenLower
+  chestUpper
+   neckLower
+    neckUpper
+     head
+   $Collar
+    $ShldrBend
+     $ShldrTwist
+      $ForearmBend
+       $ForearmTwist
+        $Hand
+         $Thumb1
+          $Thumb2
+           $Thumb3)",
+                            "l", "r"};
+
+const Skeleton kJointSkeleton{R"(Hips
+ Chest
+  Neck
+   Head
+  $Collar
+   $Shoulder
+    $Elbow
+     $Wrist
+ $Hip
+  $Knee
+   $Ankle
+    $Toe)",
+                              "Left", "Right"};
+
+std::vector<ImportedBone> namelessBones(const glm::quat& turn, float armsDown) {
+    std::vector<ImportedBone> bones;
+    for (std::size_t i = 0; i < kSegmentCount; ++i) {
+        glm::vec3 place = kReferenceNullPose[i];
+        const bool isRight = i >= RightUpperArm && i <= RightHand;
+        if (isRight || (i >= LeftUpperArm && i <= LeftHand)) {
+            const glm::vec3 shoulder = kReferenceNullPose[isRight ? RightUpperArm : LeftUpperArm];
+            const float angle = glm::radians(isRight ? armsDown : -armsDown);
+            place = shoulder + glm::angleAxis(angle, glm::vec3(1.0F, 0.0F, 0.0F)) * (place - shoulder);
+        }
+        bones.push_back({"joint" + std::to_string(i), kSegmentParents[i], turn * place, {}, true});
+    }
+    return bones;
+}
 
 } // namespace posewire::render::test

@@ -30,5 +30,15 @@ extern const Skeleton kVrmSkeleton;
 extern const Skeleton kRigifySkeleton;
 extern const Skeleton kMetarigSkeleton;
 extern const Skeleton kBipedSkeleton;
+extern const Skeleton kAnatomicalSkeleton;
+extern const Skeleton kPrefixedSkeleton;
+extern const Skeleton kGluedSkeleton;
+extern const Skeleton kDazSkeleton;
+extern const Skeleton kJointSkeleton;
+
+/// MVN's 23 segments in the reference null pose, with names that say nothing. `turn` stands them otherwise,
+/// `armsDown` (degrees) lowers the arms.
+std::vector<ImportedBone> namelessBones(const glm::quat& turn = {1.0F, 0.0F, 0.0F, 0.0F},
+                                        float armsDown = 0.0F);
 
 } // namespace posewire::render::test
