@@ -347,6 +347,39 @@ std::string faultOf(const OpenedFile& file) {
     return {};
 }
 
+/// The reason if a glTF needs a decompressor, which this reader has not; empty else. Only its JSON is looked
+/// at.
+std::string compressionOf(const OpenedFile& file) {
+    std::rewind(file.stream.get());
+    std::array<unsigned char, 20> head{};
+    const bool isBinary = std::fread(head.data(), head.size(), 1, file.stream.get()) == 1 &&
+                          std::string_view(reinterpret_cast<const char*>(head.data()), 4) == "glTF";
+    std::uintmax_t size = file.size;
+    if (isBinary) {
+        size = head[12] | head[13] << 8 | head[14] << 16 | std::uintmax_t{head[15]} << 24;
+    } else {
+        std::rewind(file.stream.get());
+    }
+    std::string json(static_cast<std::size_t>(std::min<std::uintmax_t>(size, file.size)), ' ');
+    json.resize(std::fread(json.data(), 1, json.size(), file.stream.get()));
+    const std::size_t required = json.find("\"extensionsRequired\"");
+    const std::string_view list =
+        required == std::string::npos
+            ? std::string_view()
+            : std::string_view(json).substr(required, json.find(']', required) - required);
+    constexpr std::array<std::pair<std::string_view, const char*>, 3> kCompressions{{
+        {"\"KHR_draco_mesh_compression\"", "Draco"},
+        {"\"EXT_meshopt_compression\"", "meshopt"},
+        {"\"KHR_meshopt_compression\"", "meshopt"},
+    }};
+    for (const auto& [extension, name] : kCompressions) {
+        if (list.find(extension) != std::string_view::npos) {
+            return "its mesh is compressed (" + std::string(name) + "): save it without compression";
+        }
+    }
+    return {};
+}
+
 bool isOffered(std::string extension) {
     for (char& letter : extension) {
         letter = letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
@@ -389,6 +422,9 @@ tl::expected<ImportedCharacter, std::string> importCharacter(const std::string& 
     const std::string extension = std::filesystem::path(path).extension().string();
     if (extension.empty() || !isOffered(extension.substr(1))) {
         return tl::make_unexpected(kUnknownFormat);
+    }
+    if (std::string compressed = compressionOf(file); !compressed.empty()) {
+        return tl::make_unexpected(std::move(compressed));
     }
     Assimp::Importer importer;
     configure(importer);

@@ -126,6 +126,38 @@ TEST(Import, SaysWhatIsWrongWithAFileInPlainWords) {
     std::filesystem::remove_all(folder);
 }
 
+TEST(Import, NamesTheCompressionThatAFileNeeds) {
+    const auto folder = posewire::test::newTemporaryFolder("import");
+    const std::string path = (folder / "own.gltf").string();
+    for (const auto& [extension, name] : {std::pair{"KHR_draco_mesh_compression", "Draco"},
+                                          std::pair{"EXT_meshopt_compression", "meshopt"}}) {
+        const std::string json = GltfText().text();
+        std::ofstream(path) << "{\"extensionsRequired\":[\"" << extension << "\"],"
+                            << json.substr(json.find('{') + 1);
+        const auto imported = importCharacter(path);
+        ASSERT_FALSE(imported);
+        EXPECT_EQ(imported.error(),
+                  "its mesh is compressed (" + std::string(name) + "): save it without compression");
+        std::string binary = readFile(kMannequinPath);
+        const std::string key = "\"asset\":";
+        const std::size_t at = binary.find(key);
+        ASSERT_NE(at, std::string::npos);
+        const std::string required = "\"extensionsRequired\":[\"" + std::string(extension) + "\"],";
+        binary.insert(at, required);
+        for (const std::size_t count : {8, 12}) { // of the file, of its JSON
+            std::uint32_t size = 0;
+            std::memcpy(&size, binary.data() + count, sizeof(size));
+            size += static_cast<std::uint32_t>(required.size());
+            std::memcpy(binary.data() + count, &size, sizeof(size));
+        }
+        std::ofstream(folder / "own.glb", std::ios::binary) << binary;
+        const auto whole = importCharacter((folder / "own.glb").string());
+        ASSERT_FALSE(whole);
+        EXPECT_EQ(whole.error(), imported.error());
+    }
+    std::filesystem::remove_all(folder);
+}
+
 TEST(Import, RefusesAMeshWithoutBones) {
     GltfText file;
     file.boneCount = 2;
