@@ -294,21 +294,21 @@ BoneMapping mapBones(std::span<const ImportedBone> bones) {
     if (isFit(named, bones)) {
         return named;
     }
-    BoneMapping words = joined({}, mapBonesByWords(bones), FoundBy::Word);
-    mapTrunk(bones, FoundBy::Word, words);
-    const bool isWorded = isFit(words, bones);
-    BoneMapping best =
-        isWorded || missingSegments(words).size() < missingSegments(named).size() ? words : named;
-    if (isWorded) {
-        return best;
-    }
+    const BoneMapping words = mapBonesByWords(bones);
     const BoneMapping shape = mapBonesByShape(bones);
-    for (const BoneMapping& start : {best, BoneMapping()}) {
+    BoneMapping best;
+    for (const auto& [start, spoken] : {std::pair(named, words), {{}, words}, {{}, {}}}) {
+        BoneMapping whole = joined(start, spoken, FoundBy::Word);
+        mapTrunk(bones, FoundBy::Word, whole);
+        if (isFit(whole, bones)) {
+            return whole;
+        }
+        best = missingSegments(whole).size() < missingSegments(best).size() ? whole : best;
         for (const BoneMapping& guess : {shape, mirrored(shape)}) {
-            BoneMapping whole = joined(start, guess, FoundBy::Shape);
-            mapTrunk(bones, FoundBy::Shape, whole);
-            if (isFit(whole, bones)) {
-                return whole;
+            BoneMapping filled = joined(whole, guess, FoundBy::Shape);
+            mapTrunk(bones, FoundBy::Shape, filled);
+            if (isFit(filled, bones)) {
+                return filled;
             }
         }
     }

@@ -13,6 +13,7 @@
 #include <QFormLayout>
 #include <QKeyEvent>
 #include <QMouseEvent>
+#include <QUrl>
 #include <QVBoxLayout>
 
 #include <algorithm>
@@ -49,6 +50,35 @@ QString restName(float armsBelowLevel) {
            : armsBelowLevel < kHanging
                ? OwnCharacterDialog::tr("A-pose, arms %1° down").arg(std::lround(armsBelowLevel))
                : OwnCharacterDialog::tr("arms hanging");
+}
+
+/// The file that a text names, as people paste it: in quotation marks, or as the address of a file.
+QString pastedPath(const QString& text) {
+    QString path = text.trimmed();
+    const bool isQuoted =
+        path.size() > 1 && path.front() == path.back() && QStringLiteral("\"'").contains(path.front());
+    path = isQuoted ? path.mid(1, path.size() - 2) : path;
+    const QUrl url(path);
+    return url.isLocalFile() ? url.toLocalFile() : path;
+}
+
+QString recognition(const render::BoneMapping& mapping) {
+    if (mapping.naming != nullptr) {
+        return OwnCharacterDialog::tr("named as by %1").arg(fromUtf8(mapping.naming->title));
+    }
+    return mapping == render::BoneMapping() ? OwnCharacterDialog::tr("names not recognised")
+                                            : OwnCharacterDialog::tr("found without a known naming");
+}
+
+/// Titles of the segments whose bones are guesses of the skeleton's shape.
+QStringList guessed(const render::BoneMapping& mapping) {
+    QStringList titles;
+    for (std::size_t i = 0; i < render::kMappableCount; ++i) {
+        if (mapping.bones.at(i) >= 0 && mapping.foundBy.at(i) == render::FoundBy::Shape) {
+            titles += fromUtf8(render::mappableTitle(i));
+        }
+    }
+    return titles;
 }
 
 /// The mannequin's palette in the T-pose, each hand as flat as in the scale message.
@@ -197,7 +227,6 @@ OwnCharacterDialog::OwnCharacterDialog(OwnCharacters& characters, const QStringL
 }
 
 void OwnCharacterDialog::makeForm() {
-    m_path->setReadOnly(true);
     m_path->setPlaceholderText(tr("A file of glTF, FBX or Collada with a skinned mesh"));
     m_path->setAccessibleName(tr("File of the character"));
     m_unit->addItems(
@@ -234,7 +263,12 @@ void OwnCharacterDialog::makeForm() {
     column->addLayout(target);
     column->addWidget(buttons);
     connect(m_browse, &QPushButton::clicked, this, &OwnCharacterDialog::askForFile);
-    connect(m_again, &QPushButton::clicked, this, [this] { read(m_path->text(), true); });
+    connect(m_path, &QLineEdit::returnPressed, this, [this] {
+        if (const QString path = pastedPath(m_path->text()); !path.isEmpty()) {
+            read(path, true);
+        }
+    });
+    connect(m_again, &QPushButton::clicked, this, [this] { read(pastedPath(m_path->text()), true); });
     for (QComboBox* each : {m_unit, m_heading, m_rest, m_size}) {
         connect(each, &QComboBox::activated, this, &OwnCharacterDialog::makeBody);
     }
@@ -324,12 +358,13 @@ void OwnCharacterDialog::describe() {
     }
     if (!m_isReading && m_file != nullptr) {
         const render::ImportedCharacter& character = m_file->character;
-        const render::BoneNaming* naming = m_file->mapping.naming;
         lines += tr("Bones %1 (%2) · vertices %3")
-                     .arg(QString::number(character.bones.size()),
-                          naming == nullptr ? tr("names not recognised")
-                                            : tr("named as by %1").arg(fromUtf8(naming->title)),
+                     .arg(QString::number(character.bones.size()), recognition(m_file->mapping),
                           grouped(character.mesh.vertexCount()));
+        if (const QStringList shape = guessed(m_file->mapping); !shape.isEmpty()) {
+            lines += tr("Guessed by the skeleton's shape, check the preview: %1")
+                         .arg(shape.join(QStringLiteral(", ")));
+        }
         lines += m_file->remarks;
     }
     if (!m_isReading && m_body != nullptr) {

@@ -5,9 +5,12 @@
 
 #include <QComboBox>
 #include <QFile>
+#include <QLineEdit>
 #include <QPushButton>
+#include <QSignalSpy>
 #include <QTemporaryDir>
 #include <QTest>
+#include <QUrl>
 
 #include <gtest/gtest.h>
 
@@ -76,7 +79,7 @@ TEST_F(OwnCharacterDialogTest, ABrokenFileIsExplainedAndChangesNothing) {
     EXPECT_TRUE(m_characters.wardrobe().isEmpty());
 }
 
-TEST_F(OwnCharacterDialogTest, NamesTheBonesThatAFileLacks) {
+TEST_F(OwnCharacterDialogTest, NamesTheBonesThatItGuesses) {
     QFile source(m_mannequin);
     ASSERT_TRUE(source.open(QIODevice::ReadOnly));
     QByteArray bytes = source.readAll();
@@ -89,9 +92,26 @@ TEST_F(OwnCharacterDialogTest, NamesTheBonesThatAFileLacks) {
     file.close();
     open();
     ASSERT_TRUE(read(path));
-    EXPECT_TRUE(m_dialog->stateText().contains("no bone for Left Hand (LeftHand), as MVN names them"))
+    EXPECT_TRUE(
+        m_dialog->stateText().contains("Guessed by the skeleton's shape, check the preview: Left Hand"))
         << m_dialog->stateText().toStdString();
-    EXPECT_FALSE(button("Apply")->isEnabled());
+    EXPECT_TRUE(button("Apply")->isEnabled());
+}
+
+TEST_F(OwnCharacterDialogTest, ReadsPathsAsPeoplePasteThem) {
+    open();
+    auto* path = m_dialog->findChild<QLineEdit*>();
+    ASSERT_NE(path, nullptr);
+    for (const QString& text :
+         {m_mannequin, '"' + m_mannequin + '"', QUrl::fromLocalFile(m_mannequin).toString()}) {
+        QSignalSpy finished(m_dialog.get(), &OwnCharacterDialog::finished);
+        path->clear();
+        QTest::keyClicks(path, text);
+        QTest::keyClick(path, Qt::Key_Return);
+        ASSERT_TRUE(finished.wait(20'000)) << text.toStdString();
+        EXPECT_EQ(path->text(), m_mannequin);
+        EXPECT_TRUE(m_dialog->stateText().contains("named as by MVN"));
+    }
 }
 
 TEST_F(OwnCharacterDialogTest, ShowsWhatWasChosenBefore) {
