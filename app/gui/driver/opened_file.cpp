@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/driver/opened_file.h"
 
+#include "app/mvnx/mvnx_source.h"
 #include "core/log/raw_pace.h"
 #include "core/model/accounting/other_formats.h"
-#include "app/mvnx/mvnx_source.h"
 
 #include <QFile>
 #include <QFileInfo>

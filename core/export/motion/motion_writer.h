@@ -137,13 +137,14 @@ public:
 /// POINT:LONG_FRAMES.
 [[nodiscard]] std::unique_ptr<MotionWriter> makeC3d(const MotionTask& task);
 
-/// MVNX, version 4, of one character: XML in the order of the vendor's own files, without empty parts. Metres,
-/// Z up, quaternions w x y z. It has what was sent or follows from it: the 23 segments of the body with the
-/// points of the null pose, the joints, the null pose as the frames `identity`, `tpose` and `tpose-isb`, and of
-/// each sample orientation, position and joint angles (degrees). The comment of the subject says whether the
-/// null pose was sent. `tc` is the time code of the header, `configuration` UpperBody if the pelvis stays at
-/// the origin with the feet below, else FullBody. Sensors, velocities, contacts, props and fingers are not in
-/// it. A sample that did not come whole has no frame; `index` counts it.
+/// MVNX, version 4, of one character: XML in the order of the vendor's own files, without empty parts.
+/// Metres, Z up, quaternions w x y z. It has what was sent or follows from it: the 23 segments of the body
+/// with the points of the null pose, the joints, the null pose as the frames `identity`, `tpose` and
+/// `tpose-isb`, and of each sample orientation, position and joint angles (degrees). The comment of the
+/// subject says whether the null pose was sent. `tc` is the time code of the header, `configuration`
+/// UpperBody if the pelvis stays at the origin with the feet below, else FullBody. Sensors, velocities,
+/// contacts, props and fingers are not in it. A sample that did not come whole has no frame; `index` counts
+/// it.
 [[nodiscard]] std::unique_ptr<MotionWriter> makeMvnx(const MotionTask& task);
 
 /// The words of model::Provenance, by its values.
