@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <functional>
 #include <string_view>
 #include <utility>
 
@@ -23,6 +24,12 @@ bool isName(const std::string& name) {
         return (one >= 'a' && one <= 'z') || (one >= 'A' && one <= 'Z') || (one >= '0' && one <= '9') ||
                one == '-' || one == '_';
     });
+}
+
+std::uint64_t signOf(const log::FileRecord& record) {
+    const std::string_view bytes(reinterpret_cast<const char*>(record.bytes.data()), record.bytes.size());
+    const auto time = static_cast<std::uint64_t>(log::nanosecondsOf(record.time.value_or(log::WallTime())));
+    return std::hash<std::string_view>()(bytes) ^ (time * 0x9e3779b97f4a7c15U);
 }
 
 std::string probeOf(const Message& message) {
@@ -46,24 +53,18 @@ BatchOrder::Taken BatchOrder::take(const Message& batch, const log::FileVisitor&
         return taken;
     }
     // A server may have stored the last batch of a probe that died before it was acknowledged: the next run
-    // then begins with the same packets.
-    std::uint64_t repeated = 0;
-    std::uint64_t number = 0;
-    static_cast<void>(readBatch(isFirst ? bytesOf(batch) : std::span<const std::byte>(),
-                                [&](const log::FileRecord& record) {
-                                    ++number;
-                                    const bool isLast = course.lastTime && record.time == course.lastTime &&
-                                                        std::ranges::equal(record.bytes, course.lastBytes);
-                                    repeated = isLast ? number : repeated;
-                                }));
-    number = 0;
+    // then begins with the same packets, in as many batches as it likes.
+    if (isFirst) {
+        course.repeating = std::move(course.signs);
+    }
+    course.signs.clear();
     std::uint64_t missing = taken.lostOnWay;
     const auto read = readBatch(bytesOf(batch), [&](const log::FileRecord& record) {
-        if (number++ < repeated) {
+        course.signs.push_back(signOf(record));
+        if (std::ranges::find(course.repeating, course.signs.back()) != course.repeating.end()) {
             return;
         }
-        course.lastTime = record.time;
-        course.lastBytes.assign(record.bytes.begin(), record.bytes.end());
+        course.repeating.clear();
         log::FileRecord handed = record;
         handed.sender = record.sender.value_or(log::SenderInfo{});
         handed.sender->probe = taken.probe;

@@ -33,9 +33,9 @@ private:
     struct Course {
         std::string run;
         std::set<std::string> runsBefore;
-        std::uint64_t next = 0;                  ///< number of the packet after the last one that came
-        std::optional<log::WallTime> lastTime{}; ///< of that
-        std::vector<std::byte> lastBytes{};
+        std::uint64_t next = 0;                 ///< number of the packet after the last one that came
+        std::vector<std::uint64_t> signs{};     ///< of the packets of the last batch
+        std::vector<std::uint64_t> repeating{}; ///< of those that the run may begin with once more
     };
     [[nodiscard]] bool isNews(Course& course, const Message& batch, Taken& taken) const;
 

@@ -98,6 +98,15 @@ TEST_F(BatchOrderTest, LeavesOutWhatANewRunRepeats) {
     EXPECT_EQ(again.taken.packets, 2U);
 }
 
+TEST_F(BatchOrderTest, LeavesOutRepeatsInSmallerBatchesToo) {
+    take({});
+    const std::string run = "fedcba9876543210";
+    EXPECT_TRUE(take({.run = run, .packets = {"one", "two"}}).bytes.empty());
+    EXPECT_EQ(take({.run = run, .first = 2, .packets = {"three", "four"}, .time = 1'002}).bytes,
+              std::vector<std::string>{"four"});
+    EXPECT_EQ(take({.run = run, .first = 4, .packets = {"one"}}).bytes.size(), 1U) << "what is new is new";
+}
+
 TEST_F(BatchOrderTest, MissesNothingWhereAProbeBeginsAgain) {
     take({.first = 100});
     const Brought again = take({.run = "fedcba9876543210", .time = 2'000});
