@@ -19,8 +19,8 @@ namespace {
 constexpr char kOrder = std::endian::native == std::endian::little ? '<' : '>';
 
 void appendZip(std::size_t size, std::uint64_t value, std::string& bytes) {
-    for (std::size_t i = 0; i < size; ++i) {
-        bytes += static_cast<char>(value >> (8 * i) & 0xff);
+    for (std::size_t i = 0; i < size; ++i, value >>= 8) {
+        bytes += static_cast<char>(value & 0xff);
     }
 }
 
