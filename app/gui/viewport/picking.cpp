@@ -35,7 +35,7 @@ std::optional<PickedSegment> pickOrigin(const SceneFrame& frame, const QPointF& 
     return picked;
 }
 
-/// From elbow to fingertips, if these are as high as the head.
+/// Returns the box from elbow to fingertips if these are as high as the head; else an empty one.
 QRectF raisedArm(const Figure& figure, std::size_t foreArm, const render::Camera& camera,
                  const QSizeF& size) {
     constexpr float kTips = 0.75F;  // of a forearm, beyond the wrist
@@ -91,7 +91,7 @@ std::optional<ViewportLabel> labelOf(const Figure& figure, const render::Camera&
     return label;
 }
 
-/// Whether a ray meets a body before it is so far; `without` is left out.
+/// True if a ray meets a body within a distance; `without` is left out.
 bool isMet(const SceneFrame& frame, const render::Ray& ray, float distance, const Figure* without) {
     constexpr float kFlesh = 0.3F; // metres around the origins of segments
     const auto mayMeet = [&](const Figure& figure) {
@@ -112,7 +112,7 @@ bool isMet(const SceneFrame& frame, const render::Ray& ray, float distance, cons
     });
 }
 
-/// Deeper in a body than its middle is: on the side that is not seen.
+/// True if a place lies deeper in a body than its middle: on the side that is not seen.
 bool isOnFarSide(const SceneFrame& frame, const glm::vec3& place, const QPointF& there, const QSizeF& view) {
     constexpr float kHalfBody = 0.13F; // metres
     const render::Ray ray = frame.camera.rayThrough(screenPoint(there, view), aspectOf(view));

@@ -386,7 +386,7 @@ namespace {
 
 constexpr qreal kAside = 7;
 
-/// With a halo of the background, so that it can be read over anything.
+/// Paints a text with a halo of the background, so that it can be read over anything.
 void paintWithHalo(QPainter& painter, const QPointF& place, const QString& text, const QColor& colour) {
     constexpr std::array<QPointF, 8> kAround{
         {{-1.5, 0}, {1.5, 0}, {0, -1.5}, {0, 1.5}, {-1, -1}, {1, -1}, {-1, 1}, {1, 1}}};
@@ -398,7 +398,8 @@ void paintWithHalo(QPainter& painter, const QPointF& place, const QString& text,
     painter.drawText(place, text);
 }
 
-/// Beside its place; what is of a body also farther aside, row by row. Empty if all is taken.
+/// Finds room beside the place of a text; for one of a body also farther aside, row by row. Empty if all is
+/// taken.
 QRectF roomFor(const ViewportText& text, const QSizeF& size, const QRectF& view,
                const std::vector<QRectF>& taken) {
     constexpr int kRows = 8;

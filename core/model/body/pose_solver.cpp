@@ -272,8 +272,8 @@ private:
             rank == RotationRank::Nothing && !isSolvedSpine ? Provenance::Assumed : Provenance::Solved;
     }
 
-    /// The few markers of a segment with the joints beside it, and for the rest as it was before: its origin
-    /// moves with them.
+    /// Fits a segment to its few markers and the joints beside it, and for the rest as it was before: its
+    /// origin moves with them.
     void fitAsBefore(std::size_t i, std::optional<std::size_t> parent) {
         SegmentSource& source = m_solved.sources[i];
         const std::vector<MarkerPair> pairs = jointsAround(i);
@@ -303,15 +303,15 @@ private:
         source.isTwistAssumed = fitted.rank != RotationRank::Whole;
     }
 
-    /// Turned in its parent as it was before; in the world if it has none.
+    /// Returns it turned in its parent as it was before; in the world if it has none.
     [[nodiscard]] Quaterniond asBefore(std::size_t i, std::optional<std::size_t> parent) const {
         const auto& before = m_evidence.before->orientations;
         return parent ? m_solved.segments[*parent].orientation * before[*parent].conjugate() * before[i]
                       : before[i];
     }
 
-    /// Leads from a rotation that is held to the one that was solved, which a bent limb tells, and which time
-    /// does for what is not bent: never at once.
+    /// Leads from a rotation that is held toward the one that was solved, never at once: as fast as the bend
+    /// of the limb is sure, and slowly once it was held for kHold.
     void hold(std::size_t i, const Quaterniond& held, double bent) {
         constexpr double kFollowing = 1.6; // radians a second: 1.5° at 60 Hz
         constexpr double kReturning = 1.6;

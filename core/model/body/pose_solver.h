@@ -44,10 +44,10 @@ struct SolvedBody {
 /// Segments with three markers or more are fitted to them, those with fewer to theirs and to the joints of
 /// fitted ones beside them where these make three. What is left is solved from the pelvis outward:
 /// an origin by the bone from its parent, an orientation from the joints and markers of its segment, and from
-/// the plane in which a knee or an elbow bends; the spine turns as MVN interpolates it. How a segment is
-/// turned as nothing tells is held in its parent as it was before, for kHold, and then goes steadily to where
-/// it would be without a before: with its parent by the shortest way. It is marked, as is everything that
-/// rests on nothing that was sent. No before is of influence for longer than kForgotten.
+/// the plane in which a knee or an elbow bends; the spine turns as MVN interpolates it. A segment
+/// whose turn follows from none of these keeps it in its parent for kHold, and is then led steadily to the
+/// one that it has without a `before`: with its parent by the shortest way. It is marked, as is everything
+/// that rests on nothing that was sent. A `before` has no influence after kForgotten.
 [[nodiscard]] SolvedBody solveBody(const PoseEvidence& evidence, const BodyOrigins& body);
 inline constexpr double kHold = 1.0;      ///< seconds
 inline constexpr double kForgotten = 2.5; ///< seconds

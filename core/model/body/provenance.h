@@ -19,7 +19,7 @@ struct SegmentSource {
     Provenance orientation = Provenance::None;
     /// The direction of the segment is known, how it is turned about itself is not.
     bool isTwistAssumed = false;
-    /// For how long it has been held as it was, since nothing says how it is turned.
+    /// How long ago something last told how it is turned; 0 if something does now.
     float heldSeconds = 0;
     /// It was sent, and is of no use: not finite, or a quaternion of no length.
     bool isBroken = false;

@@ -44,8 +44,8 @@ const Message* Messages::messageOfSample(const CharacterKey& key, std::size_t pl
     return nullptr;
 }
 
-/// The pose of the message before `newest`, in kPoseTypes at `place`; null for none. What was followed to an
-/// earlier one is followed on.
+/// Returns the pose of the message before `newest`, in kPoseTypes at `place`; null for none. Goes on from the
+/// pose that was read last, if that is a little earlier.
 const CharacterPose* Messages::poseBefore(const CharacterKey& key, std::size_t place, const Message& newest,
                                           const PoseOrigin& origin) const {
     constexpr std::size_t kMost = 1024;
