@@ -11,26 +11,6 @@ namespace {
 
 using Result = tl::expected<void, log::FileError>;
 
-/// The bytes that were looked at, then the rest.
-class Rejoined final : public log::ByteSource {
-public:
-    Rejoined(std::span<const std::byte> head, log::ByteSource& rest) : m_head(head), m_rest(rest) {}
-    tl::expected<std::size_t, log::FileError> read(std::span<std::byte> into) override {
-        if (m_head.empty()) {
-            return m_rest.read(into);
-        }
-        const std::size_t count = std::min(into.size(), m_head.size());
-        std::copy_n(m_head.begin(), count, into.begin());
-        m_head = m_head.subspan(count);
-        return count;
-    }
-    [[nodiscard]] std::string name() const override { return m_rest.name(); }
-
-private:
-    std::span<const std::byte> m_head;
-    log::ByteSource& m_rest;
-};
-
 class MemorySink final : public log::ByteSink {
 public:
     explicit MemorySink(std::vector<std::byte>& bytes) : m_bytes(bytes) {}
@@ -64,12 +44,8 @@ bool isMvnx(std::span<const std::byte> head) {
 
 class MvnxSource::Reader {
 public:
-    Reader(std::vector<std::byte> head, log::ByteSource& rest, std::vector<std::byte>& into)
-        : m_head(std::move(head)),
-          m_source(std::span(m_head).last(contentOf(m_head).size()), rest),
-          m_xml(m_source),
-          m_sink(into),
-          m_writer(m_sink) {
+    Reader(std::string_view head, log::ByteSource& rest, std::vector<std::byte>& into)
+        : m_xml(head, rest), m_sink(into), m_writer(m_sink) {
         static_cast<void>(m_writer.begin({})); // memory takes everything
         const std::string path = rest.name();
         m_sender = {path.substr(path.find_last_of("/\\") + 1), log::Transport::File, 0};
@@ -150,8 +126,6 @@ private:
 
     static constexpr unsigned kMostSubjects = 64;
 
-    std::vector<std::byte> m_head;
-    Rejoined m_source;
     XmlReader m_xml;
     MemorySink m_sink;
     log::PcapngWriter m_writer;
@@ -185,8 +159,8 @@ Result MvnxSource::begin() {
     m_ready.resize(size);
     m_hasBegun = true;
     if (isMvnx(m_ready)) {
-        std::vector<std::byte> head = std::exchange(m_ready, {});
-        m_reader = std::make_unique<Reader>(std::move(head), *m_source, m_ready);
+        const std::vector<std::byte> head = std::exchange(m_ready, {});
+        m_reader = std::make_unique<Reader>(contentOf(head), *m_source, m_ready);
     }
     return {};
 }

@@ -23,8 +23,11 @@ public:
     static constexpr int kDeepest = 32;                             ///< elements within each other
     static constexpr std::size_t kLongest = std::size_t{256} << 10; ///< bytes of a tag or a text
 
-    /// `source` outlives this.
-    explicit XmlReader(log::ByteSource& source) : m_source(source) { m_xml.setNamespaceProcessing(false); }
+    /// Reads `head`, then `source`, which outlives this.
+    XmlReader(std::string_view head, log::ByteSource& source) : m_source(source) {
+        m_xml.setNamespaceProcessing(false);
+        m_xml.addData(QByteArray(head.data(), static_cast<qsizetype>(head.size())));
+    }
 
     /// Goes on to the next tag. Fails with FileError::Kind::Cut if the file ends within an element, with
     /// Damaged and the line if it is no such XML.

@@ -231,7 +231,8 @@ void appendNotices(Line& line, const DatagramPlace& place, const wire::Datagram&
     line.add(notices.dump());
 }
 
-/// Of what is not odd the values say as much as the bytes do: it is not read back from its line.
+/// True if the line gives back the bytes. One that is not odd need not be read for that: its values are
+/// encoded.
 bool givesBack(const Line& line, const wire::Datagram& datagram, wire::Bytes bytes) {
     static thread_local std::vector<std::byte> encoded; // its memory is reused
     if (!line.isOdd) {

@@ -39,7 +39,7 @@ enum class FoundBy : std::uint8_t { Naming, Word, Shape, Operator };
 struct BoneMapping {
     /// Index of the bone by mappable segment, or -1.
     std::array<int, kMappableCount> bones;
-    /// Of those that have a bone.
+    /// How each bone was found; without meaning if there is none.
     std::array<FoundBy, kMappableCount> foundBy{};
     /// The row of kBoneNamings by which the file names its bones; null for none.
     const BoneNaming* naming = nullptr;

@@ -74,7 +74,7 @@ private:
         return best;
     }
 
-    /// Where a path has the two longest bones one after the other.
+    /// Finds the two longest bones of a path that follow each other: their place, and the shorter length.
     std::pair<std::size_t, float> longBones(const Path& path) const {
         std::pair<std::size_t, float> best{0, 0.0F};
         for (std::size_t i = 0; i + 2 < path.size(); ++i) {

@@ -117,7 +117,7 @@ Spoken spokenOf(const std::vector<std::string>& parts, const std::set<std::strin
     return spoken;
 }
 
-/// Parts that nearly all names have say nothing.
+/// Splits names into words, without those that nearly all names share.
 std::vector<Spoken> spokenBy(std::span<const ImportedBone> bones) {
     std::vector<std::vector<std::string>> names;
     std::map<std::string, std::size_t> counts;

@@ -36,7 +36,7 @@ struct LinearBody {
 LinearBody linearBody(const SkinnedMesh& mannequin, const BodyFit& fit, bool hasLeftFingers,
                       bool hasRightFingers);
 
-/// Where a joint is for a palette that PaletteJob made with the origins of the body's fit.
+/// The place of a joint in a palette that PaletteJob made with the origins of the body's fit.
 struct LinearPlace {
     glm::vec3 position{};                          ///< of its origin, world, metres
     glm::quat orientation{1.0F, 0.0F, 0.0F, 0.0F}; ///< world

@@ -207,9 +207,9 @@ private:
         text += "</joints>\n";
     }
 
-    /// The pose that readers need before the first frame, thrice, as MVN writes it: where segments are in the
-    /// null pose of type 13, or in the body that stands in for it, none turned. MVN's own `tpose` is that of
-    /// its calibration, which is not sent. In `tpose-isb` arms have their ISB frames.
+    /// Writes the pose that readers need before the first frame three times, as MVN does: the null pose of
+    /// type 13, or the body used instead, with no segment turned. MVN's own `tpose` is the calibration pose,
+    /// which is not sent. In `tpose-isb` arms have their ISB frames.
     void addNullPoses(std::string& text) const {
         int index = -3;
         for (const std::string_view type : {"identity", "tpose", "tpose-isb"}) {

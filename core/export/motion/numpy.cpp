@@ -111,7 +111,7 @@ public:
     }
 
     [[nodiscard]] std::string fileName() const { return m_name + ".npy"; }
-    /// What its file begins with.
+    /// Returns the header of its file.
     [[nodiscard]] std::string head() const {
         constexpr std::size_t kAlignment = 64;
         constexpr std::size_t kBefore = 10;
@@ -203,7 +203,7 @@ private:
     static constexpr std::uint64_t kVersion = 45; ///< that ZIP64 came with
     static constexpr std::uint64_t kIn64 = 0xffffffff;
 
-    /// What a file's own header and the directory have in common.
+    /// Returns the part that a file's own header and the directory share.
     static std::string entry(const std::string& name, std::uint32_t crc, std::size_t extra) {
         constexpr std::uint64_t kFirstDay = 0x21; // of 1980: the same motion makes the same bytes
         std::string bytes;
@@ -217,7 +217,7 @@ private:
         appendZip(2, extra, bytes);
         return bytes;
     }
-    /// The field of ZIP64 with so many bytes; only its sizes.
+    /// Returns an extra field of ZIP64 of a length, filled with sizes alone.
     static std::string sizes(std::uint64_t size, std::size_t field) {
         std::string bytes("\x01\0", 2);
         appendZip(2, field, bytes);

@@ -51,9 +51,9 @@ public:
         fitAllMarkers();
         fitMarkersAndJoints();
         placePelvis();
-        fitAsBefore(segment::kT8, segment::kPelvis);
+        fitAsBefore(segment::kT8);
         if (!has(segment::kT8, &SegmentSource::orientation)) {
-            turn(segment::kT8, segment::kPelvis, m_solved.segments[segment::kPelvis].orientation);
+            turn(segment::kT8, m_solved.segments[segment::kPelvis].orientation);
         }
         for (std::size_t i = 1; i < kCount; ++i) {
             solve(i);
@@ -148,7 +148,7 @@ private:
         SegmentSource& source = m_solved.sources[kPelvis];
         if (source.orientation == Provenance::None) {
             if (source.position != Provenance::None) {
-                turn(kPelvis, std::nullopt, Quaterniond::Identity());
+                turn(kPelvis, Quaterniond::Identity());
             } else if (const auto fit = fitMarkers(joints(kPelvis), std::numeric_limits<double>::max())) {
                 pelvis = {fit->position, fit->rotation};
                 source = {Provenance::Solved, Provenance::Solved};
@@ -208,7 +208,7 @@ private:
         const std::size_t parent = parentOf(i);
         const SegmentPose& from = m_solved.segments[parent];
         if (!isSpine(i)) {
-            fitAsBefore(i, parent);
+            fitAsBefore(i);
         }
         if (source.position == Provenance::None) {
             m_solved.segments[i].position = from.position + from.orientation * bone(i);
@@ -219,7 +219,7 @@ private:
             source.position = isAssumed ? Provenance::Assumed : Provenance::Solved;
         }
         if (source.orientation == Provenance::None) {
-            turn(i, parent, priorOf(i));
+            turn(i, priorOf(i));
             if (isSpine(i) && isSpineKnown() && !m_evidence.positions[i]) {
                 placeByMarkers(i);
             }
@@ -238,8 +238,8 @@ private:
     }
 
     /// Turns a segment to what is known of its joints, its markers and the plane of its limb, and for the
-    /// rest as it was before in `parent`, or as `prior`.
-    void turn(std::size_t i, std::optional<std::size_t> parent, const Quaterniond& prior) {
+    /// rest as it was before, or as `prior`.
+    void turn(std::size_t i, const Quaterniond& prior) {
         SegmentSource& source = m_solved.sources[i];
         const bool isSolvedSpine = isSpine(i) && isSpineKnown();
         std::vector<VectorPair> vectors;
@@ -265,7 +265,7 @@ private:
         }
         m_solved.segments[i].orientation = fitRotation(vectors, prior).rotation;
         if (m_evidence.before && rank != RotationRank::Whole && !isSpine(i)) {
-            hold(i, fitRotation(known, asBefore(i, parent)).rotation, bent);
+            hold(i, fitRotation(known, asBefore(i)).rotation, bent);
         }
         source.isTwistAssumed = rank == RotationRank::Direction && !isSolvedSpine;
         source.orientation =
@@ -274,11 +274,14 @@ private:
 
     /// Fits a segment to its few markers and the joints beside it, and for the rest as it was before: its
     /// origin moves with them.
-    void fitAsBefore(std::size_t i, std::optional<std::size_t> parent) {
+    void fitAsBefore(std::size_t i) {
         SegmentSource& source = m_solved.sources[i];
+        if (!m_evidence.before || m_evidence.markers[i].empty() || source.orientation != Provenance::None ||
+            source.position != Provenance::None) {
+            return;
+        }
         const std::vector<MarkerPair> pairs = jointsAround(i);
-        if (!m_evidence.before || m_evidence.markers[i].empty() || pairs.size() < 2 ||
-            source.orientation != Provenance::None || source.position != Provenance::None) {
+        if (pairs.size() < 2) {
             return;
         }
         MarkerPair centre;
@@ -296,18 +299,22 @@ private:
         constexpr double kPriorWeight = 0.16;
         constexpr double kPriorSeconds = 0.05;
         const double priorWeight = kPriorWeight * std::exp(-source.heldSeconds / kPriorSeconds);
-        const FittedRotation fitted = fitRotation(vectors, asBefore(i, parent), priorWeight);
+        const FittedRotation fitted = fitRotation(vectors, asBefore(i), priorWeight);
         m_solved.segments[i] = {centre.world - fitted.rotation * centre.local, fitted.rotation};
         source.position = Provenance::Solved;
         source.orientation = Provenance::Solved;
         source.isTwistAssumed = fitted.rank != RotationRank::Whole;
     }
 
-    /// Returns it turned in its parent as it was before; in the world if it has none.
-    [[nodiscard]] Quaterniond asBefore(std::size_t i, std::optional<std::size_t> parent) const {
+    /// Returns it turned in its parent as it was before; the pelvis in the world, and T8 in the pelvis, since
+    /// the spine between them follows from both.
+    [[nodiscard]] Quaterniond asBefore(std::size_t i) const {
         const auto& before = m_evidence.before->orientations;
-        return parent ? m_solved.segments[*parent].orientation * before[*parent].conjugate() * before[i]
-                      : before[i];
+        if (i == segment::kPelvis) {
+            return before[i];
+        }
+        const std::size_t parent = i == segment::kT8 ? std::size_t{segment::kPelvis} : parentOf(i);
+        return m_solved.segments[parent].orientation * before[parent].conjugate() * before[i];
     }
 
     /// Leads from a rotation that is held toward the one that was solved, never at once: as fast as the bend
