@@ -316,6 +316,24 @@ BoneMapping mapBones(std::span<const ImportedBone> bones) {
     return 2 * missingSegments(best).size() <= missingSegments({}).size() ? best : BoneMapping();
 }
 
+std::vector<BoneCorrection> correct(BoneMapping& mapping, std::span<const ImportedBone> bones,
+                                    std::span<const BoneCorrection> corrections) {
+    std::vector<BoneCorrection> unfit;
+    for (const BoneCorrection& correction : corrections) {
+        const auto found = std::ranges::find(bones, correction.bone, &ImportedBone::name);
+        if (found == bones.end() && !correction.bone.empty()) {
+            unfit.push_back(correction);
+            continue;
+        }
+        const int bone = found == bones.end() ? -1 : static_cast<int>(found - bones.begin());
+        std::ranges::replace_if(
+            mapping.bones, [&](int taken) { return bone >= 0 && taken == bone; }, -1);
+        mapping.bones.at(correction.mappable) = bone;
+        mapping.foundBy.at(correction.mappable) = FoundBy::Operator;
+    }
+    return unfit;
+}
+
 std::vector<std::size_t> missingSegments(const BoneMapping& mapping) {
     std::vector<std::size_t> missing;
     for (std::size_t i = 0; i < kMappableCount; ++i) {

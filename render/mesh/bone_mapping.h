@@ -52,6 +52,17 @@ struct BoneMapping {
 /// leaves open by words of kBoneWords, and what these leave open by the skeleton's shape.
 BoneMapping mapBones(std::span<const ImportedBone> bones);
 
+/// A bone that the operator gives a segment; no bone if its name is empty.
+struct BoneCorrection {
+    std::size_t mappable = 0;
+    std::string bone;
+
+    bool operator==(const BoneCorrection&) const = default;
+};
+/// Gives segments other bones; each leaves the segment that had it. Returns those whose bones are not there.
+std::vector<BoneCorrection> correct(BoneMapping& mapping, std::span<const ImportedBone> bones,
+                                    std::span<const BoneCorrection> corrections);
+
 /// "MVN, Mixamo, … or Character Creator".
 std::string knownNamings();
 

@@ -109,9 +109,20 @@ void CharacterReading::begin(const QString& path, std::function<void(const ReadC
         });
 }
 
+render::BoneMapping mappingOf(const CharacterFile& file, const BodyChoice& choice, QStringList* unfit) {
+    render::BoneMapping mapping = file.mapping;
+    for (const auto& [segment, bone] : render::correct(mapping, file.character.bones, choice.bones)) {
+        if (unfit != nullptr) {
+            *unfit += QStringLiteral("%1 (%2)").arg(fromUtf8(render::mappableTitle(segment)),
+                                                    shown(model::ForeignText(bone)));
+        }
+    }
+    return mapping;
+}
+
 tl::expected<std::shared_ptr<const DressedBody>, QString> bodyOf(const CharacterFile& file,
                                                                  const BodyChoice& choice) {
-    auto body = render::makeOwnBody(file.character, file.mapping, choice.rest);
+    auto body = render::makeOwnBody(file.character, mappingOf(file, choice), choice.rest);
     if (!body) {
         return tl::unexpected(QString::fromStdString(body.error()));
     }
@@ -119,12 +130,17 @@ tl::expected<std::shared_ptr<const DressedBody>, QString> bodyOf(const Character
 }
 
 QJsonObject jsonOf(const CharacterFile& file, const BodyChoice& choice) {
+    QJsonObject bones;
+    for (const auto& [segment, bone] : choice.bones) {
+        bones[fromUtf8(render::mappableName(segment))] = fromUtf8(bone);
+    }
     return {{"file", QDir().absoluteFilePath(file.path)},
             {"sum", file.sum},
             {"unit", choice.rest.unit},
             {"quarterTurns", choice.rest.quarterTurns},
             {"straightened", choice.rest.isStraightened},
-            {"scaled", choice.isScaled}};
+            {"scaled", choice.isScaled},
+            {"bones", bones}};
 }
 
 BodyChoice choiceOf(const QJsonObject& kept) {
@@ -134,6 +150,12 @@ BodyChoice choiceOf(const QJsonObject& kept) {
     choice.rest.quarterTurns = kept["quarterTurns"].toInt() & 3;
     choice.rest.isStraightened = kept["straightened"].toBool(true);
     choice.isScaled = kept["scaled"].toBool(true);
+    const QJsonObject bones = kept["bones"].toObject();
+    for (std::size_t i = 0; i < render::kMappableCount; ++i) {
+        if (const auto bone = bones.constFind(fromUtf8(render::mappableName(i))); bone != bones.constEnd()) {
+            choice.bones.push_back({i, bone->toString().toStdString()});
+        }
+    }
     return choice;
 }
 
@@ -220,8 +242,17 @@ void OwnCharacters::finish(const QString& name, const ReadCharacter& file) {
     const auto kept = m_kept.find(name);
     if (kept != m_kept.end() && std::ranges::find(m_waiting, name) != m_waiting.end()) {
         std::erase(m_waiting, name);
+        const BodyChoice choice = choiceOf(kept->second);
+        QStringList unfit;
+        if (file) {
+            static_cast<void>(mappingOf(**file, choice, &unfit));
+        }
+        if (!unfit.isEmpty()) {
+            emit failed(tr("%1 has changed: it no longer has the bones that were chosen for %2.")
+                            .arg(QFileInfo((*file)->path).fileName(), unfit.join(QStringLiteral(", "))));
+        }
         const auto body =
-            file ? bodyOf(**file, choiceOf(kept->second))
+            file ? bodyOf(**file, choice)
                  : tl::expected<std::shared_ptr<const DressedBody>, QString>(tl::unexpected(file.error()));
         if (body) {
             (name.isEmpty() ? m_wardrobe.forAll : m_wardrobe.byName[name]) = *body;

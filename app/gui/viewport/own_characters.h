@@ -57,9 +57,13 @@ private:
 struct BodyChoice {
     render::RestChoice rest;
     bool isScaled = true;
+    std::vector<render::BoneCorrection> bones; ///< one at most for a segment
 
     bool operator==(const BodyChoice&) const = default;
 };
+/// The mapping of the file with the operator's bones; `unfit` gets "Left Hand (claw_l)" for those it lacks.
+[[nodiscard]] render::BoneMapping mappingOf(const CharacterFile& file, const BodyChoice& choice,
+                                            QStringList* unfit = nullptr);
 [[nodiscard]] tl::expected<std::shared_ptr<const DressedBody>, QString> bodyOf(const CharacterFile& file,
                                                                                const BodyChoice& choice);
 
@@ -100,7 +104,7 @@ public:
 signals:
     /// Somebody is dressed otherwise.
     void changed();
-    /// A body of the last run is not to be had; in a sentence.
+    /// A body of the last run is not to be had as it was; in a sentence.
     void failed(const QString& problem);
 
 private:

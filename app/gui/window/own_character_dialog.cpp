@@ -217,7 +217,7 @@ OwnCharacterDialog::OwnCharacterDialog(OwnCharacters& characters, const QStringL
     }
     m_who->setCurrentIndex(std::max(0, m_who->findData(selected)));
     makeForm();
-    resize(QSize(52, 34) * fontMetrics().height());
+    resize(QSize(66, 38) * fontMetrics().height());
     const QJsonObject kept = characters.keptFor(who());
     if (const QString path = kept["file"].toString(); !path.isEmpty()) {
         read(path);
@@ -249,7 +249,10 @@ void OwnCharacterDialog::makeForm() {
     left->addWidget(m_state);
     auto* middle = spacedRow({}, fontMetrics().height());
     middle->addLayout(left, 1);
-    middle->addLayout(form);
+    auto* right = new QVBoxLayout;
+    right->addLayout(form);
+    right->addWidget(m_table, 1);
+    middle->addLayout(right);
     auto* target = new QFormLayout;
     target->addRow(tr("F&or"), m_who);
     auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel, this);
@@ -272,6 +275,7 @@ void OwnCharacterDialog::makeForm() {
     for (QComboBox* each : {m_unit, m_heading, m_rest, m_size}) {
         connect(each, &QComboBox::activated, this, &OwnCharacterDialog::makeBody);
     }
+    connect(m_table, &BoneTable::corrected, this, &OwnCharacterDialog::correct);
     connect(m_who, &QComboBox::activated, this, &OwnCharacterDialog::describe);
     connect(m_mannequin, &QPushButton::clicked, this, [this] {
         m_characters.undress(who());
@@ -314,8 +318,10 @@ void OwnCharacterDialog::take(const ReadCharacter& file) {
     } else {
         m_file = *file;
         const QJsonObject kept = m_characters.keptFor(who());
+        const bool isKept = kept["sum"].toString() == m_file->sum ||
+                            kept["file"].toString() == QFileInfo(m_file->path).absoluteFilePath();
         // What was chosen for another file is of no use here.
-        showChoice(choiceOf(kept["sum"].toString() == m_file->sum ? kept : QJsonObject()));
+        showChoice(choiceOf(isKept ? kept : QJsonObject()));
         makeBody();
     }
     emit finished();
@@ -327,6 +333,7 @@ void OwnCharacterDialog::showChoice(const BodyChoice& choice) {
     m_heading->setCurrentIndex(choice.rest.quarterTurns);
     m_rest->setCurrentIndex(choice.rest.isStraightened ? Straightened : AsItIs);
     m_size->setCurrentIndex(choice.isScaled ? OfPerformer : OfFile);
+    m_bones = choice.bones;
 }
 
 BodyChoice OwnCharacterDialog::choice() const {
@@ -334,7 +341,16 @@ BodyChoice OwnCharacterDialog::choice() const {
     choice.rest = {kUnits.at(static_cast<std::size_t>(m_unit->currentIndex())), m_heading->currentIndex(),
                    m_rest->currentIndex() == Straightened};
     choice.isScaled = m_size->currentIndex() == OfPerformer;
+    choice.bones = m_bones;
     return choice;
+}
+
+void OwnCharacterDialog::correct(std::size_t mappable, const QString& bone) {
+    std::erase_if(m_bones, [&](const auto& one) {
+        return one.mappable == mappable || (!bone.isEmpty() && fromUtf8(one.bone) == bone);
+    });
+    m_bones.push_back({mappable, bone.toStdString()});
+    makeBody();
 }
 
 void OwnCharacterDialog::makeBody() {
@@ -358,12 +374,19 @@ void OwnCharacterDialog::describe() {
     }
     if (!m_isReading && m_file != nullptr) {
         const render::ImportedCharacter& character = m_file->character;
+        QStringList unfit;
+        const render::BoneMapping mapping = mappingOf(*m_file, choice(), &unfit);
+        m_table->setMapping(mapping, character.bones);
         lines += tr("Bones %1 (%2) · vertices %3")
                      .arg(QString::number(character.bones.size()), recognition(m_file->mapping),
                           grouped(character.mesh.vertexCount()));
-        if (const QStringList shape = guessed(m_file->mapping); !shape.isEmpty()) {
+        if (const QStringList shape = guessed(mapping); !shape.isEmpty()) {
             lines += tr("Guessed by the skeleton's shape, check the preview: %1")
                          .arg(shape.join(QStringLiteral(", ")));
+        }
+        if (!unfit.isEmpty()) {
+            lines += tr("The file no longer has the bones that were chosen for %1")
+                         .arg(unfit.join(QStringLiteral(", ")));
         }
         lines += m_file->remarks;
     }
@@ -389,6 +412,7 @@ void OwnCharacterDialog::describe() {
     for (QComboBox* each : {m_unit, m_heading, m_rest, m_size}) {
         each->setEnabled(hasFile);
     }
+    m_table->setEnabled(hasFile);
     m_again->setVisible(hasProblem && m_file == nullptr);
     m_browse->setEnabled(!m_isReading);
     m_apply->setEnabled(!m_isReading && m_body != nullptr);

@@ -3,6 +3,7 @@
 
 #include "app/gui/theme/widgets.h"
 #include "app/gui/viewport/own_characters.h"
+#include "app/gui/window/bone_table.h"
 
 #include <QDialog>
 #include <QLineEdit>
@@ -43,6 +44,7 @@ private:
     void showChoice(const BodyChoice& choice);
     /// By what is chosen now.
     void makeBody();
+    void correct(std::size_t mappable, const QString& bone);
     void describe();
 
     OwnCharacters& m_characters;
@@ -60,6 +62,8 @@ private:
     QComboBox* m_heading = new ComboBox(this);
     QComboBox* m_rest = new ComboBox(this);
     QComboBox* m_size = new ComboBox(this);
+    BoneTable* m_table = new BoneTable(this);
+    std::vector<render::BoneCorrection> m_bones; ///< the operator's
     QComboBox* m_who = new ComboBox(this);
     QPushButton* m_apply = new QPushButton(tr("&Apply"), this);
     QPushButton* m_mannequin = new QPushButton(tr("Use the &mannequin"), this);

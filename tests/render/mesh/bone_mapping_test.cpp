@@ -230,6 +230,20 @@ TEST(BoneMapping, KnowsTheThumbOfBothVersionsOfVrm) {
     EXPECT_EQ(found["RightFirstMC"], "rightThumbProximal");
 }
 
+TEST(BoneMapping, TakesTheBonesOfTheOperator) {
+    const std::vector<ImportedBone> bones = kMvnSkeleton.bones();
+    BoneMapping mapping = mapBones(bones);
+    const int head = mapping.bones[Head];
+    const std::vector<BoneCorrection> wanted{{Neck, "Head"}, {L5, ""}, {T8, "Antenna"}};
+    const std::vector<BoneCorrection> unfit = correct(mapping, bones, wanted);
+    EXPECT_EQ(unfit, std::vector<BoneCorrection>{wanted[2]});
+    EXPECT_EQ(mapping.bones[Neck], head);
+    EXPECT_EQ(mapping.foundBy[Neck], FoundBy::Operator);
+    EXPECT_EQ(mapping.bones[Head], -1); // a bone follows one segment
+    EXPECT_EQ(mapping.bones[L5], -1);
+    EXPECT_EQ(mapping.bones[T8], mapBones(bones).bones[T8]);
+}
+
 TEST(BoneMapping, SaysWhatIsMissing) {
     std::vector<ImportedBone> bones = kMixamoSkeleton.bones();
     for (ImportedBone& bone : bones) {

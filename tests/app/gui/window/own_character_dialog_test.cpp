@@ -98,6 +98,54 @@ TEST_F(OwnCharacterDialogTest, NamesTheBonesThatItGuesses) {
     EXPECT_TRUE(button("Apply")->isEnabled());
 }
 
+/// Opens the editor of a cell as the keyboard does and chooses a bone in it.
+void chooseBone(BoneTable& table, int row, const QString& bone) {
+    table.setCurrentItem(table.topLevelItem(row));
+    QTest::keyClick(&table, Qt::Key_F2);
+    auto* box = table.findChild<QComboBox*>();
+    ASSERT_NE(box, nullptr);
+    const int at = box->findText(bone);
+    ASSERT_GE(at, 0) << bone.toStdString();
+    box->setCurrentIndex(at);
+    emit box->activated(at);
+    QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
+}
+
+TEST_F(OwnCharacterDialogTest, KeepsTheBonesThatAreChosenByHand) {
+    const QString path = m_folder.filePath("mine.glb");
+    ASSERT_TRUE(QFile::copy(m_mannequin, path));
+    open("Bob");
+    ASSERT_TRUE(read(path));
+    auto* table = m_dialog->findChild<BoneTable*>();
+    ASSERT_NE(table, nullptr);
+    EXPECT_EQ(table->topLevelItemCount(), static_cast<int>(render::kMappableCount));
+    m_dialog->show();
+    const QString before = table->topLevelItem(render::L5)->text(1);
+    EXPECT_EQ(table->topLevelItem(render::L5)->text(2), "name");
+    chooseBone(*table, render::L5, "no bone");
+    EXPECT_EQ(table->topLevelItem(render::L5)->text(2), "");
+    chooseBone(*table, render::L3, before);
+    EXPECT_EQ(table->topLevelItem(render::L3)->text(1), before);
+    EXPECT_EQ(table->topLevelItem(render::L3)->text(2), "by hand");
+    m_dialog->accept();
+    open("Bob");
+    ASSERT_TRUE(settle());
+    table = m_dialog->findChild<BoneTable*>();
+    EXPECT_EQ(table->topLevelItem(render::L3)->text(1), before);
+
+    QFile file(path); // somebody edits the file: the bone has another name now
+    ASSERT_TRUE(file.open(QIODevice::ReadWrite));
+    QByteArray bytes = file.readAll();
+    bytes.replace(("\"" + before + "\"").toUtf8(),
+                  ("\"" + QString("q").repeated(before.size()) + "\"").toUtf8());
+    file.seek(0);
+    file.write(bytes);
+    file.close();
+    open("Bob");
+    ASSERT_TRUE(settle());
+    EXPECT_TRUE(m_dialog->stateText().contains("L3 (" + before + ")")) << m_dialog->stateText().toStdString();
+}
+
 TEST_F(OwnCharacterDialogTest, ReadsPathsAsPeoplePasteThem) {
     open();
     auto* path = m_dialog->findChild<QLineEdit*>();
