@@ -18,10 +18,6 @@ bool isPlaceholder(std::string_view alternative) {
 
 } // namespace
 
-std::string_view version() {
-    return POSEWIRE_VERSION;
-}
-
 bool isArgument(const Option& option) {
     return option.names.empty();
 }

@@ -51,7 +51,7 @@ struct Program {
 /// `separator` between the words.
 [[nodiscard]] std::string joined(const std::vector<std::string>& words, std::string_view separator);
 
-/// The version of both programs, "0.1.0": that of the project in the topmost CMakeLists.txt.
+/// The version of both programs, "0.2.0" or "0.2.0~dev.12+gfea9cb7b": see packaging/cmake/Version.cmake.
 [[nodiscard]] std::string_view version();
 
 } // namespace posewire::usage

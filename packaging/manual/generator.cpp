@@ -41,7 +41,7 @@ bool writePage(const usage::Program& program, const Places& places) {
         std::cerr << path.string() << ": " << page.error() << '\n';
         return false;
     }
-    return write(places.output / (program.name + ".1"), *page);
+    return write(places.output / (program.name + ".1.in"), *page);
 }
 
 } // namespace

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Installs into a folder of its own: nothing is forgotten, nothing else comes along, and what is there starts from there.
 
-usage: install_test.py CMAKE BUILD_FOLDER VERSION
+usage: install_test.py CMAKE BUILD_FOLDER
 """
 import gzip
 import os
@@ -78,7 +78,8 @@ def check_programs(root, version):
         assert [line.split()[0] for line in out.splitlines()[1:]] == LIBRARIES[name], out
 
 
-def main(cmake, build, version):
+def main(cmake, build):
+    version = (pathlib.Path(build) / "version/version.txt").read_text(encoding="utf-8").splitlines()[0]
     with tempfile.TemporaryDirectory() as name:
         subprocess.run([cmake, "--install", build, "--prefix", "/usr"], env=dict(os.environ, DESTDIR=name), check=True,
                        stdout=subprocess.DEVNULL)
