@@ -20,7 +20,7 @@ constexpr const char* kFrame = R"(<!DOCTYPE html>
 <head>
 <meta charset="utf-8"/>
 <meta name="viewport" content="width=device-width, initial-scale=1"/>
-<title>@title – Posewire user guide</title>
+<title>@title</title>
 <link rel="stylesheet" href="guide.css"/>
 </head>
 <body>
@@ -109,7 +109,9 @@ QString contentsOf(const HelpPages& pages, const HelpPage& shown) {
 
 QString helpHtml(const HelpPages& pages, const HelpPage& page) {
     QString html = QString::fromUtf8(kFrame);
-    html.replace(QLatin1String("@title"), escaped(page.title));
+    const QString guide = pages.find(QLatin1String(HelpPages::kStart))->title;
+    const QString title = page.title == guide ? guide : QStringLiteral("%1 – %2").arg(page.title, guide);
+    html.replace(QLatin1String("@title"), escaped(title));
     html.replace(QLatin1String("@contents"), contentsOf(pages, page));
     html.replace(QLatin1String("@body"), bodyOf(page));
     return html;

@@ -66,6 +66,7 @@ TEST(HelpHtml, APageHasItsTitleItsTablesAndAllContents) {
     const HelpPages pages(madeHelpParts());
     const QString html = helpHtml(pages, *pages.find("packets"));
     EXPECT_TRUE(html.contains("<title>Packets – Posewire user guide</title>"));
+    EXPECT_TRUE(helpHtml(pages, *pages.find("index")).contains("<title>Posewire user guide</title>"));
     EXPECT_TRUE(html.contains("<h1 id=\"packets\">Packets</h1>"));
     EXPECT_TRUE(html.contains("<h2 id=\"filter\">Filter</h2>"));
     EXPECT_TRUE(html.contains("<th>column</th>"));
