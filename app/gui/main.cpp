@@ -240,6 +240,7 @@ void begin(MainWindow& window, const Options& options, const Settings& settings)
 int main(int argc, char** argv) {
     QCoreApplication::setOrganizationName(QStringLiteral("Posewire"));
     QCoreApplication::setApplicationName(QStringLiteral("posewire"));
+    QGuiApplication::setDesktopFileName(QStringLiteral("org.posewire.posewire"));
     QCoreApplication::setApplicationVersion(QString::fromUtf8(posewire::usage::version()));
     const auto options = readOptions(argc, argv);
     if (!options) {

@@ -22,7 +22,7 @@ PACKAGES = PROGRAMS + ("wireshark-mxtp",)
 
 def expected():
     files = {f"share/icons/hicolor/{size}x{size}/apps/posewire.png" for size in ICON_SIZES}
-    files |= {"share/icons/hicolor/scalable/apps/posewire.svg", "share/applications/posewire.desktop",
+    files |= {"share/icons/hicolor/scalable/apps/posewire.svg", "share/applications/org.posewire.posewire.desktop",
               "share/metainfo/org.posewire.posewire.metainfo.xml", "share/mime/packages/posewire.xml",
               "share/licenses/posewire/MIT.txt", "share/licenses/posewire/GPL-3.0-or-later.txt",
               "share/doc/posewire-cli/formats.md", "share/doc/posewire-cli/metrics/alerts.yml", "share/doc/posewire-cli/metrics/grafana.json",

@@ -27,7 +27,7 @@ def type_of(path, data_home):
 def main(desktop, golden):
     if not shutil.which("update-mime-database") or not shutil.which("gio"):
         return SKIPPED
-    opened = set(re.search(r"^MimeType=(.*);$", (desktop / "posewire.desktop").read_text(), re.M).group(1).split(";"))
+    opened = set(re.search(r"^MimeType=(.*);$", (desktop / "org.posewire.posewire.desktop").read_text(), re.M).group(1).split(";"))
     declared = set(re.findall(r'<mime-type type="([^"]+)"', (desktop / "posewire.xml").read_text()))
     assert opened == declared | KNOWN_TO_EVERY_DESKTOP, (opened, declared)
     with tempfile.TemporaryDirectory() as name:
