@@ -10,6 +10,7 @@
 #include "app/gui/theme/theme.h"
 #include "app/gui/theme/widgets.h"
 #include "app/gui/theme/words.h"
+#include "app/gui/window/about.h"
 #include "app/gui/window/command_palette.h"
 #include "app/gui/window/diagnostics.h"
 #include "app/gui/window/docks.h"
@@ -77,20 +78,6 @@ void showHelpHere(Window& window) {
 template <HelpTopic topic>
 void showPage(Window& window) {
     window.guide().show(placeOf(topic));
-}
-
-void showAbout(Window& window) {
-    auto* box =
-        new MessageBox(tr("About Posewire"), tr("Posewire %1").arg(QCoreApplication::applicationVersion()),
-                       QMessageBox::Close, &window);
-    box->setAttribute(Qt::WA_DeleteOnClose);
-    box->setIconPixmap(applicationIcon().pixmap(64));
-    box->setInformativeText(tr("Network monitor for MVN motion-capture streams.\n\nThe application is free "
-                               "software under the GNU "
-                               "General Public License, version 3 or later; its core and renderer are under "
-                               "the MIT licence.\n\nQt %1")
-                                .arg(QLatin1String(qVersion())));
-    box->open();
 }
 
 void findCommand(Window& window) {

@@ -21,6 +21,7 @@
 #include <QJsonDocument>
 #include <QLayout>
 #include <QLineEdit>
+#include <QMessageBox>
 #include <QMimeData>
 #include <QPushButton>
 #include <QTemporaryDir>
@@ -114,6 +115,15 @@ TEST_F(HelpingTest, F1OpensThePageOfThePartThatHasTheKeyboard) {
     focus(*window.findChild<QWidget*>("headline"));
     here->trigger();
     EXPECT_EQ(place(), "bars#verdict-bar");
+}
+
+TEST_F(HelpingTest, AboutListsTheLibrariesWithTheirLicences) {
+    window.findChild<QAction*>("about")->trigger();
+    const auto* box = window.findChild<QMessageBox*>();
+    ASSERT_NE(box, nullptr);
+    EXPECT_TRUE(box->informativeText().contains(", QCustomPlot (GPL-3.0-or-later), "))
+        << box->informativeText().toStdString();
+    EXPECT_TRUE(box->informativeText().contains("Eigen (MPL-2.0)"));
 }
 
 TEST_F(HelpingTest, TheMenuOpensTheGuideItsCausesAndItsShortcuts) {
