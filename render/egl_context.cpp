@@ -7,7 +7,6 @@
 #include <utility>
 
 #include <epoxy/egl.h>
-#include <epoxy/gl.h>
 
 namespace posewire::render {
 namespace {
@@ -124,16 +123,6 @@ bool OffscreenContext::makeCurrent() {
 
 void OffscreenContext::doneCurrent() {
     m_impl->release();
-}
-
-std::string OffscreenContext::driverName() const {
-    const auto text = [](GLenum name) {
-        const GLubyte* value = glGetString(name);
-        return value == nullptr
-                   ? std::string("unknown")
-                   : std::string(reinterpret_cast<const char*>(value)); // NOLINT: the API's own type
-    };
-    return text(GL_VERSION) + ", " + text(GL_RENDERER);
 }
 
 } // namespace posewire::render

@@ -22,6 +22,16 @@ void flipRows(Image& image) {
 
 } // namespace
 
+std::string OffscreenContext::driverName() const {
+    const auto text = [](GLenum name) {
+        const GLubyte* value = glGetString(name);
+        return value == nullptr
+                   ? std::string("unknown")
+                   : std::string(reinterpret_cast<const char*>(value)); // NOLINT: the API's own type
+    };
+    return text(GL_VERSION) + ", " + text(GL_RENDERER);
+}
+
 struct OffscreenRenderer::Impl {
     // The order matters: what belongs to the context has to go before it.
     OffscreenContext context;

@@ -13,9 +13,10 @@
 
 namespace posewire::render {
 
-/// An OpenGL 3.3 core context without window, display or X, by EGL: on the surfaceless platform, else on the
-/// first device that has one. Independent of any context that the program has beside it (Qt's for example).
-/// `create` leaves it current on the calling thread; it belongs to one thread at a time.
+/// An OpenGL 3.3 core context that shows nothing: by EGL without display or X, on the surfaceless platform,
+/// else on the first device that has one; on Windows by WGL, with a hidden window. Independent of any context
+/// that the program has beside it (Qt's for example). `create` leaves it current on the calling thread; it
+/// belongs to one thread at a time.
 class OffscreenContext {
 public:
     static tl::expected<OffscreenContext, std::string> create();
