@@ -64,7 +64,11 @@ if(POSEWIRE_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   add_compile_options($<$<COMPILE_LANGUAGE:CXX>:-Wno-subobject-linkage>)
 endif()
 
+# Units of Windows stay on their own, for windows.h defines words such as near and interface.
 function(posewire_unite target)
+  get_target_property(sources ${target} SOURCES)
+  list(FILTER sources INCLUDE REGEX "(_windows|wgl_context)\\.cpp$")
+  set_source_files_properties(${sources} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${POSEWIRE_UNITY} UNITY_BUILD_BATCH_SIZE 16)
 endfunction()
 
