@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/theme/theme.h"
 
+#include "app/gui/theme/icon_drawing.h"
+
 #include <QFile>
 #include <QFontDatabase>
 #include <QFontMetrics>
@@ -8,7 +10,6 @@
 #include <QPainter>
 #include <QPalette>
 #include <QStyleFactory>
-#include <QSvgRenderer>
 #include <QTextDocument>
 
 #include <algorithm>
@@ -272,14 +273,11 @@ const HealthLook& lookOf(Health health) {
 
 class TintedIcon final : public QIconEngine {
 public:
-    TintedIcon(QByteArray svg, QColor colour) : m_svg(std::move(svg)), m_colour(std::move(colour)) {}
+    TintedIcon(QByteArray picture, QColor colour)
+        : m_picture(std::move(picture)), m_colour(std::move(colour)) {}
 
     void paint(QPainter* painter, const QRect& rectangle, QIcon::Mode mode, QIcon::State /*state*/) override {
-        const QColor colour = mode == QIcon::Disabled ? theme().dim : m_colour;
-        QByteArray tinted = m_svg;
-        tinted.replace("currentColor", colour.name().toLatin1());
-        QSvgRenderer renderer(tinted);
-        renderer.render(painter, QRectF(rectangle));
+        drawTinted(*painter, rectangle, m_picture, mode == QIcon::Disabled ? theme().dim : m_colour);
     }
 
     QPixmap pixmap(const QSize& size, QIcon::Mode mode, QIcon::State state) override {
@@ -296,7 +294,7 @@ public:
     [[nodiscard]] QIconEngine* clone() const override { return new TintedIcon(*this); }
 
 private:
-    QByteArray m_svg;
+    QByteArray m_picture;
     QColor m_colour;
 };
 
