@@ -200,10 +200,9 @@ struct Declared {
 
 /// No file that is read is written. One line for the user, or nothing.
 std::string outputProblem(const Options& options) {
-    const auto encoded = [](const QString& path) { return QFile::encodeName(path).toStdString(); };
-    const std::vector<std::string> inUse{encoded(options.file), encoded(options.comparedFile)};
+    const std::vector<std::string> inUse{options.file.toStdString(), options.comparedFile.toStdString()};
     const auto check = [&](const QString& path, bool mayReplace) {
-        const auto checked = log::checkOutput(encoded(path), {mayReplace, inUse});
+        const auto checked = log::checkOutput(path.toStdString(), {mayReplace, inUse});
         return path.isEmpty() || checked ? std::string() : checked.error().text;
     };
     std::string problem =

@@ -104,7 +104,7 @@ QString saveFile(const QString& path, QByteArrayView content) {
         return tr("Not saved: %1: %2").arg(path, problem);
     }
     const auto bytes = std::as_bytes(std::span(content.data(), static_cast<std::size_t>(content.size())));
-    const auto written = log::writeWholeFile(QFile::encodeName(path).toStdString(), bytes, replacing());
+    const auto written = log::writeWholeFile(path.toStdString(), bytes, replacing());
     return written ? QString() : tr("Not saved: %1").arg(QString::fromStdString(written.error().text));
 }
 
@@ -115,10 +115,9 @@ QString whyNotWritten(const log::FileError& error) {
 
 std::future<QString> saveCopy(const QString& from, const QString& to) {
     log::OutputRules rules = replacing();
-    rules.inUse.push_back(QFile::encodeName(from).toStdString());
+    rules.inUse.push_back(from.toStdString());
     return std::async(std::launch::async, [from, to, rules] {
-        const auto copied =
-            log::copyFile(QFile::encodeName(from).toStdString(), QFile::encodeName(to).toStdString(), rules);
+        const auto copied = log::copyFile(from.toStdString(), to.toStdString(), rules);
         return copied ? QString() : tr("Not saved: %1").arg(QString::fromStdString(copied.error().text));
     });
 }
@@ -137,7 +136,7 @@ QString savePicture(const QPixmap& picture, const QString& path) {
 }
 
 KeptFromSaving::KeptFromSaving(const QString& path)
-    : m_file(QFile::encodeName(QFileInfo(path).absoluteFilePath()).toStdString()) {
+    : m_file(QFileInfo(path).absoluteFilePath().toStdString()) {
     filesInUse().push_back(m_file);
 }
 

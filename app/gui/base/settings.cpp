@@ -311,7 +311,7 @@ QString SettingsFile::write(const Settings& settings) {
     if (own == m_known) {
         return {};
     }
-    if (!log::makeFolder(QFile::encodeName(QFileInfo(m_path).absolutePath()).toStdString())) {
+    if (!log::makeFolder(QFileInfo(m_path).absolutePath().toStdString())) {
         return tr("The folder of %1 cannot be created.").arg(m_path);
     }
     QLockFile lock(m_path + QStringLiteral(".lock"));

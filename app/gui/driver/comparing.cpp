@@ -6,8 +6,6 @@
 #include "core/model/session/messages.h"
 #include "core/model/session/roster.h"
 
-#include <QFile>
-
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -408,9 +406,10 @@ void Comparing::save(const QString& path) {
     }
     m_savingTo = path;
     m_savingOf = m_shown.first.log;
-    m_saving = std::make_unique<Background<std::string>>(
-        [order = m_shown, segments = m_state.range->segments, file = QFile::encodeName(path).toStdString()](
-            const auto& progress) { return writeDifferences(order, segments, file, progress); });
+    m_saving = std::make_unique<Background<std::string>>([order = m_shown, segments = m_state.range->segments,
+                                                          file = path.toStdString()](const auto& progress) {
+        return writeDifferences(order, segments, file, progress);
+    });
 }
 
 } // namespace posewire::gui

@@ -2,9 +2,8 @@
 #include "app/gui/driver/history.h"
 
 #include "app/gui/base/logging.h"
+#include "core/log/file_names.h"
 #include "core/log/output_file.h"
-
-#include <QFile>
 
 #include <algorithm>
 #include <filesystem>
@@ -17,7 +16,7 @@ namespace {
 std::uint64_t freeBytes(const QString& folder) {
     // QStorageInfo fails if the table of mounts lacks the root, as in a chroot.
     std::error_code failed;
-    const auto space = std::filesystem::space(QFile::encodeName(folder).toStdString(), failed);
+    const auto space = std::filesystem::space(log::pathOf(folder.toStdString()), failed);
     return failed ? 0 : space.available;
 }
 
@@ -35,24 +34,23 @@ log::RecordingInfo writtenByUs() {
 }
 
 std::shared_ptr<log::Scratch> scratchIn(const QString& folder) {
-    if (folder.isEmpty() || !log::makeFolder(QFile::encodeName(folder).toStdString())) {
+    if (folder.isEmpty() || !log::makeFolder(folder.toStdString())) {
         return std::make_shared<log::Scratch>();
     }
-    return std::make_shared<log::Scratch>(QFile::encodeName(folder).toStdString(), tenthOfFree(folder));
+    return std::make_shared<log::Scratch>(folder.toStdString(), tenthOfFree(folder));
 }
 
 std::vector<log::LostHistory> History::lost() const {
-    return m_folder.isEmpty() ? std::vector<log::LostHistory>()
-                              : log::lostHistories(QFile::encodeName(m_folder).toStdString());
+    return m_folder.isEmpty() ? std::vector<log::LostHistory>() : log::lostHistories(m_folder.toStdString());
 }
 
 void History::discardLost() {
-    log::discardHistories(QFile::encodeName(m_folder).toStdString(), 0);
+    log::discardHistories(m_folder.toStdString(), 0);
 }
 
 QString History::keep(std::uint64_t most) {
     m_onDisk.reset();
-    log::discardHistories(QFile::encodeName(m_folder).toStdString(), most);
+    log::discardHistories(m_folder.toStdString(), most);
     if (most == 0 || m_folder.isEmpty()) {
         return {};
     }
@@ -60,8 +58,7 @@ QString History::keep(std::uint64_t most) {
         return tr("There is no room for scratch files in %1: only what is in memory can be looked back at.")
             .arg(m_folder);
     }
-    const log::DiskHistoryChoice choice{QFile::encodeName(m_folder).toStdString(),
-                                        std::min(most, tenthOfFree(m_folder))};
+    const log::DiskHistoryChoice choice{m_folder.toStdString(), std::min(most, tenthOfFree(m_folder))};
     if (freeBytes(m_folder) < choice.leaveFree) {
         return tr("Less than 1 GB is free on the disk of %1: only what is in memory can be looked back at.")
             .arg(m_folder);

@@ -5,7 +5,6 @@
 #include "core/log/raw_pace.h"
 #include "core/model/accounting/other_formats.h"
 
-#include <QFile>
 #include <QFileInfo>
 
 #include <algorithm>
@@ -41,7 +40,7 @@ private:
 ImportResult visitFile(const QString& path, const log::FileVisitor& visit,
                        const log::IsCancelled& isCancelled, const log::NotesVisitor& visitNotes = {},
                        log::FileContents* contents = nullptr) {
-    const auto source = mvnx::openFile(QFile::encodeName(path).toStdString(), isCancelled);
+    const auto source = mvnx::openFile(path.toStdString(), isCancelled);
     if (!source) {
         return tl::unexpected(QString::fromStdString(source.error().text));
     }
@@ -120,8 +119,7 @@ FileImport::FileImport(log::PacketLog& log, QString path, log::Stamp end)
       m_thread([this, end](const std::stop_token& stop) { run(stop, end); }) {}
 
 void FileImport::run(const std::stop_token& stop, log::Stamp end) {
-    if (const auto store = log::openStore(QFile::encodeName(m_path).toStdString());
-        store && m_log.scratch()->hasFile()) {
+    if (const auto store = log::openStore(m_path.toStdString()); store && m_log.scratch()->hasFile()) {
         m_past.emplace(m_log.past(), m_log.senders(), *store);
         std::array<std::byte, mvnx::kLookedAt> head{};
         m_isInPlace = !mvnx::isMvnx(std::span(head).first((*store)->readAt(0, head)));
@@ -239,7 +237,7 @@ std::optional<ImportResult> FileImport::result() const {
 OpenedFile::OpenedFile(const log::Clock& clock, QString path, const QString& cacheFolder)
     : m_clock(clock),
       m_path(std::move(path)),
-      m_scratch(log::scratchOfFile(QFile::encodeName(cacheFolder).toStdString())),
+      m_scratch(log::scratchOfFile(cacheFolder.toStdString())),
       m_origin(limitsOf(*m_scratch), m_scratch),
       m_import(std::make_unique<FileImport>(m_origin.log(), m_path, m_origin.log().timeline().now(clock))) {}
 

@@ -67,7 +67,7 @@ QByteArray sealOf(const QString& path, QByteArrayView flat, const render::Import
     QCryptographicHash seal(QCryptographicHash::Sha256);
     seal.addData(flat);
     for (const std::string& name : character.filesBeside) {
-        seal.addData(sizeAndTime(QFileInfo(folder, QFile::decodeName(name.c_str()))));
+        seal.addData(sizeAndTime(QFileInfo(folder, QString::fromStdString(name))));
     }
     return seal.result();
 }
@@ -180,7 +180,7 @@ ReadingMark::ReadingMark(const QString& path, bool isAgain) : m_name(nameFor(pat
         if (!QFile(m_name).open(QIODevice::ReadWrite)) {
             break;
         }
-        m_lock = log::openLocked(QFile::encodeName(m_name).toStdString());
+        m_lock = log::openLocked(m_name.toStdString());
     }
     m_isLeft = m_isLeft && m_lock.isOpen();
 }

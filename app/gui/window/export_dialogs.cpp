@@ -15,7 +15,6 @@
 
 #include <QCoreApplication>
 #include <QDialogButtonBox>
-#include <QFile>
 #include <QFileInfo>
 #include <QFormLayout>
 #include <QSpinBox>
@@ -143,7 +142,7 @@ void MotionExportDialog::toggle() {
     }
     std::shared_ptr<Job> job = jobFor(path);
     for (const std::string& each : exporting::motionPaths(job->request)) {
-        const QString other = QFile::decodeName(each.c_str());
+        const QString other = QString::fromStdString(each);
         if (other != path && QFileInfo::exists(other) && !wantsToReplace(this, windowTitle(), other)) {
             return;
         }
@@ -154,7 +153,7 @@ void MotionExportDialog::toggle() {
 std::shared_ptr<MotionExportDialog::Job> MotionExportDialog::jobFor(const QString& path) const {
     const auto range = m_range->range();
     auto job = std::make_shared<Job>(feed::poseSourceOf(m_view, range.value_or(model::kAllTime), chosen()),
-                                     format(), QFile::encodeName(path).toStdString());
+                                     format(), path.toStdString());
     job->request.rules = replacing();
     job->request.application = ("Posewire " + QCoreApplication::applicationVersion()).toStdString();
     job->request.makeBody = figure::mannequinBody;

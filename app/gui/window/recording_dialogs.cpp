@@ -12,7 +12,6 @@
 
 #include <QDateTime>
 #include <QDialogButtonBox>
-#include <QFile>
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QFormLayout>
@@ -210,7 +209,7 @@ void RecoveryDialog::fill() {
         auto* item =
             new QTreeWidgetItem(m_list, {day, timeOfDay(begin), timeOfDay(one.end), megabytes(one.bytes)});
         item->setTextAlignment(kSize, Qt::AlignRight | Qt::AlignVCenter);
-        item->setData(0, kPath, QFile::decodeName(one.path.c_str()));
+        item->setData(0, kPath, QString::fromStdString(one.path));
         m_list->setCurrentItem(item);
     }
 }

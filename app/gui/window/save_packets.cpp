@@ -15,7 +15,6 @@
 #include "core/model/session/accounts.h"
 
 #include <QDialogButtonBox>
-#include <QFile>
 #include <QFormLayout>
 
 #include <chrono>
@@ -147,11 +146,11 @@ void SavePacketsDialog::save(const QString& path) {
     }
     const model::PacketDigests& digests = m_view.accounts().digests();
     log::OutputRules rules = replacing();
-    rules.inUse.push_back(QFile::encodeName(m_inUse).toStdString());
-    const auto job = std::make_shared<Job>(Job{m_view.log(), PacketMatcher(m_view, *std::move(filter)),
-                                               digests.excerpt(digests.begin(), digests.end()),
-                                               m_view.choices().annotations,
-                                               QFile::encodeName(path).toStdString(), std::move(rules)});
+    rules.inUse.push_back(m_inUse.toStdString());
+    const auto job =
+        std::make_shared<Job>(Job{m_view.log(), PacketMatcher(m_view, *std::move(filter)),
+                                  digests.excerpt(digests.begin(), digests.end()),
+                                  m_view.choices().annotations, path.toStdString(), std::move(rules)});
     m_path = path;
     m_work =
         std::make_unique<Background<Result>>([job](const auto& progress) { return write(*job, progress); });
