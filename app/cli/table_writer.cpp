@@ -88,7 +88,8 @@ std::string summaryLine(const model::SessionView& session, const exporting::Moni
     const model::SenderTotals all = session.accounts().allSenders();
     std::string line = fixed(facts.durationS, 1) + " s   " + grouped(all.datagrams) +
                        " datagrams   malformed " + grouped(all.malformed) + "   not MXTP " +
-                       grouped(all.foreign) + "   dropped by this computer " + grouped(all.kernelDrops);
+                       grouped(all.foreign) + "   dropped by this computer " +
+                       (all.hasUncountedDrops ? std::string("not known here") : grouped(all.kernelDrops));
     if (session.accounts().overtaken() != 0) {
         line += "   not looked at in time " + grouped(session.accounts().overtaken());
     }

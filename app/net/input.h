@@ -39,6 +39,13 @@ void increase(std::atomic<Number>& counter, std::type_identity_t<Number> amount)
     counter.store(counter.load(std::memory_order_relaxed) + amount, std::memory_order_relaxed);
 }
 
+/// True if datagrams that the system drops at a socket are counted; else those counters stay 0.
+#ifdef __linux__
+inline constexpr bool kCountsDrops = true;
+#else
+inline constexpr bool kCountsDrops = false;
+#endif
+
 /// Counters of an input: each written by one thread, read by any.
 struct InputCounters {
     std::atomic<std::uint64_t> datagrams = 0;

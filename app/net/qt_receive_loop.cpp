@@ -158,6 +158,7 @@ private:
         log::Arrival arrival;
         arrival.stamp = m_context.log.timeline().now(m_context.clock);
         arrival.sender = *sender;
+        arrival.flags.dropsUncounted = true;
         arrival.flags.afterClosed = std::exchange(socket.isReopened, false);
         if (isSmall) {
             writer.commit(0, static_cast<std::size_t>(size), arrival);

@@ -101,6 +101,11 @@ JsonValue charactersJson(const model::SessionView& session, const model::Sender&
     return characters;
 }
 
+/// Null if this computer does not count what it drops.
+JsonValue dropsJson(std::uint64_t drops, bool isUncounted) {
+    return isUncounted ? JsonValue() : JsonValue(drops);
+}
+
 JsonValue senderJson(const model::SessionView& session, const model::Sender& sender,
                      const model::TakeVerdicts& verdicts) {
     JsonValue json{{"address", sender.info.address},
@@ -111,7 +116,7 @@ JsonValue senderJson(const model::SessionView& session, const model::Sender& sen
                    {"skippedBytes", sender.skippedBytes},
                    {"characters", charactersJson(session, sender, verdicts)},
                    {"localPort", sender.info.localPort},
-                   {"kernelDropped", sender.kernelDrops}};
+                   {"kernelDropped", dropsJson(sender.kernelDrops, sender.hasUncountedDrops)}};
     if (!sender.info.probe.empty()) {
         json["probe"] = sender.info.probe;
     }
@@ -294,7 +299,7 @@ std::string monitorReport(const model::SessionView& session, const MonitorFacts&
         }
     }
     JsonValue report{{"durationS", rounded(facts.durationS, 3)},
-                     {"local", JsonValue{{"kernelDropped", all.kernelDrops},
+                     {"local", JsonValue{{"kernelDropped", dropsJson(all.kernelDrops, all.hasUncountedDrops)},
                                          {"receiveBufferBytes", facts.receiveBufferBytes},
                                          {"overtaken", session.accounts().overtaken()},
                                          {"refusedDatagrams", facts.refusedDatagrams},

@@ -324,7 +324,8 @@ std::string senderSection(const model::SessionView& session, const std::vector<m
                 fact("Datagrams", grouped(own.datagrams) + ", " + grouped(own.bytes) + " bytes") +
                 fact("Malformed", grouped(own.malformed)) + fact("Not MXTP", grouped(own.foreign)) +
                 (own.skippedBytes != 0 ? fact("Bytes of no datagram", grouped(own.skippedBytes)) : "") +
-                fact("Dropped by this computer", grouped(own.kernelDrops)) +
+                fact("Dropped by this computer",
+                     own.hasUncountedDrops ? std::string("not known here") : grouped(own.kernelDrops)) +
                 (unconfirmed != 0 ? fact("Unconfirmed characters", grouped(unconfirmed)) : "") + "</dl>\n";
         for (const model::Character* character : sender.characters) {
             if (!character->isConfirmed) {

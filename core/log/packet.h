@@ -75,6 +75,10 @@ struct PacketFlags {
     /// here.
     bool isLostOnWay : 1 = false;
 
+    /// The computer that received it does not count what it drops on the socket: `kernelDropsBefore` says
+    /// nothing.
+    bool dropsUncounted : 1 = false;
+
     static constexpr std::uint8_t kMostShared = 7;
 
     friend bool operator==(const PacketFlags&, const PacketFlags&) = default;

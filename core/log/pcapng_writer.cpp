@@ -21,12 +21,13 @@ constexpr std::int64_t kEarly = -9'000'000'000;
 
 constexpr std::string_view kSignature = "Posewire: ";
 constexpr std::array<std::string_view, 4> kTransports{"UDP", "TCP", "file", "performer"};
-constexpr std::array<std::string_view, 6> kFlags{"; truncated",
+constexpr std::array<std::string_view, 7> kFlags{"; truncated",
                                                  "; between datagrams",
                                                  "; news of drops",
                                                  "; first after the input was closed",
                                                  "; from before the take",
-                                                 "; lost on the way from the probe"};
+                                                 "; lost on the way from the probe",
+                                                 "; drops not counted"};
 constexpr std::string_view kShared = "; datagrams in its packet: ";
 constexpr std::string_view kStampedOnReading = "; stamped on reading";
 constexpr std::string_view kClockSet = "; clock set by ";
@@ -178,8 +179,8 @@ std::string originText(const RecordedOrigin& origin) {
     std::string text(kSignature);
     text += kTransports[static_cast<std::size_t>(origin.transport)];
     const PacketFlags& flags = origin.flags;
-    const std::array said{flags.truncated,   flags.skipped,      flags.isDropRecord,
-                          flags.afterClosed, flags.isFromBefore, flags.isLostOnWay};
+    const std::array said{flags.truncated,    flags.skipped,     flags.isDropRecord,  flags.afterClosed,
+                          flags.isFromBefore, flags.isLostOnWay, flags.dropsUncounted};
     for (std::size_t i = 0; i < kFlags.size(); ++i) {
         text += said[i] ? kFlags[i] : "";
     }
@@ -218,7 +219,8 @@ std::optional<RecordedOrigin> parseOrigin(std::string_view comment) {
                     .isDropRecord = said[2],
                     .afterClosed = said[3],
                     .isFromBefore = said[4],
-                    .isLostOnWay = said[5]};
+                    .isLostOnWay = said[5],
+                    .dropsUncounted = said[6]};
     if (takes(comment, kShared) && !comment.empty()) {
         origin.flags.shared = static_cast<unsigned>(comment.front() - '0') & PacketFlags::kMostShared;
         comment.remove_prefix(1);

@@ -99,6 +99,7 @@ enum class Kind : std::uint16_t {
     // What a loss rests on.
     WaitingForLate,
     NoEvidence,
+    DropsUncounted,
     DroppedHere,
     NotListening,
     OvertakenBetween,

@@ -370,6 +370,10 @@ constexpr std::array kTable{
     Wording{.kind = K::NoEvidence,
             .headline = {"Nothing was dropped here, and no other stream of the sender shows where {samples} "
                          "went in {lasted} ms."}},
+    Wording{
+        .kind = K::DropsUncounted,
+        .headline = {"The system of this computer does not count what it drops, so {samples} may have been "
+                     "lost here, on the network or by the sender."}},
     Wording{.kind = K::DroppedHere,
             .headline = {"This computer dropped {datagrams} of the port between packets {from} and {to}."}},
     Wording{

@@ -77,13 +77,14 @@ PropertyValue longestGap(const Source& from) {
 
 PropertyValue computer(const Source& from) {
     const MonitorHealth& health = from.monitor;
-    const std::uint64_t dropped = from.view.accounts().allSenders().kernelDrops;
+    const model::SenderTotals sums = from.view.accounts().allSenders();
     Health state = health.bufferFill.value_or(0) >= kFullBuffer ? Health::Warning : Health::Good;
-    if (dropped != 0) {
+    if (sums.kernelDrops != 0) {
         state = Health::Error;
     }
     return {tr("buffer %1 · dropped %2 in all · %3 fps")
-                .arg(percent(health.bufferFill), grouped(dropped), fixed(health.framesPerSecond, 0)),
+                .arg(percent(health.bufferFill), droppedText(sums.kernelDrops, !sums.hasUncountedDrops),
+                     fixed(health.framesPerSecond, 0)),
             state};
 }
 
@@ -239,7 +240,13 @@ std::vector<Property> computerFacts(model::SessionView& view, const ReceivingSta
            "dropped from memory; they stay on disk if a history is kept there (File > History)"));
     add(tr("Packets kept"), packets,
         tr("Packets still available, in memory or on disk, out of all received"));
-    add(tr("Dropped here"), trouble(&Sums::kernelDrops, Health::Error),
+    add(
+        tr("Dropped here"),
+        [trouble](const Source& source) {
+            const bool isUnknown = source.view.accounts().allSenders().hasUncountedDrops;
+            return isUnknown ? PropertyValue{droppedText(0, false), Health::Unknown}
+                             : trouble(&Sums::kernelDrops, Health::Error)(source);
+        },
         tr("Datagrams that reached this computer and found its receive buffer full (SO_RXQ_OVFL)"));
     add(tr("Not looked at"), overtaken,
         tr("Packets dropped from memory before this program processed them; samples lost with them count as "

@@ -128,7 +128,9 @@ std::vector<InputColumn> inputColumns() {
                      tr("Datagrams that reached this computer and found its receive buffer full; TCP makes "
                         "the sender wait instead"),
                      [](const PortState& input) {
-                         return input.port.kind == Kind::Udp ? grouped(input.status.kernelDropped) : dash();
+                         return input.port.kind == Kind::Udp
+                                    ? droppedText(input.status.kernelDropped, net::kCountsDrops)
+                                    : dash();
                      })
             .withColour([](const PortState& input) {
                 return input.status.kernelDropped > 0 ? QVariant(theme().error) : QVariant();

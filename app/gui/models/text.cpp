@@ -71,6 +71,10 @@ QString grouped(std::uint64_t value) {
     return QString::fromStdString(model::grouped(value));
 }
 
+QString droppedText(std::uint64_t datagrams, bool isCounted) {
+    return isCounted ? grouped(datagrams) : tr("not known here");
+}
+
 QString fixed(double value, int decimals) {
     return fromUtf8(model::fixedText(value, decimals));
 }

@@ -45,6 +45,9 @@ namespace posewire::gui {
 /// 153402 as "153 402", with narrow no-break spaces.
 [[nodiscard]] QString grouped(std::uint64_t value);
 
+/// Datagrams that this computer dropped, or "not known here" if its system does not count them.
+[[nodiscard]] QString droppedText(std::uint64_t datagrams, bool isCounted);
+
 /// "−0.05"; "–" where the value is not finite. A value that rounds to zero has no sign.
 [[nodiscard]] QString fixed(double value, int decimals);
 

@@ -17,8 +17,8 @@ namespace {
 void writeReceiving(QTextStream& out, const ReceivingState& receiving) {
     for (const PortState& port : receiving.ports) {
         out << displayText(port.port) << ": " << inputState(port).text << ", " << port.status.datagrams
-            << " datagrams, " << port.status.kernelDropped << " dropped here, "
-            << port.status.refusedDatagrams << " refused\n";
+            << " datagrams, " << droppedText(port.status.kernelDropped, net::kCountsDrops)
+            << " dropped here, " << port.status.refusedDatagrams << " refused\n";
     }
     for (const WayOutState& way : receiving.waysOut) {
         out << way.target.kind << " to " << displayText(way.target) << ": " << wayOutStage(way).text << ", "
@@ -29,8 +29,8 @@ void writeReceiving(QTextStream& out, const ReceivingState& receiving) {
         out << "found: " << QString::fromStdString(words::say(finding, words::Form::Sentence)) << '\n';
     }
     out << "receive buffer " << receiving.receiveBufferBytes << " bytes, dropped here "
-        << receiving.kernelDropped << ", " << receiving.datagramsPerSecond << " datagrams/s, "
-        << receiving.bytesPerSecond << " bytes/s\n";
+        << droppedText(receiving.kernelDropped, net::kCountsDrops) << ", " << receiving.datagramsPerSecond
+        << " datagrams/s, " << receiving.bytesPerSecond << " bytes/s\n";
 }
 
 void writeSenders(QTextStream& out, model::SessionView& session) {

@@ -145,9 +145,10 @@ void HealthBar::refresh(const ReceivingState& receiving) {
                         byteRateText(receiving.bytesPerSecond)));
     showFigure(*m_history, Health::Unknown, historyText(*m_session));
     const bool isQuiet = m_session->isRecording() || m_session->end() == 0;
-    const Health untroubled = isQuiet ? Health::Unknown : Health::Good;
+    const Health untroubled = isQuiet || !net::kCountsDrops ? Health::Unknown : Health::Good;
     showFigure(*m_dropped, receiving.kernelDropped == 0 ? untroubled : Health::Error,
-               tr("dropped here %1 in all").arg(grouped(receiving.kernelDropped)));
+               net::kCountsDrops ? tr("dropped here %1 in all").arg(grouped(receiving.kernelDropped))
+                                 : tr("dropped here: not known"));
 }
 
 void HealthBar::showWaysOut(const std::vector<WayOutState>& ways) {

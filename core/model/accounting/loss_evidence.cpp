@@ -71,6 +71,11 @@ void LossEvidence::takePacket(const log::Packet& packet, const log::SenderInfo& 
     if (packet.flags.afterClosed) {
         keepNewest(m_drops, {packet.number, packet.stamp, 0, NotListening, from.port()}, kMostDrops);
     }
+    if (packet.flags.dropsUncounted) {
+        if (const auto found = m_senders.find(packet.sender); found != m_senders.end()) {
+            found->second.hasUncountedDrops = true;
+        }
+    }
 }
 
 void LossEvidence::takeOvertaken(std::uint64_t packet, std::uint64_t count, log::Stamp stamp) {
@@ -149,6 +154,9 @@ LossCause LossEvidence::causeOfPartial(const log::StreamKey& stream, std::uint64
     if (lost) {
         return *lost;
     }
+    if (found->second.hasUncountedDrops) {
+        return LossCause::Unknown;
+    }
     return found->second.transport == log::Transport::Tcp ? LossCause::Sender : LossCause::Network;
 }
 
@@ -226,6 +234,10 @@ void LossEvidence::judgeSamples(const Gap& gap, const Stream& stream, std::optio
                 *place,
                 {.cause = LossCause::Network, .evidence = Gap::Evidence::Damaged, .figure = damage->sample});
         }
+    }
+    if (sender.hasUncountedDrops) { // it may have been this computer whatever else is seen
+        judgeRest({.cause = LossCause::Unknown, .evidence = Gap::Evidence::Uncounted});
+        return;
     }
     judgeBrought(gap, sender);
     judgeSilent(gap, sender.host->second);
@@ -393,6 +405,8 @@ words::Fact Gap::evidenceFact(LossCause cause) const {
         return {K::HostsSilent, {{"hosts", share.figure}, {"lasted", lastedMs}}};
     case Evidence::Paused:
         return {K::Paused, {{"streams", words::counted(K::Streams, share.figure)}, {"lasted", lastedMs}}};
+    case Evidence::Uncounted:
+        return {K::DropsUncounted, {samples}};
     case Evidence::None:
         break;
     }

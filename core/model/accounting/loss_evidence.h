@@ -31,6 +31,7 @@ struct Gap {
         Reliable,     ///< TCP loses nothing
         HostsSilent,  ///< several hosts fell silent and came back together
         Paused,       ///< all streams of the sender's host were silent, and no other host was
+        Uncounted,    ///< this computer does not count what it drops: nothing else can be shown
     };
     /// The samples that are lost by one cause.
     struct Share {
@@ -111,7 +112,8 @@ private:
         std::vector<const Stream*> streams; ///< those that count samples
         log::Transport transport = log::Transport::Udp;
         log::ReceivingPort port;
-        std::uint32_t newest = 0; ///< sample
+        bool hasUncountedDrops = false; ///< see PacketFlags::dropsUncounted
+        std::uint32_t newest = 0;       ///< sample
         Hosts::iterator host;
     };
     struct Drop {

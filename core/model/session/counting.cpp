@@ -24,6 +24,7 @@ void Counting::takePacket(const Observed& seen) {
     m_observed = seen.packet.stamp;
     sender.lastStamp = seen.packet.stamp;
     sender.kernelDrops += seen.packet.droppedBefore();
+    sender.hasUncountedDrops |= seen.packet.flags.dropsUncounted;
     sender.bytes += seen.packet.bytes.size();
     sender.datagrams += seen.digest.kind == PacketKind::Skipped ? 0 : 1;
     m_incidents.takePacket(seen.packet, seen.digest, seen.header);

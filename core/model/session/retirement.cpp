@@ -26,6 +26,7 @@ void SenderTotals::add(const Sender& sender) {
     foreign += sender.foreign;
     skippedBytes += sender.skippedBytes;
     kernelDrops += sender.kernelDrops;
+    hasUncountedDrops |= sender.hasUncountedDrops;
 }
 
 void SenderTotals::add(const log::Packet& packet, PacketKind kind) {
@@ -35,6 +36,7 @@ void SenderTotals::add(const log::Packet& packet, PacketKind kind) {
     foreign += kind == PacketKind::Foreign ? 1 : 0;
     skippedBytes += kind == PacketKind::Skipped ? packet.bytes.size() : 0;
     kernelDrops += packet.droppedBefore();
+    hasUncountedDrops |= packet.flags.dropsUncounted;
 }
 
 void RetiredTotals::retire(const Sender& sender) {

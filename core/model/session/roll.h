@@ -48,6 +48,7 @@ struct SenderTotals {
     std::uint64_t foreign = 0;
     std::uint64_t skippedBytes = 0;
     std::uint64_t kernelDrops = 0;
+    bool hasUncountedDrops = false; ///< of one of them
 
     void add(const Sender& sender);
     void add(const log::Packet& packet, PacketKind kind);

@@ -40,6 +40,7 @@ struct Sender {
     std::uint64_t foreignBytes = 0;
     std::uint64_t skippedBytes = 0;
     std::uint64_t kernelDrops = 0;
+    bool hasUncountedDrops = false; ///< see PacketFlags::dropsUncounted
     log::Stamp lastStamp{};
     CountHistory history; ///< of malformed datagrams alone, also those without a header
     /// What the newest foreign datagram begins with, or the skipped bytes that it began with.

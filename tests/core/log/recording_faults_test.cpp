@@ -186,9 +186,10 @@ TEST(RecordingTexts, AreCutBetweenCharacters) {
 TEST(RecordingTexts, SayEveryOriginAndAreUnderstoodAgain) {
     for (const Transport transport :
          {Transport::Udp, Transport::Tcp, Transport::File, Transport::Performer}) {
-        for (unsigned bits = 0; bits < 32; ++bits) {
+        for (unsigned bits = 0; bits < 64; ++bits) {
             PacketFlags flags{(bits & 1) != 0, (bits & 2) != 0, (bits & 4) != 0, (bits & 8) != 0};
             flags.isLostOnWay = (bits & 16) != 0;
+            flags.dropsUncounted = (bits & 32) != 0;
             const std::string probe = flags.isLostOnWay ? "STAGE-A" : "";
             for (const std::optional<std::string>& address :
                  {std::optional<std::string>{}, {""}, {"a; truncated"}, {"x; from y"}, {"\u00e9\n"}}) {

@@ -21,6 +21,7 @@ protected:
         const char* address = "127.0.0.1:40001";
         const char* probe = "";
         bool isLostOnWay = false;
+        bool dropsUncounted = false;
     };
 
     void put(std::uint32_t sample, const Sent& sent) {
@@ -46,6 +47,7 @@ protected:
         arrival.kernelDropsBefore = sent.drops;
         arrival.flags.afterClosed = sent.afterClosed;
         arrival.flags.isLostOnWay = sent.isLostOnWay;
+        arrival.flags.dropsUncounted = sent.dropsUncounted;
         m_log.writer().append(bytes, arrival);
         m_log.writer().publish();
         m_now = m_at;

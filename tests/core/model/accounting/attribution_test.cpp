@@ -69,6 +69,20 @@ TEST_F(AttributionTest, BlamesTheNetworkWhereAnotherStreamBroughtTheSample) {
     EXPECT_EQ(namesIn(factOf(gap), "type"), std::vector<std::string>{"24"});
 }
 
+TEST_F(AttributionTest, BlamesNobodyIfThisComputerDoesNotCountItsDrops) {
+    for (std::uint32_t sample = 1; sample <= 100; ++sample, m_at += 4ms) {
+        if (sample != 60) {
+            put(sample, {.dropsUncounted = true});
+        }
+        put(sample, {.type = 24, .dropsUncounted = true});
+    }
+    const Gap& gap = onlyGap();
+    EXPECT_EQ(gap.causes(), std::vector{LossCause::Unknown});
+    EXPECT_EQ(factOf(gap), (words::Fact{words::Kind::DropsUncounted,
+                                        {{"samples", words::counted(words::Kind::Samples, 1)}}}));
+    EXPECT_TRUE(m_session.accounts().allSenders().hasUncountedDrops);
+}
+
 TEST_F(AttributionTest, BlamesTheNetworkWhereTheSampleCameTruncated) {
     frames(1, 50);
     put(51, {.isTruncated = true});
