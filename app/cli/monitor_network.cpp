@@ -4,6 +4,7 @@
 #include "app/net/connection_help.h"
 #include "app/outlets/metrics.h"
 #include "app/system/process_figures.h"
+#include "app/system/sleep.h"
 #include "app/usage/usage.h"
 #include "core/model/session/roster.h"
 #include "core/words/say.h"
@@ -29,6 +30,7 @@ public:
             return false;
         }
         m_recording = std::move(*started);
+        system::preventSleep(m_recording != nullptr);
         return true;
     }
 

@@ -4,11 +4,11 @@
 #include "app/gui/base/background.h"
 #include "app/gui/base/logging.h"
 #include "app/gui/driver/history.h"
+#include "app/system/sleep.h"
 #include "core/model/session/listed_incidents.h"
 #include "core/words/say.h"
 
 #include <QDateTime>
-#include <QFile>
 
 #include <algorithm>
 #include <array>
@@ -63,6 +63,7 @@ void Takes::follow(log::Stamp now) {
         tellDisplaced(now, m_take);
         if (m_take.recording->failure()) {
             m_ending.push_back(std::exchange(m_take, {}));
+            system::preventSleep(false);
         }
     }
     std::erase_if(m_ending, [&](Take& take) {
@@ -89,7 +90,7 @@ bool Takes::end() {
 void Takes::conclude(log::Stamp now, Take& take) {
     const auto problem = take.recording->failure();
     if (!problem) {
-        emit recorded(QFile::decodeName(take.recording->figures().path.c_str()), take.seconds);
+        emit recorded(QString::fromStdString(take.recording->figures().path), take.seconds);
     }
     tellDisplaced(now, take);
     if (problem) {
@@ -114,7 +115,7 @@ void Takes::tell(log::Stamp now, const words::Fact& what) {
 
 QString Takes::start(const RecordingChoice& choice) {
     const QString folder = recordingFolder(choice);
-    if (!log::makeFolder(QFile::encodeName(folder).toStdString())) {
+    if (!log::makeFolder(folder.toStdString())) {
         return tr("%1 cannot be made: choose another folder under Recording options.").arg(folder);
     }
     const log::Stamp begin = m_live.now();
@@ -126,13 +127,14 @@ QString Takes::start(const RecordingChoice& choice) {
     const log::RecordingLimits limits{static_cast<std::uint64_t>(choice.fileMegabytes) * 1'000'000,
                                       std::chrono::minutes(choice.fileMinutes),
                                       static_cast<std::uint64_t>(choice.freeMegabytes) * 1'000'000,
-                                      QFile::encodeName(recordingFolder({})).toStdString()};
-    auto recording = log::Recording::start(m_log, QFile::encodeName(path).toStdString(), writtenByUs(), {},
-                                           m_from, limits, bodiesBefore(m_live, m_from));
+                                      recordingFolder({}).toStdString()};
+    auto recording = log::Recording::start(m_log, path.toStdString(), writtenByUs(), {}, m_from, limits,
+                                           bodiesBefore(m_live, m_from));
     if (!recording) {
         return QString::fromStdString(recording.error().text);
     }
     m_take = {.recording = std::move(*recording)};
+    system::preventSleep(true);
     m_annotations = {};
     keepMarks();
     qCInfo(filesLog).noquote() << "recording to" << path << "from packet" << m_from;
@@ -144,6 +146,7 @@ void Takes::stop() {
     qCInfo(filesLog).noquote() << "recorded" << now.path;
     keepMarks();
     m_take.seconds = now.seconds;
+    system::preventSleep(false);
     m_take.ending =
         std::async(std::launch::async, [recording = m_take.recording, notes = notesAtEnd()]() mutable {
             static_cast<void>(recording->stop(std::move(notes)));
@@ -156,7 +159,7 @@ std::optional<TakeState> Takes::state() const {
         return std::nullopt;
     }
     const log::RecordingFigures figures = m_take.recording->figures();
-    return TakeState{QFile::decodeName(figures.path.c_str()), log::secondsOf(m_live.now() - m_fromStamp),
+    return TakeState{QString::fromStdString(figures.path), log::secondsOf(m_live.now() - m_fromStamp),
                      figures};
 }
 
