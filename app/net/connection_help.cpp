@@ -262,6 +262,12 @@ std::optional<Firewall> findFirewall(const std::string& root) {
     return std::nullopt;
 }
 
+#ifndef _WIN32
+std::optional<Firewall> findFirewall() {
+    return findFirewall("/");
+}
+#endif
+
 std::vector<Fact> connectionHelp(const ConnectionFacts& facts) {
     Findings findings;
     for (const auto find :

@@ -19,13 +19,15 @@ namespace posewire::net {
 
 /// A packet filter on this computer. Its rules are not read, which would need administrator rights.
 struct Firewall {
-    std::string name;    ///< "ufw", "firewalld", "nftables", "iptables"
+    std::string name;    ///< "ufw", "firewalld", "nftables", "iptables", "Windows Firewall"
     std::string command; ///< opens a port; PORT/udp in it becomes the port; empty if there is none
 };
 
-/// The active packet filter, as far as files that any user may read show it; `root` is for tests. Empty
-/// if none was found, which is no proof that there is none.
-[[nodiscard]] std::optional<Firewall> findFirewall(const std::string& root = "/");
+/// The active packet filter of this computer, as far as any user may see it. Empty if none was found, which
+/// is no proof that there is none.
+[[nodiscard]] std::optional<Firewall> findFirewall();
+/// The same by the files of Linux below a folder.
+[[nodiscard]] std::optional<Firewall> findFirewall(const std::string& root);
 
 struct FailedInput {
     InputKind kind = InputKind::Udp;
