@@ -238,6 +238,7 @@ void begin(MainWindow& window, const Options& options, const Settings& settings)
 } // namespace
 
 int main(int argc, char** argv) {
+    system::prepareStandardStreams();
     QCoreApplication::setOrganizationName(QStringLiteral("Posewire"));
     QCoreApplication::setApplicationName(QStringLiteral("posewire"));
     QGuiApplication::setDesktopFileName(QStringLiteral("org.posewire.posewire"));
@@ -252,6 +253,12 @@ int main(int argc, char** argv) {
     }
     keepShadersWhereThereIsRoom();
     const QtMessageHandler usual = qInstallMessageHandler(endWithoutDisplay);
+#ifdef _WIN32
+    if (!qEnvironmentVariableIsSet("QT_QPA_PLATFORM")) {
+        qputenv("QT_QPA_PLATFORM",
+                "windows:darkmode=2"); // the palette follows the system, which Qt 6.4 leaves light
+    }
+#endif
     QApplication application(argc, argv);
     qInstallMessageHandler(usual);
     useLanguage(options->language);

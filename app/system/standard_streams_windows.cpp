@@ -28,10 +28,13 @@ std::string utf8Of(std::wstring_view text) {
 
 } // namespace
 
+/// A program with a window has none of its own; what it says goes to the console that it was started from.
 void prepareStandardStreams() {
+    const bool hasConsole = ::AttachConsole(ATTACH_PARENT_PROCESS) != FALSE; // false with one of its own, too
     for (std::FILE* stream : {stdin, stdout, stderr}) {
-        if (::_get_osfhandle(::_fileno(stream)) < 0) {
-            static_cast<void>(std::freopen("NUL", stream == stdin ? "rb" : "wb", stream));
+        if (::_fileno(stream) < 0 || ::_get_osfhandle(::_fileno(stream)) < 0) {
+            const char* place = !hasConsole ? "NUL" : stream == stdin ? "CONIN$" : "CONOUT$";
+            static_cast<void>(std::freopen(place, stream == stdin ? "rb" : "wb", stream));
         }
         ::_setmode(::_fileno(stream), _O_BINARY);
     }
