@@ -2,6 +2,7 @@
 #include "app/net/allow_list.h"
 
 #include <QHostInfo>
+#include <QNetworkInterface>
 
 #include <algorithm>
 #include <cctype>
