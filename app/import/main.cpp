@@ -29,7 +29,7 @@ int main(int count, char** arguments) {
     system::prepareStandardStreams();
     system::leaveFailedWritesToTheWriter();
     const std::string file = count == 2 ? system::argumentsOf(count, arguments)[1] : "";
-    if (file.empty() || file == "--version") {
+    if (file.empty() || file == "--version" || file == "-v") {
         end(file.empty() ? "usage: posewire-import FILE" : render::importerName(), file.empty() ? 3 : 0);
     }
     std::error_code problem;

@@ -37,18 +37,6 @@ EarlyExit mistakeOf(const CLI::App& program, const std::string& wording) {
                    " --help\n"};
 }
 
-/// Help and version are exceptions of the parser too.
-EarlyExit earlyExit(const CLI::App& program, const CLI::ParseError& what) {
-    if (what.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
-        std::ostringstream out;
-        program.exit(what, out, out);
-        return {0, out.str()};
-    }
-    const std::vector<std::string> unknown = program.remaining(true);
-    return mistakeOf(program,
-                     unknown.empty() ? oneLine(what.what()) : unknown.front() + " is not known here");
-}
-
 /// 1000000 and 0.25, not 1e+06.
 std::string numberText(double number) {
     std::ostringstream text;
@@ -57,6 +45,7 @@ std::string numberText(double number) {
 }
 
 constexpr const char* kRange = "range";
+constexpr const char* kFormer = ""; ///< the group of former spellings: help leaves out those without a title
 
 /// All of the text, in decimal; nothing if it is not a number.
 template <class T>
@@ -163,34 +152,67 @@ Option usageOf(CLI::Option& option) {
 
 std::vector<Option> usageOf(CLI::App& parser) {
     std::vector<Option> options;
-    for (CLI::Option* option : parser.get_options([](const CLI::Option*) { return true; })) {
+    for (CLI::Option* option :
+         parser.get_options([](const CLI::Option* one) { return one->get_group() != kFormer; })) {
         options.push_back(usageOf(*option));
     }
     return options;
 }
 
+/// The command or option that was most likely meant; empty if none is spelled nearly so.
+std::string meantBy(const std::string& typed, CLI::App& program) {
+    std::vector<std::string> known;
+    std::vector<CLI::App*> parsers = program.get_subcommands();
+    parsers.push_back(&program);
+    for (CLI::App* parser : parsers) {
+        for (const Option& option : usageOf(*parser)) {
+            known.push_back(option.names.empty() ? std::string() : option.names.back());
+        }
+    }
+    for (const CLI::App* command : program.get_subcommands({})) {
+        known.push_back(command->get_name());
+    }
+    return nearest(typed.substr(0, typed.find('=')), known);
+}
+
+/// Help and version are exceptions of the parser too.
+EarlyExit earlyExit(CLI::App& program, const CLI::ParseError& what) {
+    if (what.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
+        std::ostringstream out;
+        program.exit(what, out, out);
+        return {0, out.str()};
+    }
+    const std::vector<std::string> unknown = program.remaining(true);
+    if (unknown.empty()) {
+        return mistakeOf(program, oneLine(what.what()));
+    }
+    const std::string meant = meantBy(unknown.front(), program);
+    return mistakeOf(program, unknown.front() + " is not known here" +
+                                  (meant.empty() ? "" : " (did you mean " + meant + "?)"));
+}
+
 } // namespace
 
 DeclaredOption DeclaredOption::group(const std::string& title) {
-    return DeclaredOption(*m_option->group(title));
+    return {*m_parser, *m_option->group(title)};
 }
 DeclaredOption DeclaredOption::required() {
-    return DeclaredOption(*m_option->required());
+    return {*m_parser, *m_option->required()};
 }
 DeclaredOption DeclaredOption::repeatable() {
-    return DeclaredOption(*m_option->expected(1)->take_all());
+    return {*m_parser, *m_option->expected(1)->take_all()};
 }
 DeclaredOption DeclaredOption::showDefault() {
-    return DeclaredOption(*m_option->capture_default_str());
+    return {*m_parser, *m_option->capture_default_str()};
 }
 DeclaredOption DeclaredOption::within(double least, double most) {
-    return DeclaredOption(*m_option->check(between(least, most)));
+    return {*m_parser, *m_option->check(between(least, most))};
 }
 DeclaredOption DeclaredOption::within(int least, int most) {
-    return DeclaredOption(*m_option->transform(wholeBetween(least, most, "number")));
+    return {*m_parser, *m_option->transform(wholeBetween(least, most, "number"))};
 }
 DeclaredOption DeclaredOption::wholeUpTo(std::uint64_t most) {
-    return DeclaredOption(*m_option->transform(wholeBetween(std::uint64_t{0}, most, "whole number")));
+    return {*m_parser, *m_option->transform(wholeBetween(std::uint64_t{0}, most, "whole number"))};
 }
 DeclaredOption DeclaredOption::seconds() {
     constexpr double year = 365.0 * 86'400.0;
@@ -201,10 +223,25 @@ DeclaredOption DeclaredOption::milliseconds() {
     return within(0.0, day);
 }
 DeclaredOption DeclaredOption::needs(DeclaredOption other) {
-    return DeclaredOption(*m_option->needs(other.m_option));
+    return {*m_parser, *m_option->needs(other.m_option)};
 }
 DeclaredOption DeclaredOption::excludes(DeclaredOption other) {
-    return DeclaredOption(*m_option->excludes(other.m_option));
+    return {*m_parser, *m_option->excludes(other.m_option)};
+}
+DeclaredOption DeclaredOption::formerly(const std::string& spelling) {
+    const auto handOn = [spelling, parser = m_parser, now = m_option](const CLI::results_t& typed) {
+        const std::string relation = spelling + " is an old spelling of " + nameOf(*now);
+        if (now->count() != 0) {
+            throw CLI::ValidationError(relation + ": give one of them");
+        }
+        now->add_result(typed);
+        now->run_callback();
+        const CLI::App* program = parser->get_parent() != nullptr ? parser->get_parent() : parser;
+        std::cerr << chosenName(*program) << ": " << relation << ", accepted until version 1.0\n";
+        return true;
+    };
+    m_parser->add_option(spelling, handOn)->group(kFormer)->expected(1)->take_all();
+    return *this;
 }
 
 template <class T>
@@ -219,7 +256,7 @@ DeclaredOption Arguments::add(const std::string& name, T& value, const std::stri
             option->expected(1)->take_all();
         }
     }
-    return DeclaredOption(std::is_arithmetic_v<T> ? *option : *option->check(notEmpty()));
+    return {*m_parser, std::is_arithmetic_v<T> ? *option : *option->check(notEmpty())};
 }
 template DeclaredOption Arguments::add(const std::string&, std::string&, const std::string&);
 template DeclaredOption Arguments::add(const std::string&, std::vector<std::string>&, const std::string&);
@@ -240,7 +277,7 @@ DeclaredOption Arguments::read(const std::string& name, Reading reading, const s
         return true;
     };
     CLI::Option* option = m_parser->add_option(names, readAll, text)->check(notEmpty());
-    return DeclaredOption(form.empty() ? *option : *option->type_name(form));
+    return {*m_parser, form.empty() ? *option : *option->type_name(form)};
 }
 
 DeclaredOption Arguments::choice(const std::string& name, std::string& value, const std::string& text) {
@@ -256,11 +293,11 @@ DeclaredOption Arguments::choice(const std::string& name, std::string& value, co
 }
 
 DeclaredOption Arguments::flag(const std::string& name, bool& isOn, const std::string& text) {
-    return DeclaredOption(*m_parser->add_flag(name, isOn, text));
+    return {*m_parser, *m_parser->add_flag(name, isOn, text)};
 }
 
 DeclaredOption Arguments::flag(const std::string& name, const std::string& text) {
-    return DeclaredOption(*m_parser->add_flag(name)->description(text));
+    return {*m_parser, *m_parser->add_flag(name)->description(text)};
 }
 
 DeclaredOption Arguments::force(bool& isOn) {
@@ -272,7 +309,7 @@ DeclaredOption Arguments::verbose(bool& isOn, const std::string& text) {
 }
 
 DeclaredOption Arguments::option(const std::string& name) const {
-    return DeclaredOption(*m_parser->get_option(name));
+    return {*m_parser, *m_parser->get_option(name)};
 }
 
 void Arguments::beginGroup(const std::string& title) {
@@ -294,7 +331,7 @@ Arguments CommandLine::arguments() {
 }
 
 Arguments CommandLine::addCommand(const std::string& name, const std::string& text) {
-    return Arguments(*m_parser->add_subcommand(name, text));
+    return Arguments(*m_parser->add_subcommand(name, text)->fallthrough()); // to --version
 }
 
 Program CommandLine::usage() const {

@@ -23,7 +23,7 @@ namespace posewire::usage {
 /// An option or argument as it is declared; a handle, to be passed by value.
 class DeclaredOption {
 public:
-    explicit DeclaredOption(CLI::Option& option) : m_option(&option) {}
+    DeclaredOption(CLI::App& parser, CLI::Option& option) : m_parser(&parser), m_option(&option) {}
 
     DeclaredOption group(const std::string& title); ///< the heading that help lists it under
     DeclaredOption required();
@@ -39,8 +39,11 @@ public:
     DeclaredOption milliseconds(); ///< from 0 to a day
     DeclaredOption needs(DeclaredOption other);
     DeclaredOption excludes(DeclaredOption other);
+    /// Accepted instead, with a warning on standard error, and not in the help; giving both is a mistake.
+    DeclaredOption formerly(const std::string& spelling);
 
 private:
+    CLI::App* m_parser;
     CLI::Option* m_option;
 };
 
@@ -97,6 +100,7 @@ public:
     [[nodiscard]] Program usage() const;
 
     /// The command that was chosen; empty if there are none. `arguments` begin with the program's name.
+    /// Writes a warning of each former spelling to standard error.
     [[nodiscard]] tl::expected<std::string, EarlyExit> parse(const std::vector<std::string>& arguments);
     /// One that only the program can find.
     [[nodiscard]] EarlyExit mistake(const std::string& wording) const;

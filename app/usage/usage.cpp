@@ -2,6 +2,8 @@
 #include "app/usage/usage.h"
 
 #include <algorithm>
+#include <numeric>
+#include <utility>
 
 namespace posewire::usage {
 
@@ -14,6 +16,20 @@ bool isCapital(char c) {
 /// Tells placeholders, such as FILE, from alternatives that are typed as they are.
 bool isPlaceholder(std::string_view alternative) {
     return alternative.size() > 1 && isCapital(alternative[0]) && isCapital(alternative[1]);
+}
+
+/// Letters to insert, remove or replace until one word is the other.
+std::size_t distanceOf(std::string_view one, std::string_view other) {
+    std::vector<std::size_t> row(other.size() + 1); // from what `one` has so far to each beginning of `other`
+    std::iota(row.begin(), row.end(), 0U);
+    for (const char letter : one) {
+        std::size_t corner = std::exchange(row[0], row[0] + 1);
+        for (std::size_t i = 1; i < row.size(); ++i) {
+            const std::size_t replaced = corner + (letter != other[i - 1] ? 1 : 0);
+            corner = std::exchange(row[i], std::min({replaced, row[i] + 1, row[i - 1] + 1}));
+        }
+    }
+    return row.back();
 }
 
 } // namespace
@@ -59,6 +75,18 @@ std::string joined(const std::vector<std::string>& words, std::string_view separ
         text.append(text.empty() ? "" : separator).append(word);
     }
     return text;
+}
+
+std::string nearest(std::string_view word, const std::vector<std::string>& known) {
+    std::string best;
+    std::size_t least = (word.size() + 1) / 3 + 1;
+    for (const std::string& one : known) {
+        if (const std::size_t distance = distanceOf(word, one); distance < least) {
+            best = one;
+            least = distance;
+        }
+    }
+    return best;
 }
 
 } // namespace posewire::usage

@@ -51,6 +51,10 @@ struct Program {
 /// `separator` between the words.
 [[nodiscard]] std::string joined(const std::vector<std::string>& words, std::string_view separator);
 
+/// Returns the one of `known` that `word` was most likely meant to be: at most a third of its letters are
+/// missing, wrong or too many. Empty if there is none.
+[[nodiscard]] std::string nearest(std::string_view word, const std::vector<std::string>& known);
+
 /// The version of both programs, "0.2.0" or "0.2.0~dev.12+gfea9cb7b": see packaging/cmake/Version.cmake.
 [[nodiscard]] std::string_view version();
 

@@ -31,6 +31,8 @@ TEST(Program, ShowsItsVersionWithoutADisplay) {
     const ProgramRun run = runProgram({"--version"});
     EXPECT_EQ(run.status, 0);
     EXPECT_TRUE(contains(run.out, R"(^posewire-cli \d+\.\d+\.\d+([~+]dev\S*)?\nQt \d+\.\d+\.\d+\n$)")) << run.out;
+    EXPECT_EQ(runProgram({"-v"}).out, run.out);
+    EXPECT_EQ(runProgram({"monitor", "-v"}).out, run.out);
 }
 
 TEST(Program, EndsWithStatusTwoOnWrongUsage) {
@@ -78,7 +80,8 @@ TEST(Program, EndsWithStatusTwoWhereAFileCannotBeOpened) {
 
 TEST(Program, NamesTheOptionThatItDoesNotKnow) {
     EXPECT_EQ(runProgram({"decode", "--jsno", "-"}).err,
-              "posewire-cli decode: --jsno is not known here; see posewire-cli decode --help\n");
+              "posewire-cli decode: --jsno is not known here (did you mean --json?); see posewire-cli decode "
+              "--help\n");
 }
 
 TEST(Program, SaysWhichNumbersAnOptionTakes) {

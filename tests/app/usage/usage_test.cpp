@@ -50,5 +50,17 @@ TEST(Usage, AFileIsCalledFileWithOrWithoutASuffix) {
     EXPECT_FALSE(takesFile(withForm("")));
 }
 
+TEST(Usage, TheNearestWordIsAThirdWrongAtMost) {
+    const std::vector<std::string> known{"", "decode", "encode", "export", "monitor", "send", "--on"};
+    EXPECT_EQ(nearest("moniter", known), "monitor");
+    EXPECT_EQ(nearest("dceode", known), "decode");
+    EXPECT_EQ(nearest("expor", known), "export") << "missing";
+    EXPECT_EQ(nearest("sendd", known), "send") << "too many";
+    EXPECT_EQ(nearest("decode", known), "decode");
+    EXPECT_EQ(nearest("watch", known), "");
+    EXPECT_EQ(nearest("-x", known), "");
+    EXPECT_EQ(nearest("", {"x"}), "");
+}
+
 } // namespace
 } // namespace posewire::usage
