@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/stage/range.h"
 #include "core/log/raw_pace.h"
 #include "core/log/recording_file.h"
 #include "core/log/timeline.h"
@@ -9,6 +10,7 @@
 #include <chrono>
 #include <limits>
 #include <optional>
+#include <utility>
 
 namespace posewire::cli {
 
@@ -16,17 +18,18 @@ namespace posewire::cli {
 /// where those freeze or jump, one period per sample.
 class DatagramPacer {
 public:
-    /// Only what lies from `fromSeconds` to before `untilSeconds` after the first datagram is ever due.
-    DatagramPacer(double periodSeconds, double speed, double fromSeconds = 0,
-                  double untilSeconds = std::numeric_limits<double>::infinity())
-        : m_period(std::chrono::duration<double>(periodSeconds)),
-          m_speed(speed),
-          m_from(std::chrono::duration<double>(fromSeconds)),
-          m_until(std::chrono::duration<double>(untilSeconds)) {}
+    /// Only what lies in `range` is ever due; without stamps its times are seconds after the first datagram.
+    DatagramPacer(double periodSeconds, double speed, stage::Range range = {})
+        : m_period(std::chrono::duration<double>(periodSeconds)), m_speed(speed), m_range(std::move(range)) {}
 
     /// Time after the start at which the next datagram of the recording is due; nothing if it never is.
     std::optional<log::Duration> due(const log::FileRecord& record) {
         constexpr Nanoseconds longest{1e18}; // 31 years: more may not fit into a duration
+        if (!std::exchange(m_hasBegun, true)) {
+            const model::TimeRange times = m_range.times({}, record.time.value_or(log::WallTime()));
+            m_from = std::max(times.from, log::Stamp()).time_since_epoch();
+            m_until = times.to.time_since_epoch();
+        }
         m_place = std::min(m_place + step(record), longest);
         if (m_place < m_from || isPast()) {
             return std::nullopt;
@@ -62,8 +65,10 @@ private:
 
     Nanoseconds m_period;
     double m_speed;
-    Nanoseconds m_from;
-    Nanoseconds m_until;
+    stage::Range m_range;
+    bool m_hasBegun = false;
+    Nanoseconds m_from{}; ///< after the first datagram, which says when that is
+    Nanoseconds m_until{std::numeric_limits<double>::infinity()};
     Nanoseconds m_roundBegin{}; ///< since the start
     Nanoseconds m_place{};      ///< since the first datagram, as fast as it was recorded
     Nanoseconds m_now{};        ///< since the start

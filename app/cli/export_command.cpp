@@ -2,6 +2,7 @@
 #include "app/cli/command.h"
 #include "app/cli/datagram_pacer.h"
 #include "app/figure/mannequin_body.h"
+#include "app/stage/range.h"
 #include "app/system/interruption.h"
 #include "app/system/standard_streams.h"
 #include "app/usage/usage.h"
@@ -160,8 +161,7 @@ struct ExportOptions {
     std::string input;
     std::string output;
     std::string format;
-    std::optional<double> fromSeconds;
-    std::optional<double> untilSeconds;
+    stage::Range range;
     std::vector<std::string> characters; ///< none: all
     std::string up;                      ///< "y", "z"; others: as detected
     bool replaces = false;
@@ -211,7 +211,7 @@ std::string formatNames() {
 
 /// For the help, from the table of formats.
 std::string formatHelp() {
-    std::string text = "otherwise by the name of PATH.";
+    std::string text = "otherwise by the name of the file.";
     std::string alone;
     for (const MotionFormat& format : exporting::motionFormats()) {
         text += std::string(" ") + format.suffix + ": " + format.holds +
@@ -238,17 +238,6 @@ tl::expected<const MotionFormat*, std::string> formatOf(const ExportOptions& opt
                ? tl::expected<const MotionFormat*, std::string>(format)
                : tl::unexpected(options.output + ": its name says no format; end it with one of " +
                                 formatNames() + ", or add --format");
-}
-
-/// From the first datagram on.
-model::TimeRange exportedRange(const ExportOptions& options, const model::SessionView& session) {
-    const auto stampAt = [&](double seconds) {
-        return session.firstStamp() + log::Duration(std::llround(seconds * 1e9));
-    };
-    model::TimeRange range = model::kAllTime;
-    range.from = options.fromSeconds ? stampAt(*options.fromSeconds) : range.from;
-    range.to = options.untilSeconds ? stampAt(*options.untilSeconds) : range.to;
-    return range;
 }
 
 /// A whole text may be a name, with commas in it.
@@ -312,11 +301,10 @@ std::string nothingText(const ExportOptions& options, const feed::PoseSource& so
         return options.input + ": has no characters, so there is nothing to export" +
                (other.empty() ? "; is it a recording of MXTP?" : ": it " + other);
     }
-    const bool isPart = options.fromSeconds || options.untilSeconds;
     return options.input + ": no poses (types 01, 02, 05, 21, 22, 03) of " +
            (source.characters.size() == 1 ? source.characters[0].name.shown() : "these characters") +
-           (isPart ? " between these times; try without --from and --until"
-                   : ", so there is nothing to export; was Position + Orientation streamed?");
+           (options.range.isAll() ? ", so there is nothing to export; was Position + Orientation streamed?"
+                                  : " between these times; try without --since and --until");
 }
 
 void tell(const std::vector<ExportedMotion>& exported, const feed::PoseSource& source,
@@ -346,7 +334,9 @@ ExitStatus writeMotion(const ExportOptions& options, const MotionFormat& format,
     if (!keys) {
         return console.unusable(keys.error());
     }
-    const feed::PoseSource source = feed::poseSourceOf(session, exportedRange(options, session), *keys);
+    const log::Stamp first = session.firstStamp();
+    const feed::PoseSource source =
+        feed::poseSourceOf(session, options.range.times(first, session.wallOf(first)), *keys);
     if (options.output == "-" && !format.holdsSeveral && source.characters.size() > 1) {
         return console.unusable(std::string("standard output holds one file, and ") + format.suffix +
                                 " has one for each character; choose one with --characters");
@@ -425,23 +415,16 @@ Command addExportCommand(CommandLine& program) {
     arguments
         .add("FILE", options->input, "pcap, pcapng, MVNX, or datagrams back to back; - for standard input")
         .required();
-    arguments.add("--to PATH", options->output, "the file to write; - for standard output").required();
+    arguments.add("-o,--output FILE", options->output, "the file to write; - for standard output")
+        .required()
+        .formerly("--to");
     arguments.add("--format FORMAT", options->format, formatHelp());
-    arguments.add("--from SECONDS", options->fromSeconds, "begin this many seconds after the first datagram")
-        .seconds();
-    arguments.add("--until SECONDS", options->untilSeconds, "end this many seconds after the first datagram")
-        .seconds();
+    stage::addRange(arguments, options->range)[0].formerly("--from");
     arguments.add("--characters LIST", options->characters,
                   "names or IDs, with commas between them (default: all); may be given several times");
     addUp(arguments, options->up);
     addOutputs(arguments, options->replaces);
-    return {"export", [options](Console& console) {
-                if (options->fromSeconds && options->untilSeconds &&
-                    *options->fromSeconds >= *options->untilSeconds) {
-                    return console.unusable("--from must be before --until");
-                }
-                return exportRecording(*options, console);
-            }};
+    return {"export", [options](Console& console) { return exportRecording(*options, console); }};
 }
 
 } // namespace posewire::cli

@@ -139,9 +139,10 @@ std::array<DeclaredOption, 5> addPlaces(Arguments arguments, InputOptions& optio
             addPlace(arguments, "--tcp-listen [ADDRESS:]PORT", options.tcpListen,
                      "wait there for MVN to connect"),
             addPlace(arguments, "--tcp HOST:PORT", options.tcp, "connect there, again and again"),
-            addPlace(arguments, "--from HOST|NET", options.allowed,
+            addPlace(arguments, "--sender HOST|NET", options.allowed,
                      "listen only to this address, net (such as 192.168.1.0/24) or host; others are not "
-                     "recorded, only counted")};
+                     "recorded, only counted")
+                .formerly("--from")};
 }
 
 void addDuration(Arguments arguments, double& seconds) {
@@ -154,7 +155,7 @@ bool openInputs(const Places& places, const InputOptions& options, bool isVerbos
                 Console& console) {
     const auto allowed = net::AllowList::of(options.allowed);
     if (!allowed) {
-        console.complain("--from: " + allowed.error().text);
+        console.complain("--sender: " + allowed.error().text);
         return false;
     }
     receiver.listenTo(*allowed); // before the first port is open

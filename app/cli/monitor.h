@@ -50,15 +50,13 @@ struct MonitorOptions : InputOptions {
     std::string outlet;        ///< of outlets::outletKinds(); empty: none
     std::string to;            ///< its place; empty: where it goes if none is chosen; "-" for standard output
     std::string character;     ///< of outlets that take one
-    stage::StageOptions stage; ///< probes to be read
+    stage::StageOptions stage; ///< probes to be read, or what part of the file
     std::string metrics;       ///< where figures are served: empty: nowhere; else see outlets::Metrics
     bool replaces = false;
     bool asJson = false;
     bool asJsonLines = false;
-    bool isVerbose = false;            ///< tells where it listens and who sends
-    bool isQuiet = false;              ///< neither tables nor JSON, only the report
-    std::optional<double> fromSeconds; ///< what the report is about, from the first datagram on
-    std::optional<double> toSeconds;
+    bool isVerbose = false; ///< tells where it listens and who sends
+    bool isQuiet = false;   ///< neither tables nor JSON, only the report
     Limits limits;
 };
 

@@ -209,14 +209,6 @@ void addPlacesOrFile(Arguments arguments, MonitorOptions& options) {
     }
 }
 
-DeclaredOption addStageTimes(Arguments arguments, MonitorOptions& options) {
-    DeclaredOption nats = stage::addStageSince(arguments, options.stage);
-    arguments.add("--until TIME", options.stage.until, "and until then")
-        .group("Servers of a stage")
-        .needs(nats);
-    return nats;
-}
-
 void addLimits(Arguments arguments, Limits& limits) {
     for (std::size_t i = 0; i < kLimits.size(); ++i) {
         const bool isShare = unitOf(kLimits[i]) == " %";
@@ -247,7 +239,11 @@ Command addMonitorCommand(CommandLine& program) {
     Arguments arguments = program.addCommand(
         "monitor", "Watch streams: rate, loss, duplicates, order, jitter, gaps; record them; keep limits");
     addPlacesOrFile(arguments, *options);
-    addStageTimes(arguments, *options).excludes(arguments.option("FILE"));
+    const DeclaredOption nats =
+        stage::addStageSince(arguments, options->stage).excludes(arguments.option("FILE"));
+    arguments.add("--until TIME", options->stage.until, "and until then, or so many seconds later")
+        .group("Servers of a stage")
+        .needs(nats);
     arguments
         .add("--duration SECONDS", options->durationSeconds,
              "stop after this many seconds; 0: when interrupted, or at the end of FILE")
@@ -324,21 +320,16 @@ Command addReportCommand(CommandLine& program) {
     Arguments arguments = program.addCommand(
         "report",
         "Write a report on a recording as HTML: what was received, what not, and whose fault it was");
-    addStageTimes(arguments, *options)
+    stage::addStage(arguments, options->stage)
         .excludes(arguments.add("FILE", options->file,
                                 "pcap, pcapng, MVNX, or datagrams back to back; - for standard input"));
     arguments.add("-o,--output FILE", options->report, "the HTML file; - for standard output").required();
     addUp(arguments, options->up);
     addOutputs(arguments, options->replaces);
-    arguments.add("--from SECONDS", options->fromSeconds, "begin this many seconds after the first datagram")
-        .seconds();
-    arguments.add("--to SECONDS", options->toSeconds, "end this many seconds after the first datagram")
-        .seconds();
+    auto [since, until] = stage::addRange(arguments, options->stage);
+    since.formerly("--from");
+    until.formerly("--to");
     return {"report", [options](Console& console) {
-                if (options->fromSeconds && options->toSeconds &&
-                    *options->fromSeconds >= *options->toSeconds) {
-                    return console.unusable("--from must be before --to");
-                }
                 options->file = options->stage.isAsked() ? options->stage.pastName() : options->file;
                 if (options->file.empty()) {
                     return console.unusable("FILE is missing: the recording that the report is to be about");

@@ -30,12 +30,9 @@ std::string applicationName() {
     return "Posewire " + std::string(usage::version());
 }
 
-std::optional<model::TimeRange> rangeOf(const MonitorOptions& options, log::Stamp first) {
-    const auto stampAt = [&](double seconds) { return first + log::Duration(std::llround(seconds * 1e9)); };
-    model::TimeRange range = model::kAllTime;
-    range.from = options.fromSeconds ? stampAt(*options.fromSeconds) : range.from;
-    range.to = options.toSeconds ? stampAt(*options.toSeconds) : range.to;
-    return range == model::kAllTime ? std::nullopt : std::optional(range);
+std::optional<model::TimeRange> rangeOf(const stage::StageOptions& options, log::Stamp first,
+                                        log::WallTime wall) {
+    return options.isAsked() || options.isAll() ? std::nullopt : std::optional(options.times(first, wall));
 }
 
 std::string limitText(const std::optional<double>& limit, const std::string& unit) {
@@ -159,7 +156,8 @@ log::Stamp MonitorRun::followToEnd(log::Stamp end) {
 void MonitorRun::takeIn(log::Stamp now) {
     if (m_session.end() == 0) {
         const auto first = log::LogReader(m_origin.log()).packetFrom(0);
-        if (const auto range = first ? rangeOf(m_options, first->stamp) : std::nullopt) {
+        if (const auto range = first ? rangeOf(m_options.stage, first->stamp, m_session.wallOf(first->stamp))
+                                     : std::nullopt) {
             m_session.setEdges(*range);
         }
     }
@@ -289,7 +287,8 @@ ExitStatus MonitorRun::writeReport(const exporting::MonitorFacts& facts) {
     exporting::StreamReportOptions options;
     options.application = applicationName();
     options.exceeded = facts.exceeded;
-    options.range = rangeOf(m_options, m_session.firstStamp());
+    const log::Stamp first = m_session.firstStamp();
+    options.range = rangeOf(m_options.stage, first, m_session.wallOf(first));
     for (std::size_t i = 0; i < kLimits.size(); ++i) {
         std::string name(kLimits[i].name);
         name.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(name.front())));

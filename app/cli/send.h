@@ -3,6 +3,7 @@
 
 #include "app/cli/command.h"
 #include "app/net/datagram_sender.h"
+#include "app/stage/range.h"
 #include "core/log/time.h"
 #include "core/performer/faults.h"
 #include "core/performer/performer.h"
@@ -98,9 +99,8 @@ struct SendOptions {
     std::string file; ///< empty: the performer
     double speed = 1.0;
     bool loops = false;
-    double fromSeconds = 0.0;           ///< after its first datagram
-    std::optional<double> untilSeconds; ///< likewise; nothing: to its end
-    bool isVerbose = false;             ///< tells from where to where
+    stage::Range range;
+    bool isVerbose = false; ///< tells from where to where
 };
 
 /// The rest is what was meant by it, or one line about what is wrong with it.

@@ -145,9 +145,6 @@ ExitStatus send(const SendOptions& options, Console& console) {
     if (!settings) {
         return console.unusable(settings.error());
     }
-    if (options.untilSeconds && options.fromSeconds >= *options.untilSeconds) {
-        return console.unusable("--from must be before --until");
-    }
     if (!options.truth.empty() && options.truth != "-") {
         if (const auto checked = log::checkOutput(options.truth, {options.replaces}); !checked) {
             return console.unusable(checked.error().text);
@@ -280,12 +277,9 @@ DeclaredOption addFile(Arguments arguments, SendOptions& options) {
         .needs(file)
         .showDefault();
     arguments.flag("--loop", options.loops, "begin a recording again at its end").needs(file);
-    arguments.add("--from SECONDS", options.fromSeconds, "begin this many seconds after its first datagram")
-        .seconds()
-        .needs(file);
-    arguments.add("--until SECONDS", options.untilSeconds, "end this many seconds after its first datagram")
-        .seconds()
-        .needs(file);
+    auto [since, until] = stage::addRange(arguments, options.range);
+    since.needs(file).formerly("--from");
+    until.needs(file);
     return file;
 }
 

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <optional>
 #include <utility>
 
@@ -191,8 +190,7 @@ public:
           m_console(console),
           m_schedule(m_clock),
           m_round(lines, m_schedule),
-          m_pacer(1.0 / options.performer.rateHz, options.speed, options.fromSeconds,
-                  options.untilSeconds.value_or(std::numeric_limits<double>::infinity())),
+          m_pacer(1.0 / options.performer.rateHz, options.speed, options.range),
           m_end(options.durationSeconds > 0.0 ? log::durationOf(options.durationSeconds)
                                               : log::Duration::max()) {}
 
@@ -274,7 +272,10 @@ ExitStatus concludeFile(const std::string& path, const RecordSender& sender,
         return console.unusable(sender.failure());
     }
     if (sender.datagrams() == 0) {
-        console.complain(path + ": no datagrams found: it " + model::otherContents(contents, path));
+        const std::string other = model::otherContents(contents, path);
+        console.complain(path + (other.empty()
+                                     ? ": no datagrams between these times; try without --since and --until"
+                                     : ": no datagrams found: it " + other));
         return ExitStatus::Faults;
     }
     if (sender.skipped() != 0) {

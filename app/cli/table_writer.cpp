@@ -97,7 +97,7 @@ std::string summaryLine(const model::SessionView& session, const exporting::Moni
         line += "   unconfirmed characters " + grouped(unproven.characters);
     }
     if (facts.refusedDatagrams != 0) {
-        line += "   refused by --from " + grouped(facts.refusedDatagrams);
+        line += "   refused by --sender " + grouped(facts.refusedDatagrams);
     }
     return line;
 }

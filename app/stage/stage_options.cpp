@@ -5,10 +5,8 @@
 #include "app/stage/past_source.h"
 #include "core/log/clock.h"
 
-#include <QDateTime>
-
 #include <algorithm>
-#include <chrono>
+#include <tuple>
 #include <utility>
 
 namespace posewire::stage {
@@ -28,24 +26,14 @@ std::optional<std::string> StageOptions::problem() const {
     if (!isName(site)) {
         return "--site: may have letters, digits, - and _, 64 at most";
     }
-    for (const auto& [option, text] : {std::pair("--since: ", since), std::pair("--until: ", until)}) {
-        if (!text.empty() && !wallTimeOf(text)) {
+    for (const auto& [option, text, isGood] :
+         {std::tuple("--since: ", since, wallTimeOf(since).has_value()),
+          std::tuple("--until: ", until, momentAfter({}, until).has_value())}) {
+        if (!text.empty() && !isGood) {
             return option + text + " is no time; write 10:30, 10:30:15 or 2026-11-26T10:30";
         }
     }
     return std::nullopt;
-}
-
-std::optional<log::WallTime> wallTimeOf(const std::string& text) {
-    const QString given = QString::fromStdString(text);
-    QDateTime time = QDateTime::fromString(given, Qt::ISODateWithMs);
-    const QTime ofDay = QTime::fromString(given, Qt::ISODateWithMs);
-    if (!time.isValid() && ofDay.isValid()) { // the newest one that is not to come
-        time = QDateTime(QDate::currentDate(), ofDay);
-        time = time > QDateTime::currentDateTime() ? time.addDays(-1) : time;
-    }
-    return time.isValid() ? std::optional(log::WallTime(std::chrono::milliseconds(time.toMSecsSinceEpoch())))
-                          : std::nullopt;
 }
 
 tl::expected<std::unique_ptr<log::ByteSource>, log::FileError> openPast(const StageOptions& options,
@@ -57,9 +45,10 @@ tl::expected<std::unique_ptr<log::ByteSource>, log::FileError> openPast(const St
     if (!since) {
         return tl::unexpected(log::FileError{"--since is missing: when the time begins that is wanted"});
     }
-    auto source = PastSource::open(options.servers, options.site, *since,
-                                   wallTimeOf(options.until).value_or(log::SystemClock().wall()),
-                                   std::move(isCancelled));
+    const auto length = momentAfter(*since, options.until);
+    auto source =
+        PastSource::open(options.servers, options.site, *since,
+                         length ? *since + *length : log::SystemClock().wall(), std::move(isCancelled));
     if (!source) {
         return tl::unexpected(log::FileError{source.error().text});
     }

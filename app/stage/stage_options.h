@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/stage/range.h"
 #include "app/stage/server.h"
 #include "app/usage/command_line.h"
 #include "core/log/byte_io.h"
-#include "core/log/time.h"
 
 #include <memory>
 #include <optional>
@@ -12,12 +12,11 @@
 
 namespace posewire::stage {
 
-/// The options of a stage as they were typed, for both programs.
-struct StageOptions {
+/// The options of a stage as they were typed, for both programs. Without servers, its range is that of a
+/// file.
+struct StageOptions : Range {
     ServerChoice servers; ///< without addresses: none
     std::string site;
-    std::string since; ///< time of day, with or without the date; empty: from now on
-    std::string until; ///< empty: no end
 
     /// True if it is a range of the past, which is read as a file is.
     [[nodiscard]] bool isPast() const { return !until.empty(); }
@@ -35,8 +34,6 @@ usage::DeclaredOption addStage(usage::Arguments arguments, StageOptions& options
 /// Adds `--since` as well.
 usage::DeclaredOption addStageSince(usage::Arguments arguments, StageOptions& options);
 
-/// Reads "10:30", "10:30:15.5" (the last time that it was so late) or "2026-11-26T10:30".
-[[nodiscard]] std::optional<log::WallTime> wallTimeOf(const std::string& text);
 /// Opens the packets that the probes of the site received from `since` to `until`, or to now.
 [[nodiscard]] tl::expected<std::unique_ptr<log::ByteSource>, log::FileError>
 openPast(const StageOptions& options, log::IsCancelled isCancelled);

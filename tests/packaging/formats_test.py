@@ -16,7 +16,7 @@ import tempfile
 import urllib.request
 
 # Values and options, not keys.
-WORDS = {"none", "good", "warning", "bad", "provisional", "ongoing", "over", "encode", "--from", "--verbose", "MXTP", "sent", "solved", "assumed",
+WORDS = {"none", "good", "warning", "bad", "provisional", "ongoing", "over", "encode", "--sender", "--verbose", "MXTP", "sent", "solved", "assumed",
          "tcp", "(lastSample - firstSample) / step + 1 = samples + incomplete + lost"}
 NOT_PROMISED = "memory"
 

@@ -71,7 +71,8 @@ usage::Reading intoHosts(QStringList& hosts) {
     return [&hosts](const std::string& text) {
         const auto allowed = parseAllowed(QString::fromStdString(text));
         if (!allowed || allowed->isEmpty()) {
-            return "--from: " + (allowed ? tr("a host or a net is missing.") : allowed.error()).toStdString();
+            return "--sender: " +
+                   (allowed ? tr("a host or a net is missing.") : allowed.error()).toStdString();
         }
         hosts += *allowed;
         return std::string();
@@ -128,10 +129,11 @@ struct Declared {
                   "multicast may then not arrive")
             .repeatable();
         arguments
-            .read("--from HOST|NET", intoHosts(options.allowed),
+            .read("--sender HOST|NET", intoHosts(options.allowed),
                   "listen only to this address, net (such as 192.168.1.0/24) or host (repeatable); others "
                   "are only counted")
-            .repeatable();
+            .repeatable()
+            .formerly("--from");
         arguments
             .read("--multicast GROUP", into(groups), "join a multicast group at the UDP ports (repeatable)")
             .repeatable();

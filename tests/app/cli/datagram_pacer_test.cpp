@@ -66,7 +66,7 @@ TEST(DatagramPacer, PlaysFasterAndAgain) {
 }
 
 TEST(DatagramPacer, OnlyARangeIsDue) {
-    DatagramPacer pacer(0.1, 2.0, 0.010, 0.030);
+    DatagramPacer pacer(0.1, 2.0, {"0.010", "0.030"});
     const auto dueAt = [&](std::uint32_t sample, std::chrono::milliseconds time) {
         return due(pacer, datagram(2, sample, 0), log::WallTime(1000ms + time));
     };

@@ -75,7 +75,7 @@ TEST(EveryReader, SaysWhatAFileHoldsThatHasNothingOfOurs) {
         {{"decode", "--json", path}, 0},
         {{"monitor", "--json", path}, 0},
         {{"report", path, "-o", newPath()}, 0},
-        {{"export", path, "--to", newPath(), "--format", "csv"}, 2},
+        {{"export", path, "-o", newPath(), "--format", "csv"}, 2},
         {{"send", "--to", "127.0.0.1:9", "--file", path}, 1}};
     for (const auto& [arguments, status] : all) {
         const ProgramRun run = runProgram(arguments);

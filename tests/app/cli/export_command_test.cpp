@@ -52,7 +52,7 @@ protected:
     }
     static ProgramRun exported(const std::string& file, const std::string& to,
                                const std::vector<std::string>& more = {}) {
-        std::vector<std::string> arguments{"export", file, "--to", to};
+        std::vector<std::string> arguments{"export", file, "-o", to};
         arguments.insert(arguments.end(), more.begin(), more.end());
         return runProgram(arguments);
     }
@@ -93,7 +93,7 @@ TEST_F(ExportCommand, TakesARangeAndTheCharactersNamed) {
     const std::size_t begin = names.find("export: ") + 8;
     const std::string name = names.substr(begin, names.find(": ", begin) - begin);
     const std::string to = output("part.jsonl");
-    const ProgramRun run = exported(file, to, {"--characters", name, "--from", "0.5", "--until", "1"});
+    const ProgramRun run = exported(file, to, {"--characters", name, "--since", "0.5", "--until", "1"});
     EXPECT_EQ(run.status, 0) << run.err;
     EXPECT_EQ(lines(textOfFile(to)), 30);
     EXPECT_EQ(exported(file, to, {"--characters", "1", "--force"}).status, 0);
@@ -104,7 +104,7 @@ TEST_F(ExportCommand, TakesARangeAndTheCharactersNamed) {
     EXPECT_EQ(nobody.status, 2);
     EXPECT_THAT(nobody.err,
                 HasSubstr("\"Nobody\" is no character of " + file + "; there is " + name + " (0)"));
-    EXPECT_EQ(exported(file, output("x.csv"), {"--from", "2", "--until", "1"}).status, 2);
+    EXPECT_EQ(exported(file, output("x.csv"), {"--since", "2", "--until", "1"}).status, 2);
 }
 
 TEST_F(ExportCommand, GivesFiguresInGltfABody) {
@@ -156,9 +156,9 @@ TEST_F(ExportCommand, SaysWhyThereIsNothing) {
     const ProgramRun poses = exported(performance(20, isNoPose), output("take.csv"));
     EXPECT_EQ(poses.status, 2);
     EXPECT_THAT(poses.err, HasSubstr("no poses (types 01, 02, 05, 21, 22, 03)"));
-    const ProgramRun time = exported(performance(20), output("take.csv"), {"--from", "100"});
+    const ProgramRun time = exported(performance(20), output("take.csv"), {"--since", "100"});
     EXPECT_EQ(time.status, 2);
-    EXPECT_THAT(time.err, HasSubstr("between these times; try without --from and --until"));
+    EXPECT_THAT(time.err, HasSubstr("between these times; try without --since and --until"));
     const ProgramRun nothing = exported(fileWith("no datagrams here"), output("take.csv"));
     EXPECT_EQ(nothing.status, 2);
     EXPECT_THAT(nothing.err, HasSubstr("it looks like plain text. Posewire reads recordings of MXTP"));
@@ -176,7 +176,7 @@ TEST_F(ExportCommand, ReadsDatagramsBackToBackAndStandardInput) {
     const ProgramRun decoded = runProgram({"decode", performance(10), "--json"});
     const std::string raw = runProgram({"encode", "-"}, decoded.out).out;
     EXPECT_EQ(exported(fileWith(raw), output("raw.csv")).status, 0);
-    EXPECT_EQ(runProgram({"export", "-", "--to", output("piped.csv")}, raw).status, 0);
+    EXPECT_EQ(runProgram({"export", "-", "-o", output("piped.csv")}, raw).status, 0);
     EXPECT_EQ(lines(textOfFile(output("raw.csv"))), 21);
     EXPECT_EQ(lines(textOfFile(output("piped.csv"))), 21);
 }
@@ -239,7 +239,7 @@ TEST_F(ExportCommand, LeavesNothingWhenItIsInterrupted) {
     ASSERT_EQ(::mkfifo(endless.c_str(), 0600), 0);
     const int held = ::open(endless.c_str(), O_RDWR);
     const std::string command = "timeout --preserve-status -s INT 2 " POSEWIRE_CLI " export " + endless +
-                                " --to " + output("take.csv") + " 2> " + output("said");
+                                " -o " + output("take.csv") + " 2> " + output("said");
     const int status = std::system(command.c_str());
     ::close(held);
     EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 2) << status;

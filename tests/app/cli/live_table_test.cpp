@@ -62,7 +62,7 @@ TEST(LiveTable, SaysHowManyDatagramsOfOthersWereRefused) {
     exporting::MonitorFacts facts;
     EXPECT_THAT(liveTable(session, facts)[0], testing::Not(testing::HasSubstr("refused")));
     facts.refusedDatagrams = 1'234;
-    EXPECT_THAT(liveTable(session, facts)[0], testing::EndsWith("   refused by --from 1\u202f234"));
+    EXPECT_THAT(liveTable(session, facts)[0], testing::EndsWith("   refused by --sender 1\u202f234"));
 }
 
 TEST(MonitorPlaces, AreTheUsualPortWhereNothingIsNamed) {

@@ -337,7 +337,7 @@ TEST(MonitorCommand, EndsWithStatusTwoOnWrongUsage) {
         {"monitor", fileWith(""), "--record", "/no/such/folder/file"},
         {"monitor", fileWith(""), "--report", "/no/such/folder/file"},
         {"report", fileWith("")},
-        {"report", fileWith(""), "-o", "x", "--from", "2", "--to", "1"}};
+        {"report", fileWith(""), "-o", "x", "--since", "2", "--until", "1"}};
     for (const auto& arguments : wrong) {
         const ProgramRun run = runProgram(arguments);
         EXPECT_EQ(run.status, 2) << testing::PrintToString(arguments);
@@ -352,7 +352,7 @@ TEST(ReportCommand, WritesHtmlAboutTheRangeThatWasAskedFor) {
     EXPECT_EQ(runProgram({"report", path, "-o", whole}).status, 0);
     EXPECT_THAT(textOfFile(whole), StartsWith("<!DOCTYPE html>"));
     EXPECT_THAT(textOfFile(whole), HasSubstr("10 of 1\u202f000 samples (1.00 %)"));
-    const ProgramRun later = runProgram({"report", path, "-o", "-", "--from", "2"});
+    const ProgramRun later = runProgram({"report", path, "-o", "-", "--since", "2"});
     EXPECT_EQ(later.status, 0);
     EXPECT_THAT(later.out, HasSubstr("every one of them received"));
 }

@@ -191,7 +191,7 @@ TEST_F(MonitorUdp, ListensToThoseThatWereNamedAndCountsOthers) {
         GTEST_SKIP() << "all senders of this system are 127.0.0.1";
     }
     const std::string recording = newPath();
-    start({"--from", "127.0.0.2", "--from", "10.0.0.0/8", "--record", QString::fromStdString(recording)});
+    start({"--sender", "127.0.0.2", "--sender", "10.0.0.0/8", "--record", QString::fromStdString(recording)});
     send(QHostAddress("127.0.0.3"), 0, 20);
     send(QHostAddress("127.0.0.2"), 0, 10);
     const ProgramRun run = end();
@@ -213,9 +213,9 @@ TEST(MonitorMulticast, SaysThatAPortOfOneAddressHearsNoGroup) {
 
 TEST(MonitorFrom, SaysWhatIsNeitherHostNorNet) {
     const ProgramRun run =
-        runProgram({"monitor", "--udp", "127.0.0.1:0", "--from", "10.0.0.0/33", "--duration", "0.1"});
+        runProgram({"monitor", "--udp", "127.0.0.1:0", "--sender", "10.0.0.0/33", "--duration", "0.1"});
     EXPECT_EQ(run.status, 2);
-    EXPECT_THAT(run.err, HasSubstr("--from: \"10.0.0.0/33\" is not a host or a net"));
+    EXPECT_THAT(run.err, HasSubstr("--sender: \"10.0.0.0/33\" is not a host or a net"));
 }
 
 } // namespace

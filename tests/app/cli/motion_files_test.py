@@ -182,7 +182,7 @@ class Tests:
     def run_export(self, content: bytes, suffix: str) -> Path:
         source, target = self.folder / "in", self.folder / f"out.{suffix}"
         source.write_bytes(content)
-        done = subprocess.run([self.cli, "export", str(source), "--to", str(target), "--force"], capture_output=True,
+        done = subprocess.run([self.cli, "export", str(source), "-o", str(target), "--force"], capture_output=True,
                               text=True, check=False)
         expect(done.returncode == 0, done.stderr)
         return target

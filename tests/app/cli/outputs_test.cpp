@@ -27,7 +27,7 @@ std::string smallRecording() {
 /// Every way to write `out` from `in`.
 std::vector<std::vector<std::string>> writing(const std::string& in, const std::string& out) {
     return {{"encode", in, "-o", out},
-            {"export", in, "--to", out, "--format", "csv"},
+            {"export", in, "-o", out, "--format", "csv"},
             {"report", in, "-o", out},
             {"monitor", in, "--json", "--record", out},
             {"monitor", in, "--json", "--report", out}};

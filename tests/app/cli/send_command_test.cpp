@@ -138,12 +138,12 @@ TEST(SendCommand, SendsARangeOfARecording) {
             static_cast<char>(i);
     }
     const ProgramRun run = runProgram({"send", "--to", listener.place(), "--file", fileWith(file), "--rate",
-                                       "100", "--from", "0.02", "--until", "0.05"});
+                                       "100", "--since", "0.02", "--until", "0.05"});
     EXPECT_EQ(run.out, "sent 3 datagrams\n") << run.err;
     EXPECT_EQ(listener.datagrams().size(), 3U);
-    EXPECT_NE(runProgram({"send", "--from", "1"}).status, 0) << "of a recording only";
-    EXPECT_NE(runProgram({"send", "--file", fileWith(file), "--from", "2", "--until", "1"})
-                  .err.find("--from must be before --until"),
+    EXPECT_NE(runProgram({"send", "--since", "1"}).status, 0) << "of a recording only";
+    EXPECT_NE(runProgram({"send", "--file", fileWith(file), "--since", "2", "--until", "1"})
+                  .err.find("--since must be before --until"),
               std::string::npos);
 }
 

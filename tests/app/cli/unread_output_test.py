@@ -172,7 +172,7 @@ def check_files_of_nothing(cli: str, folder: Path) -> None:
         file.truncate(100 << 20)
     for command in (["monitor", str(nothing), "--json"], ["decode", str(nothing)],
                     ["report", str(nothing), "-o", str(folder / "report.html")],
-                    ["export", str(nothing), "--to", str(folder / "motion.csv")],
+                    ["export", str(nothing), "-o", str(folder / "motion.csv")],
                     ["send", "--to", "127.0.0.1:9", "--file", str(nothing)]):
         done = subprocess.run([cli, *command], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, check=False)
         assert done.stderr.count("nothing of ours in its first 64 MB; still looking, Ctrl+C ends it") == 1, done.stderr

@@ -221,7 +221,7 @@ def check_zones(cli):
         good = heard == [50] and not elsewhere and 0 <= missing < well
         counts = []
         for zone in ("late", "receiver"):
-            alone = [cli, "monitor", "--udp", str(PORT), "--from", f"{address}%{zone}", "--json", "--duration", "60"]
+            alone = [cli, "monitor", "--udp", str(PORT), "--sender", f"{address}%{zone}", "--json", "--duration", "60"]
             monitor = subprocess.Popen([*inside(receiver), *alone], stdout=subprocess.PIPE, text=True)
             wait_for(lambda: f":{PORT:04X} " in spaces.run(receiver, "cat", "/proc/net/udp6"), "the monitor listens")
             before = spaces.udp6_received(receiver)

@@ -43,9 +43,11 @@ TEST(Options, TakeTcpInputsAndMulticastGroups) {
 }
 
 TEST(Options, TakeHostsAndNetsToListenTo) {
-    const auto options = parse({"--from", "192.168.1.0/24", "--from", "studio"});
+    const auto options = parse({"--sender", "192.168.1.0/24", "--sender", "studio"});
     ASSERT_TRUE(options);
     EXPECT_EQ(options->allowed, QStringList({"192.168.1.0/24", "studio"}));
+    EXPECT_EQ(parse({"--from", "192.168.1.0/24", "--from", "studio"})->allowed, options->allowed)
+        << "the old spelling";
 }
 
 TEST(Options, InputsAreShownWithTheirTransport) {
@@ -117,7 +119,7 @@ INSTANTIATE_TEST_SUITE_P(All, WrongOption,
                                          QStringList{"--demo=x"}, QStringList{"--size", "12"},
                                          QStringList{"--size", "0x5"}, QStringList{"--after", "soon"},
                                          QStringList{"--theme", "pink"}, QStringList{"--language", "tlh"},
-                                         QStringList{"--layout", ""}, QStringList{"--from", "10.0.0.0/33"},
+                                         QStringList{"--layout", ""}, QStringList{"--sender", "10.0.0.0/33"},
                                          QStringList{"a.bin", "b.bin"}));
 
 TEST(Options, TheLastOneCountsOfWhatIsGivenTwice) {
