@@ -179,8 +179,10 @@ void SeriesFeed::read(const log::Packet& packet) {
     const auto header = wire::decodeHeader(packet.bytes);
     const auto mayBelong = [&](const Part& part) {
         const auto* stream = std::get_if<log::StreamKey>(&part.source.packets);
-        return stream == nullptr ||
-               (header && *stream == log::StreamKey{packet.sender, header->character, header->type()});
+        const auto* character = std::get_if<CharacterPackets>(&part.source.packets);
+        return stream != nullptr
+                   ? header && *stream == log::StreamKey{packet.sender, header->character, header->type()}
+                   : character == nullptr || (header && character->has(packet.sender, *header));
     };
     if (std::ranges::none_of(m_parts, mayBelong)) {
         return;

@@ -6,6 +6,7 @@
 #include "core/log/packet_log.h"
 #include "core/model/accounting/packet_digest.h"
 
+#include <algorithm>
 #include <array>
 #include <deque>
 #include <functional>
@@ -105,9 +106,22 @@ private:
     std::uint64_t m_end = 0;
 };
 
+/// Packets of these types of a character; of all its types if none is given.
+struct CharacterPackets {
+    log::SenderId sender{};
+    std::uint8_t character = 0;
+    std::vector<std::uint8_t> types;
+
+    [[nodiscard]] bool has(log::SenderId from, const wire::Header& header) const {
+        return from == sender && header.character == character &&
+               (types.empty() || std::find(types.begin(), types.end(), header.type()) != types.end());
+    }
+};
+
 /// Signals of the same packets.
 struct SeriesSource {
-    std::variant<log::StreamKey, filter::Filter> packets; ///< of a stream, or that a filter matches
+    /// Of a stream or a character, or that a filter matches.
+    std::variant<log::StreamKey, CharacterPackets, filter::Filter> packets;
     std::vector<Signal> curves;
     std::size_t mostRows = std::numeric_limits<std::size_t>::max();
     std::optional<model::LengthUnit> positionUnit{}; ///< of its sender; else what layouts say
