@@ -84,7 +84,9 @@ bool isNamed(const FieldInfo& field, std::string_view name) {
 void collect(std::string_view name, std::optional<std::string_view> component, FieldMatch& match) {
     for (const FieldInfo& field : fieldTable()) {
         const bool isComputed = !field.isOfItems() && field.qualifier.empty(); // it was never sent
-        if (!isNamed(field, name) || (match.isAsSent && isComputed)) {
+        const bool isElsewhere = match.type && field.isOfItems() &&
+                                 std::ranges::find(field.types, *match.type) == field.types.end();
+        if (!isNamed(field, name) || (match.isAsSent && isComputed) || isElsewhere) {
             continue;
         }
         if (!component) {
@@ -156,8 +158,22 @@ bool FieldInfo::isConverted() const {
            (dimension != Dimension::None && read != &unitsOf(dimension).front());
 }
 
+std::optional<std::uint8_t> takeType(std::string_view& name) {
+    const std::size_t dot = name.find('.');
+    const auto number =
+        dot != std::string_view::npos && dot <= 2 ? numberOf(name.substr(0, dot)) : std::nullopt;
+    const wire::TypeInfo* info =
+        number && *number >= 0 ? wire::findType(static_cast<std::uint8_t>(*number)) : nullptr;
+    if (info == nullptr) {
+        return std::nullopt;
+    }
+    name.remove_prefix(dot + 1);
+    return info->type;
+}
+
 FieldMatch findFields(std::string_view name) {
     FieldMatch match;
+    match.type = takeType(name);
     if (name.starts_with(kAsSent)) {
         name.remove_prefix(kAsSent.size());
         match.isAsSent = true;
@@ -204,6 +220,12 @@ std::string nearestOf(std::string_view word, std::span<const std::string_view> w
 }
 
 std::string nearestField(std::string_view name) {
+    const std::string_view whole = name;
+    if (takeType(name)) {
+        const std::string found = nearestField(name);
+        const std::string prefix(whole.substr(0, whole.size() - name.size()));
+        return findFields(prefix + found).fields.empty() ? found : prefix + found;
+    }
     if (name.starts_with(kAsSent)) {
         const std::string found = nearestField(name.substr(kAsSent.size()));
         const std::string asSent = std::string(kAsSent) + found;

@@ -78,6 +78,8 @@ struct Candidate {
     log::Duration setBy{}; ///< what the wall clock was ahead of the packet's stamp: for `utc`
     /// What positions of this type from this sender come in, where that is known; else what the layout says.
     std::optional<model::LengthUnit> positionUnit{};
+    /// As counted up to and with the packet; null if its stream is not counted.
+    const model::Stream* stream = nullptr;
 };
 
 /// One value as read; text lives as long as the packet.
@@ -92,16 +94,22 @@ struct Subject {
 
     /// Null if there is none.
     [[nodiscard]] const wire::Header* header();
+    /// Of the datagram, which is there.
+    [[nodiscard]] std::size_t shape();
 
     const Candidate& candidate;
 
 private:
     std::optional<wire::Header> m_header;
+    std::optional<std::size_t> m_shape;
 };
 
 /// A datagram's layout: which message in which form. Each has its own set of fields.
 inline constexpr std::size_t kShapes = 2 * std::variant_size_v<wire::Body>;
 [[nodiscard]] std::size_t shapeOf(const wire::Datagram& datagram);
+
+/// Message type of a shape; 0 of datagrams of unknown types.
+[[nodiscard]] std::uint8_t typeOfShape(std::size_t shape);
 
 /// Places of fields within a shape: the message itself, then its lists in wire order.
 inline constexpr std::size_t kLists = 3;
@@ -168,12 +176,16 @@ struct FieldMatch {
     bool hasComponent = false;
     std::size_t component = 0;
     bool isTag = false;
-    std::string_view tag;  ///< of "tag.name": "name"
-    bool isAsSent = false; ///< of "wire.position.z"
+    std::string_view tag;               ///< of "tag.name": "name"
+    bool isAsSent = false;              ///< of "wire.position.z"
+    std::optional<std::uint8_t> type{}; ///< of "20.rotation.z"
 };
 
-/// Understands "sample", "position.z", "segments.position.z", "header.sample", "wire.position.z", "tag",
-/// "tag.name". No fields (and no tag) if nothing has that name.
+/// The message type that a name begins with, as in "20.rotation.z"; it is taken off the name.
+[[nodiscard]] std::optional<std::uint8_t> takeType(std::string_view& name);
+
+/// Understands "sample", "position.z", "segments.position.z", "header.sample", "wire.position.z",
+/// "20.rotation.z", "tag", "tag.name". No fields (and no tag) if nothing has that name.
 [[nodiscard]] FieldMatch findFields(std::string_view name);
 
 /// The names of a vector's components, as the tables of core/wire have them: "x", "y" …; those of a matrix,

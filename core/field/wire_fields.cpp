@@ -361,6 +361,20 @@ std::size_t shapeOf(const Datagram& datagram) {
     return shape;
 }
 
+std::size_t Subject::shape() {
+    if (!m_shape) {
+        m_shape = shapeOf(*candidate.datagram);
+    }
+    return *m_shape;
+}
+
+std::uint8_t typeOfShape(std::size_t shape) {
+    std::uint8_t type = 0;
+    std::size_t at = 0;
+    wire::Messages::forEach([&]<class T>() { type = ++at == shape % kBodies ? T::kType : type; });
+    return type;
+}
+
 std::size_t itemCount(const Datagram& datagram, std::size_t shape, std::size_t list) {
     const CountItems count = walked().counts[shape][list];
     return count != nullptr ? count(datagram) : 0;

@@ -70,6 +70,10 @@ bool Test::holdsText(std::string_view text) const {
 }
 
 bool Condition::holds(Subject& subject) const {
+    const wire::Header* header = type ? subject.header() : nullptr;
+    if (type && (header == nullptr || header->type() != *type)) {
+        return false;
+    }
     if (isTag) {
         return holdsForTags(subject.candidate.datagram);
     }
@@ -84,7 +88,7 @@ bool Condition::holds(Subject& subject) const {
 
 bool Condition::holdsFor(const ItemAt& at) const {
     const Place& place = places[at.shape][at.list];
-    if (place.read == nullptr) {
+    if (place.read == nullptr || (item && !item->spots[at.shape][at.list].is(at.datagram, at.item))) {
         return false;
     }
     const auto unit = place.length ? at.positionUnit.value_or(*place.length) : model::LengthUnit::Metre;

@@ -40,6 +40,9 @@ enum class TokenKind : std::uint8_t {
     Unknown,    ///< a character without a meaning here
 };
 
+/// Between a field and an item, as in `position.z of LeftHand`.
+inline constexpr std::string_view kOf = "of";
+
 /// A piece of a filter's text; the place is in bytes.
 struct Token {
     TokenKind kind = TokenKind::End;

@@ -97,7 +97,16 @@ private:
         WrittenCondition written;
         written.field = here();
         written.fieldName = here().in(m_text);
-        written.operatorToken = m_tokens[++m_at];
+        ++m_at;
+        if (here().in(m_text) == kOf) {
+            ++m_at;
+            auto item = constant();
+            if (!item) {
+                return Failure(item.error());
+            }
+            written.item = std::move(*item);
+        }
+        written.operatorToken = here();
         written.op = here().op;
         if (take(TokenKind::Operator)) {
             auto taken = written.op == Operator::In ? members(written) : member(written, false);

@@ -43,6 +43,19 @@ struct ItemAt {
     std::optional<model::LengthUnit> positionUnit; ///< what is known about the sender
 };
 
+/// The items that `of` names: in each list, the field that tells its items apart and the number it has then.
+struct NamedItem {
+    struct Spot {
+        ReadItem read = nullptr; ///< null if the list has no such item
+        double number = 0;
+
+        [[nodiscard]] bool is(const wire::Datagram& datagram, std::size_t item) const {
+            return read != nullptr && read(datagram, item, 0).number == number;
+        }
+    };
+    std::array<std::array<Spot, kLists>, kShapes> spots{};
+};
+
 /// A test of one field: of the packet, of the items of the payload, or of a metadata tag.
 struct Condition {
     ReadPacket readPacket = nullptr;
@@ -54,8 +67,10 @@ struct Condition {
     Test test;
     bool comparesLengths = false;
     bool comparesJudged = false;
-    Test testInCentimetres; ///< the same where a length comes in centimetres
-    Test testInMillimetres; ///< the same where it comes in millimetres
+    std::optional<std::uint8_t> type{};      ///< of the message; of items `places` say it
+    std::shared_ptr<const NamedItem> item{}; ///< null: of any item
+    Test testInCentimetres;                  ///< the same where a length comes in centimetres
+    Test testInMillimetres;                  ///< the same where it comes in millimetres
 
     [[nodiscard]] bool isOfItems() const { return readPacket == nullptr && !isTag; }
     [[nodiscard]] bool holds(Subject& subject) const;
@@ -74,10 +89,30 @@ struct Constant {
     std::string unitText{};
 };
 
-/// A condition as written.
-struct WrittenCondition {
+/// A number and the unit that is written with it, perhaps in one word: "100 cm", "100cm".
+struct Amount {
+    double number = 0;
+    std::string_view unit;
+    Token place; ///< of the unit
+};
+/// Empty if it is none. The unit lies in the constant.
+[[nodiscard]] std::optional<Amount> amountOf(const Constant& constant);
+
+/// A field as written.
+struct WrittenField {
     Token field;
     std::string_view fieldName;
+    std::optional<Constant> item{}; ///< after `of`
+};
+
+/// The fields that are meant, which are some unless it is a tag.
+[[nodiscard]] tl::expected<FieldMatch, FilterError> fieldsOf(const WrittenField& written);
+/// The item that is meant; null if none is written.
+[[nodiscard]] tl::expected<std::shared_ptr<const NamedItem>, FilterError> itemOf(const WrittenField& written,
+                                                                                 const FieldMatch& match);
+
+/// A condition as written.
+struct WrittenCondition : WrittenField {
     Operator op = Operator::IsThere;
     Token operatorToken;
     std::vector<std::pair<Constant, Constant>> constants; ///< pairs of the same where it is no range

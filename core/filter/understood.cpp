@@ -95,12 +95,7 @@ std::optional<double> utcSeconds(std::string_view text) {
     return seconds ? std::optional(midnight + *seconds) : std::nullopt;
 }
 
-/// A number and the unit that is written with it, perhaps in one word: "100 cm", "100cm".
-struct Amount {
-    double number = 0;
-    std::string_view unit;
-    Token place; ///< of the unit
-};
+} // namespace
 
 std::optional<Amount> amountOf(const Constant& constant) {
     const std::string_view text = constant.text;
@@ -117,6 +112,8 @@ std::optional<Amount> amountOf(const Constant& constant) {
     const Token place{TokenKind::Word, constant.token.offset + end, text.size() - end};
     return number ? std::optional(Amount{*number, text.substr(end), place}) : std::nullopt;
 }
+
+namespace {
 
 /// What a field is compared with, of the fields of a name.
 struct Asked {
@@ -334,7 +331,8 @@ void setPlaces(const FieldMatch& match, const WrittenCondition& written, const F
         }
         const Places& places = isName(*field, written) && field->named ? *field->named : field->places;
         for (std::size_t shape = 0; shape < kShapes; ++shape) {
-            for (std::size_t list = 0; list < kLists; ++list) {
+            const bool isAsked = !match.type || *match.type == typeOfShape(shape);
+            for (std::size_t list = 0; isAsked && list < kLists; ++list) {
                 if (const Place& place = places[shape][list]; place.read != nullptr) {
                     condition.places[shape][list] = {place.read,
                                                      match.isAsSent ? std::nullopt : place.length};
@@ -389,14 +387,17 @@ tl::expected<void, FilterError> setTests(const Asked& asked, const WrittenCondit
 } // namespace
 
 tl::expected<Condition, FilterError> understood(const WrittenCondition& written) {
-    const FieldMatch match = findFields(written.fieldName);
+    const auto found = fieldsOf(written);
+    if (!found) {
+        return Failure(found.error());
+    }
+    const FieldMatch& match = *found;
+    auto item = itemOf(written, match);
+    if (!item) {
+        return Failure(item.error());
+    }
     if (match.isTag) {
         return tagCondition(match, written);
-    }
-    if (match.fields.empty()) {
-        const std::string near = nearestField(written.fieldName);
-        return failure(written.field, "There is no field `" + std::string(written.fieldName) + "`" +
-                                          (near.empty() ? "." : "; did you mean `" + near + "`?"));
     }
     const auto suiting = [&](bool mayReadNumberAsText) {
         return std::ranges::find_if(match.fields, [&](const FieldInfo* field) {
@@ -405,16 +406,18 @@ tl::expected<Condition, FilterError> understood(const WrittenCondition& written)
                    suits({*field, match.hasComponent, match.isAsSent}, written);
         });
     };
-    auto found = suiting(false);
-    found = found == match.fields.end() ? suiting(true) : found;
-    if (found == match.fields.end()) {
+    auto suited = suiting(false);
+    suited = suited == match.fields.end() ? suiting(true) : suited;
+    if (suited == match.fields.end()) {
         return Failure(complaint(match, written));
     }
-    const FieldInfo& field = **found;
+    const FieldInfo& field = **suited;
     Condition condition;
     condition.test.op = written.op;
     condition.readPacket = field.readPacket;
     condition.comparesJudged = field.isJudged;
+    condition.type = match.type;
+    condition.item = std::move(*item);
     if (field.isOfItems()) {
         setPlaces(match, written, field, condition);
         condition.firstComponent = match.hasComponent ? match.component : 0;

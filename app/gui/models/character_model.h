@@ -57,7 +57,7 @@ private:
         std::uint8_t type = 0; ///< that it was learnt from
         std::uint64_t restarts = 0;
         std::uint64_t end = 0; ///< of a recording when it was looked at
-        NominalRate rate;
+        model::NominalRate rate;
     };
     std::map<model::CharacterKey, Learnt> m_rates;
 };

@@ -4,6 +4,7 @@
 #include "app/gui/models/column.h"
 #include "core/log/stream_index.h"
 #include "core/log/time.h"
+#include "core/model/accounting/nominal_rate.h"
 #include "core/model/message.h"
 #include "core/model/session/session_view.h"
 
@@ -12,32 +13,6 @@
 #include <string>
 
 namespace posewire::gui {
-
-/// The sender's own frame rate: how far its time code advances with its sample counter. Receive times play no
-/// part, so it is the rate that should be, beside the measured one. Rests on the last 10 to 20 s;
-/// O(1).
-class NominalRate {
-public:
-    /// Sample counter and header time code (ms) of a message, oldest first; the same one may come again. A
-    /// jump of either starts over.
-    void add(std::uint32_t sample, std::uint32_t timeCode);
-
-    /// Samples of the capture a second; nothing before the time code has advanced by half a second. A whole
-    /// number where the resolution of the time code cannot show the difference.
-    [[nodiscard]] std::optional<double> frameHz() const;
-
-private:
-    struct Mark {
-        std::uint32_t sample = 0;
-        std::uint32_t timeCode = 0;
-    };
-    [[nodiscard]] bool continues(const Mark& mark) const;
-
-    bool m_hasMarks = false;
-    Mark m_base;
-    Mark m_nextBase;
-    Mark m_newest;
-};
 
 /// How the sender's clocks run: header time code against sample counter and receive stamps, and the wall
 /// clock of type 25 beside it. Reads at the cursor, at most the last minute.
@@ -88,7 +63,7 @@ private:
     std::optional<Reading> m_newest; ///< that is no straggler and not corrupt
     std::vector<Reading> m_doubtful; ///< from far away, in a row: late or corrupt, or the counter restarted
     std::vector<Reading> m_jumped;   ///< in a row: corrupt, or the time code has jumped
-    NominalRate m_rate;
+    model::NominalRate m_rate;
     std::optional<Jump> m_jump;
     std::optional<model::ClockSkew> m_drift;
     std::optional<std::string> m_type25;

@@ -52,6 +52,7 @@ std::span<const Verdict> addToStream(const log::Packet& packet, const wire::Head
 
 PacketDigest PacketDigester::add(const log::Packet& packet, const wire::Datagram* datagram) {
     PacketDigest digest = digestOf(packet, datagram);
+    m_newest = nullptr;
     if (datagram == nullptr) {
         return digest;
     }
@@ -62,16 +63,19 @@ PacketDigest PacketDigester::add(const log::Packet& packet, const wire::Datagram
         if (m_streams.size() == log::StreamIndex::kStreamLimit) {
             return digest;
         }
-        stream = m_streams.try_emplace(key, key.type).first;
-        stream->second.setDepth(m_depth);
+        stream = m_streams.try_emplace(key, key).first;
+        stream->second.accounting.setDepth(m_depth);
         if (const auto depth = AccountingDepth::of(m_streams.size()); depth != m_depth) {
             m_depth = depth;
-            for (auto& [each, accounting] : m_streams) {
-                accounting.setDepth(depth);
+            for (auto& [each, other] : m_streams) {
+                other.accounting.setDepth(depth);
             }
         }
     }
-    addToStream(packet, header, stream->second, digest);
+    const auto verdicts = addToStream(packet, header, stream->second.accounting, digest);
+    stream->second.statistics.add(packet.stamp);
+    stream->second.addSamples(packet.stamp, header, verdicts);
+    m_newest = &stream->second;
     return digest;
 }
 

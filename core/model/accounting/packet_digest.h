@@ -5,7 +5,7 @@
 #include "core/log/packet.h"
 #include "core/log/scratch.h"
 #include "core/log/stream_index.h"
-#include "core/model/accounting/stream_accounting.h"
+#include "core/model/accounting/stream.h"
 #include "core/wire/codec.h"
 
 #include <array>
@@ -71,8 +71,12 @@ class PacketDigester {
 public:
     PacketDigest add(const log::Packet& packet, const wire::Datagram* datagram);
 
+    /// That of the newest packet, which is counted; null if it has none.
+    [[nodiscard]] const Stream* stream() const { return m_newest; }
+
 private:
-    std::unordered_map<log::StreamKey, StreamAccounting> m_streams;
+    std::unordered_map<log::StreamKey, Stream> m_streams;
+    const Stream* m_newest = nullptr;
     AccountingDepth m_depth;
 };
 

@@ -52,6 +52,17 @@ std::array<std::uint64_t, kLossCauses> Stream::lostByCause() const {
     return result;
 }
 
+void Stream::addSamples(log::Stamp stamp, const wire::Header& header, std::span<const Verdict> verdicts) {
+    if (!accounting.isSampled() && header.datagramIndex() == 0) {
+        statistics.addSample(stamp);
+    }
+    for (const Verdict& verdict : verdicts) {
+        if (accounting.isSampled() && verdict.isFirstOfSample) {
+            statistics.addSample(verdict.stamp);
+        }
+    }
+}
+
 double Stream::rateAt(log::Stamp now) const {
     const double rateHz = statistics.rateHz();
     const double age = log::secondsOf(now - accounting.lastStamp());

@@ -55,6 +55,8 @@ struct Stream {
 
     /// All samples lost and incomplete by LossCause.
     [[nodiscard]] LossesByCause lostByCause() const;
+    /// Adds to the statistics what the accounting found with a datagram.
+    void addSamples(log::Stamp stamp, const wire::Header& header, std::span<const Verdict> verdicts);
     /// By arrival, as StreamStatistics has it; 0 once it is stale at `now`.
     [[nodiscard]] double rateAt(log::Stamp now) const;
 

@@ -98,15 +98,11 @@ void Counting::takeDatagram(Observed& seen) {
     }
     if (isSampled && !isLate(verdicts)) {
         m_attribution.evidence().takeSampled(packet.sender, packet.stamp, seen.header->sampleCounter);
-    } else if (!isSampled && seen.header->datagramIndex() == 0) {
-        stream.statistics.addSample(packet.stamp);
     }
+    stream.addSamples(packet.stamp, *seen.header, verdicts);
     for (const Verdict& verdict : verdicts) {
         if (verdict.packet != packet.number) {
             m_digests.amend(verdict);
-        }
-        if (isSampled && verdict.isFirstOfSample) {
-            stream.statistics.addSample(verdict.stamp);
         }
         takeVerdict(stream, verdict, isConfirmed);
     }
