@@ -9,64 +9,12 @@ namespace {
 
 constexpr std::uint64_t kReadAtOnce = 2048;
 
-/// A number as it was sent in the unit that it is compared in.
-double compared(double number, const field::FieldInfo& info, const field::Place& place,
-                const field::Candidate& packet) {
-    if (place.length) {
-        return number * model::metresPer(packet.positionUnit.value_or(*place.length));
-    }
-    const bool isMeasured = info.read != nullptr && info.dimension != field::Dimension::None;
-    return isMeasured ? field::converted(number, *info.read, field::unitsOf(info.dimension).front()) : number;
-}
-
 SeriesColumn columnOf(double value, bool followsGap) {
     return std::isnan(value) ? SeriesColumn{.hasGap = followsGap}
                              : SeriesColumn{value, value, value, 1, followsGap};
 }
 
 } // namespace
-
-Signal fieldSignal(const field::FieldMatch& match, std::optional<ItemNumber> item) {
-    const field::FieldMatch numbers = field::findFields(item ? item->field : std::string_view());
-    // Items keep their places from packet to packet: the search begins with the last one.
-    return [=, last = std::size_t{0}](field::Subject& packet) mutable -> std::optional<double> {
-        const wire::Datagram* datagram = packet.candidate.datagram;
-        const std::size_t shape = datagram != nullptr ? field::shapeOf(*datagram) : 0;
-        const auto isAsked = [&](std::size_t list, std::size_t at) {
-            return !item || std::ranges::any_of(numbers.fields, [&](const field::FieldInfo* field) {
-                const field::ReadItem read = (field->named ? *field->named : field->places)[shape][list].read;
-                return read != nullptr && read(*datagram, at, 0).number == item->number;
-            });
-        };
-        const auto sent = [&](const field::FieldInfo& info, const field::Place& place, std::size_t at) {
-            const bool isNorm = !match.hasComponent && info.components > 1;
-            double squares = 0;
-            for (std::size_t i = 0; isNorm && i < info.components; ++i) {
-                squares += std::pow(place.read(*datagram, at, i).number, 2);
-            }
-            return isNorm ? std::sqrt(squares) : place.read(*datagram, at, match.component).number;
-        };
-        for (const field::FieldInfo* info : match.fields) {
-            if (const auto value = info->isOfItems() ? std::nullopt : info->readPacket(packet, 0)) {
-                return match.isAsSent ? value->number : compared(value->number, *info, {}, packet.candidate);
-            }
-            for (std::size_t list = 0; list < field::kLists; ++list) {
-                const field::Place& place = info->places[shape][list];
-                const std::size_t count =
-                    place.read != nullptr ? field::itemCount(*datagram, shape, list) : 0;
-                for (std::size_t i = 0; i < count; ++i) {
-                    const std::size_t at = (last + i) % count;
-                    if (isAsked(list, at)) {
-                        last = item ? at : 0;
-                        const double number = sent(*info, place, at);
-                        return match.isAsSent ? number : compared(number, *info, place, packet.candidate);
-                    }
-                }
-            }
-        }
-        return std::nullopt;
-    };
-}
 
 void SeriesColumn::add(const SeriesColumn& later) {
     least = std::min(least, later.least);
@@ -191,6 +139,7 @@ void SeriesFeed::read(const log::Packet& packet) {
     const wire::Datagram* datagram = isRead ? &m_datagram : nullptr;
     const model::PacketDigest digest = m_digester.add(packet, datagram);
     field::Candidate candidate{packet, digest, datagram, m_senders.find(packet.sender), *m_firstStamp};
+    candidate.stream = m_digester.stream();
     candidate.setBy = m_log.timeline().setByAt(packet.stamp);
     for (Part& part : m_parts) {
         candidate.positionUnit = part.source.positionUnit;

@@ -22,16 +22,6 @@ namespace posewire::feed {
 /// that a filter matches may have no datagram. It may remember what it read: packets come in order.
 using Signal = std::function<std::optional<double>(field::Subject& packet)>;
 
-/// An item of a message by the number in one of its fields: {"id", 11}, {"segment", 15}.
-struct ItemNumber {
-    std::string_view field;
-    double number = 0;
-};
-
-/// A numeric field in the unit that filters compare it in (FieldInfo::unit): the component that the match
-/// names, or the norm of all if it names none; of the first item unless one is given.
-[[nodiscard]] Signal fieldSignal(const field::FieldMatch& match, std::optional<ItemNumber> item = {});
-
 /// Sum of the values of some rows in order. NaN is no value.
 struct SeriesColumn {
     double least = std::numeric_limits<double>::infinity(); ///< means nothing without values

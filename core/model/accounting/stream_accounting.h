@@ -145,6 +145,8 @@ public:
         return m_history.width(from);
     }
     [[nodiscard]] const CountHistory& history() const { return m_history; }
+    /// At the newest sample.
+    [[nodiscard]] const SenderClock& senderClock() const { return m_clock; }
 
     /// Calls f(sample, stamp) for the samples between two counters, both exclusive, that came and are
     /// remembered; after a restart those of before it first.
