@@ -15,10 +15,10 @@ Program::Program()
           [] { return "posewire-cli " + std::string(usage::version()) + "\nQt " + qVersion(); },
           "Exit status: 0 fine; 1 the input had faults, or a limit was exceeded; 2 wrong usage, or "
           "a file or port that cannot be opened."),
-      commands{addDecodeCommand(line),  addEncodeCommand(line), addSendCommand(line),
-               addMonitorCommand(line), addFollowCommand(line), addOutletCommand(line),
-               addReportCommand(line),  addExportCommand(line), addReferenceCommand(line),
-               addProbeCommand(line),   addStageCommand(line)} {}
+      commands{addDecodeCommand(line),    addEncodeCommand(line),  addQueryCommand(line),
+               addSendCommand(line),      addMonitorCommand(line), addFollowCommand(line),
+               addOutletCommand(line),    addReportCommand(line),  addExportCommand(line),
+               addReferenceCommand(line), addProbeCommand(line),   addStageCommand(line)} {}
 
 ExitStatus readingStatus(const tl::expected<void, log::FileError>& result, const Console& console) {
     using Kind = log::FileError::Kind;

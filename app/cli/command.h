@@ -63,6 +63,7 @@ Command addFollowCommand(CommandLine& program);
 Command addMonitorCommand(CommandLine& program);
 Command addOutletCommand(CommandLine& program);
 Command addProbeCommand(CommandLine& program);
+Command addQueryCommand(CommandLine& program);
 Command addReferenceCommand(CommandLine& program);
 Command addReportCommand(CommandLine& program);
 Command addSendCommand(CommandLine& program);

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/command.h"
-#include "app/cli/table_writer.h"
+#include "app/cli/record_packets.h"
 #include "core/export/json.h"
-#include "core/filter/filter.h"
 #include "core/log/recording_file.h"
-#include "core/log/sender_table.h"
 #include "core/model/foreign_text.h"
 #include "core/wire/codec.h"
 #include "core/wire/field_tree.h"
@@ -59,62 +57,6 @@ std::string fieldListing(wire::Bytes bytes) {
     return text;
 }
 
-/// A filter over the records of one file, in order. In a file without stamps all records have the same time.
-class RecordFilter {
-public:
-    explicit RecordFilter(filter::Filter filter) : m_filter(std::move(filter)) {}
-
-    /// `index` is the number in the output; runs of skipped bytes count too.
-    [[nodiscard]] bool matches(const log::FileRecord& record, std::uint64_t index) {
-        log::Packet packet;
-        packet.number = index;
-        packet.bytes = record.bytes;
-        packet.stamp = m_clock.stampOf(record.time.value_or(log::WallTime()), record.setBy);
-        packet.flags = record.flags;
-        packet.kernelDropsBefore = record.kernelDropsBefore;
-        packet.sender = numberOf(record.sender.value_or(log::SenderInfo{"", log::Transport::File, 0}));
-        m_firstStamp = m_firstStamp.value_or(packet.stamp);
-        const auto decoded = record.flags.skipped ? tl::unexpected(wire::WireError{})
-                                                  : wire::decodeInto(record.bytes, m_datagram);
-        const wire::Datagram* datagram = decoded ? &m_datagram : nullptr;
-        const model::PacketDigest digest = m_digester.add(packet, datagram);
-        return m_filter.matches({packet, digest, datagram, record.sender ? &*record.sender : nullptr,
-                                 *m_firstStamp, decoded ? nullptr : &decoded.error(),
-                                 m_timeline.setByAt(packet.stamp)});
-    }
-
-private:
-    /// The same for the same sender as long as there are not too many.
-    log::SenderId numberOf(const log::SenderInfo& sender) {
-        constexpr std::size_t kMostSenders = 65'536;
-        const log::SenderId id = m_senders.intern(sender);
-        if (m_held.size() < kMostSenders && !m_held.contains(id)) {
-            m_held.emplace(id, m_senders.find(id));
-        }
-        return id;
-    }
-
-    filter::Filter m_filter;
-    log::Timeline m_timeline;
-    log::RecordedClock m_clock{m_timeline};
-    model::PacketDigester m_digester;
-    log::SenderTable m_senders;
-    std::unordered_map<log::SenderId, log::SenderTable::Held> m_held;
-    wire::Datagram m_datagram;
-    std::optional<log::Stamp> m_firstStamp;
-};
-
-/// Why a filter was rejected, in three lines: the reason, the filter, and a caret under the place.
-std::string markedError(std::string_view text, const filter::FilterError& error) {
-    std::string line(text);
-    std::replace_if(
-        line.begin(), line.end(), [](char c) { return c == '\n' || c == '\t' || c == '\r'; }, ' ');
-    const std::size_t before = widthOf(text.substr(0, error.offset));
-    const std::size_t marked = std::max<std::size_t>(1, widthOf(text.substr(error.offset, error.length)));
-    return "--filter: " + error.text + "\n  " + line + "\n  " + std::string(before, ' ') +
-           std::string(marked, '^');
-}
-
 struct DecodeOptions {
     std::vector<std::string> files;
     bool asJson = false;
@@ -142,7 +84,7 @@ public:
         }
         endSkipped();
         const exporting::DatagramPlace place = placeOf(record);
-        if (m_filter && !m_filter->matches(record, place.index)) {
+        if (m_filter && !m_filter->matches(m_packets.packetOf(record, place.index))) {
             return;
         }
         if (!wire::decodeInto(record.bytes, m_datagram)) {
@@ -160,9 +102,9 @@ public:
             return;
         }
         const exporting::DatagramPlace place{m_index++, m_skippedFrom, std::nullopt, std::nullopt};
-        if (m_filter &&
-            !m_filter->matches({.offset = m_skippedFrom, .bytes = m_firstSkipped, .flags = {.skipped = true}},
-                               place.index)) {
+        if (m_filter && !m_filter->matches(m_packets.packetOf(
+                            {.offset = m_skippedFrom, .bytes = m_firstSkipped, .flags = {.skipped = true}},
+                            place.index))) {
             return;
         }
         m_out.write(m_asJson
@@ -217,7 +159,8 @@ private:
     Output& m_out;
     bool m_asJson;
     bool m_hasNames;
-    std::optional<RecordFilter> m_filter;
+    std::optional<filter::Filter> m_filter;
+    RecordPackets m_packets;
     std::vector<std::byte>
         m_firstSkipped;        ///< the part of skipped bytes that a filter sees: at most one packet's worth
     wire::Datagram m_datagram; ///< the newest; its memory is reused
@@ -254,7 +197,7 @@ ExitStatus decodeFile(const std::string& path, const DecodeOptions& options, con
 ExitStatus decode(const DecodeOptions& options, Console& console) {
     const auto filter = filter::Filter::compile(options.filter);
     if (!filter) {
-        return console.unusable(markedError(options.filter, filter.error()));
+        return console.unusable("--filter: " + markedError(options.filter, filter.error()));
     }
     ExitStatus status = ExitStatus::Fine;
     for (const std::string& path : options.files) {
