@@ -3,6 +3,7 @@
 
 #include "core/field/field.h"
 #include "core/filter/lexer.h"
+#include "core/filter/signal_tree.h"
 #include "core/model/body/segments.h"
 #include "core/wire/text.h"
 #include "core/wire/type_table.h"
@@ -14,7 +15,7 @@ namespace posewire::filter {
 using namespace field;
 namespace {
 
-enum class Next : std::uint8_t { Field, Operator, Value, SetMember, AfterMember, Join };
+enum class Next : std::uint8_t { Field, Item, Operator, Value, SetMember, AfterMember, Join };
 
 struct Context {
     Next next = Next::Field;
@@ -31,6 +32,10 @@ void advance(Context& context, const Token& token, std::string_view text) {
     } else if (context.next == Next::Field && token.kind == TokenKind::Word) {
         context.next = Next::Operator;
         context.field = token.in(text);
+    } else if (context.next == Next::Operator && token.in(text) == kOf) {
+        context.next = Next::Item;
+    } else if (context.next == Next::Item && isValue) {
+        context.next = Next::Operator;
     } else if (token.kind == TokenKind::Operator) {
         context.next = Next::Value;
         context.isSet = token.op == Operator::In;
@@ -44,6 +49,23 @@ void advance(Context& context, const Token& token, std::string_view text) {
         context.next = isMember ? Next::AfterMember : Next::Join;
     } else if (token.kind == TokenKind::CloseSet || token.kind == TokenKind::Close) {
         context.next = Next::Join;
+    }
+}
+
+/// In a signal, Operator is all that may follow a value.
+void advanceInSignal(Context& context, const Token& token, std::string_view text) {
+    const bool isWord = token.kind == TokenKind::Word || token.kind == TokenKind::Quoted;
+    const bool isNew = context.next == Next::Field || context.next == Next::Item;
+    context.isNumber = context.next == Next::Field && isWord && numberOf(token.in(text)).has_value();
+    if (isWord && context.next == Next::Operator && token.in(text) == kOf) {
+        context.next = Next::Item;
+    } else if (isWord) {
+        context.field = context.next == Next::Field ? token.in(text) : std::string_view();
+        context.next = Next::Operator;
+    } else if (token.kind == TokenKind::Close && !isNew) {
+        context.field = {};
+    } else {
+        context.next = Next::Field;
     }
 }
 
@@ -112,8 +134,15 @@ void offerField(const std::string& name, const FieldInfo& field, const std::stri
     }
 }
 
-void offerFields(Collector& into) {
-    const std::string_view asked = into.written();
+bool isText(const FieldInfo& field) {
+    return field.kind == Kind::Text || field.kind == Kind::Transport;
+}
+
+/// All fields, those of a type if the word begins with one; of a signal only numbers.
+void offerFields(Collector& into, bool isOfSignal = false) {
+    std::string_view asked = into.written();
+    const auto type = takeType(asked);
+    const std::string prefix = into.written().substr(0, into.written().size() - asked.size());
     const bool asksSent = asked.starts_with(kAsSent);
     const std::string_view unprefixed = asked.substr(asksSent ? kAsSent.size() : 0);
     const bool isQualified = unprefixed.find('.') != std::string_view::npos;
@@ -122,18 +151,48 @@ void offerFields(Collector& into) {
         const std::string name = isQualified && unprefixed.starts_with(wire::lowered(field.qualifier) + '.')
                                      ? field.qualifier + '.' + field.name
                                      : askedName(field);
-        if (std::ranges::find(seen, name) != seen.end()) {
+        const bool isElsewhere = type && std::ranges::find(field.types, *type) == field.types.end();
+        if (std::ranges::find(seen, name) != seen.end() || isElsewhere || (isOfSignal && isText(field))) {
             continue;
         }
         seen.push_back(name);
-        offerField(name, field, aboutField(field), into);
+        offerField(prefix + name, field, aboutField(field), into);
         if (field.isConverted() && !asked.empty()) {
-            offerField(std::string(kAsSent) + name, field, aboutSent(field), into);
+            offerField(prefix + std::string(kAsSent) + name, field, aboutSent(field), into);
         }
+    }
+    if (isOfSignal) {
+        for (const SignalFunction& function : signalFunctions()) {
+            into.offer(std::string(function.name) + "(", std::string(function.about));
+        }
+        for (const SignalFigure& figure : signalFigures()) {
+            const std::string about = std::string(figure.unit) + ": " + std::string(figure.about);
+            into.offer((type ? prefix : "2.") + std::string(figure.name), about);
+        }
+        return;
     }
     into.offer("tag", "text: names of the metadata tags (12)");
     for (const std::string_view tag : {"name", "xmid", "color"}) {
         into.offer("tag." + std::string(tag), "text: value of the metadata tag (12)");
+    }
+}
+
+void offerNames(Kind kind, Collector& into) {
+    for (const std::string_view name : namesOf(kind)) {
+        into.offer(name,
+                   std::string(kind == Kind::Segment ? model::segmentTitle(name) : kindWords(kind).name));
+    }
+}
+
+void offerItems(std::string_view field, Collector& into) {
+    for (const Kind kind : itemKinds(findFields(field))) {
+        offerNames(kind, into);
+    }
+}
+
+void offerOf(std::string_view field, Collector& into) {
+    if (!itemKinds(findFields(field)).empty()) {
+        into.offer(kOf, "the item, such as LeftHand");
     }
 }
 
@@ -159,6 +218,7 @@ void offerOperators(std::string_view name, Collector& into) {
     if (!isVector) {
         into.offer("in {", "is one of a set");
     }
+    offerOf(name, into);
     into.offer("&&", "and");
     into.offer("||", "or");
 }
@@ -191,10 +251,7 @@ void offerValues(std::string_view asked, Collector& into) {
             into.offer(wire::typeDigits(info.type), std::string(info.name));
         }
     }
-    for (const std::string_view name : namesOf(field.kind)) {
-        into.offer(name, std::string(field.kind == Kind::Segment ? model::segmentTitle(name)
-                                                                 : kindWords(field.kind).name));
-    }
+    offerNames(field.kind, into);
     if (field.kind == Kind::Vector && !match.hasComponent) {
         into.offer("NaN", "one of its components is not a number");
     }
@@ -303,6 +360,9 @@ std::vector<Completion> completions(std::string_view text, std::size_t cursor) {
     case Next::Field:
         offerFields(into);
         break;
+    case Next::Item:
+        offerItems(context.field, into);
+        break;
     case Next::Operator:
         offerOperators(context.field, into);
         break;
@@ -328,6 +388,43 @@ std::vector<Completion> completions(std::string_view text, std::size_t cursor) {
         into.offer("&&", "and");
         into.offer("||", "or");
         break;
+    }
+    return into.take();
+}
+
+std::vector<Completion> signalCompletions(std::string_view text, std::size_t cursor) {
+    cursor = std::min(cursor, text.size());
+    Context context;
+    Token replaced{TokenKind::End, cursor, 0};
+    for (const Token& token : signalTokens(text)) {
+        if (token.kind == TokenKind::End || token.offset >= cursor) {
+            break;
+        }
+        if (token.end() >= cursor && isOpenEnded(token, text) && token.kind != TokenKind::Unknown) {
+            replaced = token;
+            break;
+        }
+        if (context.next == Next::Operator && token.in(text) == kWhere) {
+            auto all = completions(text.substr(token.end()), cursor - token.end());
+            std::ranges::for_each(all, [&](Completion& one) { one.offset += token.end(); });
+            return all;
+        }
+        advanceInSignal(context, token, text);
+    }
+    Collector into(replaced, text.substr(replaced.offset, cursor - replaced.offset));
+    if (context.next == Next::Field) {
+        offerFields(into, true);
+    } else if (context.next == Next::Item) {
+        offerItems(context.field, into);
+    } else {
+        for (const UnitInfo& unit : context.isNumber ? unitTable() : std::span<const UnitInfo>()) {
+            into.offer(unit.symbol, std::string(unit.text));
+        }
+        offerOf(context.field, into);
+        for (const std::string_view sign : {"+", "-", "*", "/"}) {
+            into.offer(sign, "arithmetic");
+        }
+        into.offer(kWhere, "only of packets that a filter matches");
     }
     return into.take();
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/field/field.h"
+#include "core/filter/signal_tree.h"
 
 namespace posewire::filter {
 
@@ -18,6 +19,8 @@ A filter is a condition that a packet meets or does not meet: a field, an operat
 | `type in {02, 12, 20..25}` | any of these types |
 | `gap > 0 \|\| duplicate` | packets after a loss, and those that came twice |
 | `segment == LeftHand && position.z > 2` | poses whose left hand is above 2 m |
+| `position.z of LeftHand > 2` | the same, for short |
+| `20.rotation.z of RightKnee > 90` | bent knees, by the joint angles (type 20) |
 | `delta > 20 ms` | packets more than 20 ms after the one before them |
 | `source contains "192.168"` | packets from these addresses |
 | `tag.name matches "^Ann"` | metadata of characters whose name begins with Ann |
@@ -62,6 +65,8 @@ constexpr std::string_view kRules = R"(
 * Conditions on items that `&&` joins speak of the same item: `segment == LeftHand && position.z > 2`. So does an
   `||` in parentheses among them. Parentheses around an `&&` make a group of its own:
   `(segment == LeftHand && position.z > 2) && (segment == RightHand && position.z > 2)`.
+* `of` names one item, by the name or the number that `segment`, `point` or `joint` has: `position.z of "Left Hand"`,
+  `position.x of pSacrum`, `rotation.z of RightKnee`. The number of a type before a field means packets of that type only.
 * A vector is asked for by its components: x, y, z; re, i, j, k for orientations, where w, x, y, z mean the
   same; 1 to 9 for matrices.
 * Comparisons with a value that is not a number are false. `position == NaN` finds such values.
@@ -70,6 +75,32 @@ constexpr std::string_view kRules = R"(
 * Segments are named in any case, in one word or in quotes (`LeftHand`, `"Left Hand"`, `Prop1`, `LeftFirstPP`), or
   numbered as on the wire. So are points (`point == pSacrum`, `child == jRightKnee`) and joints (`joint == jRightKnee`).
 * `tag` means the names of the metadata tags, `tag.color` for the value of the tag `color`.
+)";
+
+constexpr std::string_view kSignals = R"(
+## Signals
+
+Plots and `posewire-cli query` read numbers over time, written in the same language: a field (`size`, `position.z of
+Pelvis`, `20.rotation.z of RightKnee`), a figure of a stream (`2.jitter`), a function of them, or arithmetic. Without `of` a
+field of items is that of the first one. `where` and a filter after all of it choose packets: `2.rate where character == 1`.
+
+| example | is |
+|---|---|
+| `norm(velocity of LeftFoot)` | how fast the foot moves as the sender says (type 21) |
+| `distance(position of LeftHand, position of RightHand)` | between the hands, in metres |
+| `angle(orientation of Pelvis, orientation of Head)` | between two orientations |
+| `speed(2.position of Pelvis) - norm(21.velocity of Pelvis)` | computed against sent |
+| `derivative(20.rotation.z of RightKnee)` | °/s |
+| `(position.z of Head - position.z of Pelvis) / 2 + 10 cm` | with units |
+
+* `+` and `-` take two numbers of one unit; a plain number takes the unit of the other side. `*` and `/` take a plain
+  number; two numbers of one unit divide to a plain one.
+* Values of several message types belong together if character and sample counter are the same. A field that several
+  types have is read from one of them as long as that goes on; `2.position` says from which.
+* `speed` and `derivative` compare a sample with the one before it, in the sender's time: samples by the rate at which its
+  time code advances with the sample counter (by the time code alone in the first half second). After a missing sample,
+  or a restart of the counter, they have no value. Angles go the short way round.
+
 )";
 
 std::string kindOf(const FieldInfo& field) {
@@ -115,6 +146,17 @@ std::string filterReference() {
     }
     out += "| `tag` | text |  |  | names of the metadata tags | 12 |\n"
            "| `tag.…` | text |  |  | value of the tag of that name | 12 |\n";
+    out += kSignals;
+    out += "| function | is |\n|---|---|\n";
+    for (const SignalFunction& function : signalFunctions()) {
+        out.append("| `").append(function.name).append(function.operands == 1 ? "(a)` | " : "(a, b)` | ");
+        out.append(function.about).append(" |\n");
+    }
+    out += "\n| figure of a stream | unit | is |\n|---|---|---|\n";
+    for (const SignalFigure& figure : signalFigures()) {
+        out.append("| `2.").append(figure.name).append("` | ").append(figure.unit).append(" | ");
+        out.append(figure.about).append(" |\n");
+    }
     return out;
 }
 

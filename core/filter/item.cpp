@@ -16,23 +16,43 @@ std::optional<double> numberOfItem(Kind kind, const std::string& name) {
     return number || kind != Kind::Joint ? number : numberNamed(kind, "j" + name);
 }
 
+/// What tells the items of a list apart; null if that is not of the kind.
+const FieldInfo* tellingField(std::size_t shape, std::size_t list, Kind kind, std::string_view name) {
+    const auto found = std::ranges::find_if(fieldTable(), [&](const FieldInfo& field) {
+        return field.kind == kind && field.name == name && field.places[shape][list].read != nullptr;
+    });
+    return found != fieldTable().end() ? &*found : nullptr;
+}
+
 NamedItem::Spot spotIn(std::size_t shape, std::size_t list, const Constant& item) {
     for (const auto& [kind, name] : kTelling) {
-        for (const FieldInfo& field : fieldTable()) {
-            if (field.kind != kind || field.name != name || field.places[shape][list].read == nullptr) {
-                continue;
-            }
-            const auto named = field.named ? numberOfItem(kind, item.text) : std::nullopt;
-            const auto number = named ? named : numberOf(item.text);
-            if (number) {
-                return {(named ? *field.named : field.places)[shape][list].read, *number};
-            }
-            if (kind == Kind::Point) { // a segment has several
-                return {};
-            }
+        const FieldInfo* field = tellingField(shape, list, kind, name);
+        if (field == nullptr) {
+            continue;
+        }
+        const auto named = field->named ? numberOfItem(kind, item.text) : std::nullopt;
+        if (const auto number = named ? named : numberOf(item.text)) {
+            return {(named ? *field->named : field->places)[shape][list].read, *number};
+        }
+        if (kind == Kind::Point) { // a segment has several
+            break;
         }
     }
     return {};
+}
+
+/// Calls f(shape, list) for the lists that have the fields.
+void forEachList(const FieldMatch& match, const auto& f) {
+    for (const FieldInfo* field : match.fields) {
+        for (std::size_t shape = 0; shape < kShapes; ++shape) {
+            for (std::size_t list = 1; list < kLists; ++list) {
+                if (field->isOfItems() && field->places[shape][list].read != nullptr &&
+                    (!match.type || *match.type == typeOfShape(shape))) {
+                    f(shape, list);
+                }
+            }
+        }
+    }
 }
 
 /// The closest name of anything.
@@ -45,6 +65,19 @@ std::string nearestItem(const std::string& name) {
 }
 
 } // namespace
+
+std::vector<Kind> itemKinds(const FieldMatch& match) {
+    std::vector<Kind> kinds;
+    forEachList(match, [&](std::size_t shape, std::size_t list) {
+        const auto* own = std::ranges::find_if(kTelling, [&](const auto& telling) {
+            return tellingField(shape, list, telling.first, telling.second) != nullptr;
+        });
+        if (own != kTelling.end() && std::ranges::find(kinds, own->first) == kinds.end()) {
+            kinds.push_back(own->first);
+        }
+    });
+    return kinds;
+}
 
 tl::expected<FieldMatch, FilterError> fieldsOf(const WrittenField& written) {
     FieldMatch match = findFields(written.fieldName);
@@ -65,18 +98,11 @@ tl::expected<std::shared_ptr<const NamedItem>, FilterError> itemOf(const Written
     NamedItem item;
     bool isFound = false;
     bool hasItems = false;
-    for (const FieldInfo* field : match.fields) {
-        for (std::size_t shape = 0; shape < kShapes; ++shape) {
-            for (std::size_t list = 1; list < kLists; ++list) {
-                const bool isAsked = field->isOfItems() && field->places[shape][list].read != nullptr &&
-                                     (!match.type || *match.type == typeOfShape(shape));
-                hasItems = hasItems || isAsked;
-                item.spots[shape][list] =
-                    isAsked ? spotIn(shape, list, *written.item) : item.spots[shape][list];
-                isFound = isFound || item.spots[shape][list].read != nullptr;
-            }
-        }
-    }
+    forEachList(match, [&](std::size_t shape, std::size_t list) {
+        item.spots[shape][list] = spotIn(shape, list, *written.item);
+        hasItems = true;
+        isFound = isFound || item.spots[shape][list].read != nullptr;
+    });
     if (!isFound) {
         const Constant& named = *written.item;
         const std::string near = hasItems ? nearestItem(named.text) : std::string();

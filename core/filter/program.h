@@ -111,6 +111,9 @@ struct WrittenField {
 [[nodiscard]] tl::expected<std::shared_ptr<const NamedItem>, FilterError> itemOf(const WrittenField& written,
                                                                                  const FieldMatch& match);
 
+/// What the items of these fields can be named by.
+[[nodiscard]] std::vector<Kind> itemKinds(const FieldMatch& match);
+
 /// A condition as written.
 struct WrittenCondition : WrittenField {
     Operator op = Operator::IsThere;
