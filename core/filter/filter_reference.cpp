@@ -96,7 +96,8 @@ field of items is that of the first one. `where` and a filter after all of it ch
 * `+` and `-` take two numbers of one unit; a plain number takes the unit of the other side. `*` and `/` take a plain
   number; two numbers of one unit divide to a plain one.
 * Values of several message types belong together if character and sample counter are the same. A field that several
-  types have is read from one of them as long as that goes on; `2.position` says from which.
+  types have is read from one of them as long as that goes on; `2.position` says from which. In functions positions are all
+  Z up; a component is that of the message's own axes. Type 05 is read whole only as `5.position`, `5.orientation`.
 * `speed` and `derivative` compare a sample with the one before it, in the sender's time: samples by the rate at which its
   time code advances with the sample counter (by the time code alone in the first half second). After a missing sample,
   or a restart of the counter, they have no value. Angles go the short way round.

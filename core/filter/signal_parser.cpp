@@ -413,12 +413,18 @@ private:
                          SignalSource& source) {
         for (std::size_t shape = 0; shape < kShapes; ++shape) {
             const std::uint8_t own = typeOfShape(shape);
+            const bool isWhole = source.quantity.components != 1 && !source.isAsSent;
+            if (isWhole && own == wire::PoseUnity::kType && !type) { // relative to parents, in other axes
+                continue;
+            }
+            const bool isYUp = isWhole && field.dimension == Dimension::Length &&
+                               own <= wire::TagPositions::kType && own != wire::PoseQuaternion::kType;
             for (std::size_t list = 0; list < kLists; ++list) {
                 const Place& place = field.places[shape][list];
                 const auto spot = item != nullptr ? item->spots[shape][list] : NamedItem::Spot{};
                 if (place.read != nullptr && (item == nullptr || spot.read != nullptr) &&
                     own == type.value_or(own)) {
-                    source.spots[shape].push_back({&field, place, list, spot});
+                    source.spots[shape].push_back({&field, place, list, spot, isYUp});
                     source.types.push_back(own);
                 }
             }

@@ -103,6 +103,9 @@ std::optional<SignalValue> SignalSource::read(Subject& packet, std::size_t& last
                 const double number = spot.place.read(datagram, item, component.value_or(at)).number;
                 value[at] = isAsSent ? number : compared(number, *spot.field, spot.place, candidate);
             }
+            if (spot.isYUp) {
+                std::rotate(value.begin(), value.begin() + 2, value.begin() + 3);
+            }
             return value;
         }
     }

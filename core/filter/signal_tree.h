@@ -71,6 +71,7 @@ struct SignalSource {
         Place place{};
         std::size_t list = 0;
         NamedItem::Spot item{}; ///< reads nothing: the first one
+        bool isYUp = false;     ///< a whole position of types 01, 03, 04: it is turned to Z up, as others are
     };
     const SignalFigure* figure = nullptr;
     std::vector<const FieldInfo*> ofPacket{};
