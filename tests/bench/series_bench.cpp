@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/feed/series_feed.h"
+#include "core/feed/signal.h"
 
 #include <chrono>
 #include <cmath>
@@ -58,10 +59,9 @@ double readingRatio(std::size_t packets) {
     std::vector<feed::Signal> curves;
     for (std::uint32_t id = 1; id <= 23; ++id) {
         pose.segments.push_back({id, {0, 0, static_cast<float>(id)}, {1, 0, 0, 0}});
-        curves.push_back(
-            feed::fieldSignal(field::findFields("position.z"), feed::ItemNumber{"segment", id * 1.0}));
+        curves.push_back(feed::parseSignal("position.z of " + std::to_string(id)).value().signal);
     }
-    curves.push_back(feed::fieldSignal(field::findFields("orientation")));
+    curves.push_back(feed::parseSignal("norm(orientation)").value().signal);
     datagram.body = pose;
     log::PacketLog log;
     const log::SenderId sender = log.senders().intern({"127.0.0.1:4000", log::Transport::Udp, 9763});

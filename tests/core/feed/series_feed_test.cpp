@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/feed/series_feed.h"
+#include "core/feed/signal.h"
 
 #include <gtest/gtest.h>
 
@@ -45,11 +46,7 @@ protected:
     [[nodiscard]] log::StreamKey stream(std::uint8_t type = 2, std::uint8_t character = 0) const {
         return {m_sender, character, type};
     }
-    static Signal signal(std::string_view name, std::optional<ItemNumber> item = {}) {
-        const field::FieldMatch match = field::findFields(name);
-        EXPECT_FALSE(match.fields.empty()) << name;
-        return fieldSignal(match, item);
-    }
+    static Signal signal(std::string_view text) { return parseSignal(text).value().signal; }
     static void readAll(SeriesFeed& feed) {
         while (feed.advance()) {
         }
@@ -77,8 +74,8 @@ TEST_F(SeriesFeedTest, ReadsWhatDecodingReads) {
     }
     SeriesFeed feed(m_log, 0,
                     {{stream(),
-                      {signal("position.z", ItemNumber{"segment", 2}), signal("orientation"),
-                       signal("position.z"), signal("header.timeCode"), signal("size")}}});
+                      {signal("position.z of 2"), signal("norm(orientation)"), signal("position.z"),
+                       signal("header.timeCode"), signal("size")}}});
     readAll(feed);
     const Series& series = feed.series();
     ASSERT_EQ(series.end(), 100U);
@@ -103,8 +100,8 @@ TEST_F(SeriesFeedTest, ConvertsToTheUnitOfTheFieldUnlessAskedForWhatWasSent) {
     wire::AngularKinematics angular;
     angular.segments.push_back({1, {1, 0, 0, 0}, {2, 0, 0}, {}});
     send(angular, 0);
-    EXPECT_EQ(valuesOf({stream(1), {signal("position")}}), std::vector{0.5});
-    EXPECT_EQ(valuesOf({stream(1), {signal("position")}, SIZE_MAX, model::LengthUnit::Metre}),
+    EXPECT_EQ(valuesOf({stream(1), {signal("norm(position)")}}), std::vector{0.5});
+    EXPECT_EQ(valuesOf({stream(1), {signal("norm(position)")}, SIZE_MAX, model::LengthUnit::Metre}),
               std::vector{50.0});
     EXPECT_EQ(valuesOf({stream(1), {signal("wire.position.y")}}), std::vector{40.0});
     EXPECT_NEAR(valuesOf({stream(22), {signal("angularVelocity.x")}}).at(0), 114.59, 0.01);
@@ -120,9 +117,8 @@ TEST_F(SeriesFeedTest, FindsItemsWhereverTheyAreInTheMessage) {
         }
         send(body, sample);
     }
-    EXPECT_EQ(valuesOf({stream(3), {signal("wire.position.x", ItemNumber{"id", 258})}}),
-              std::vector<double>(9, 258));
-    EXPECT_TRUE(valuesOf({stream(3), {signal("position.x", ItemNumber{"id", 300})}}).empty());
+    EXPECT_EQ(valuesOf({stream(3), {signal("wire.position.x of 258")}}), std::vector<double>(9, 258));
+    EXPECT_TRUE(valuesOf({stream(3), {signal("position.x of 300")}}).empty());
 }
 
 TEST_F(SeriesFeedTest, KeepsARowOfWhatWasSentAsNoNumber) {
