@@ -54,7 +54,7 @@ public:
 
     void write(double seconds, const QueryRow& row) {
         m_line.clear();
-        add(m_asJson ? "{\"time\":" : "", seconds);
+        add(m_asJson ? "{\"timeS\":" : "", seconds);
         add(m_asJson ? ",\"sample\":" : ",", row.sample);
         add(m_asJson ? ",\"character\":" : ",", row.character);
         if (row.source != m_source || m_sourceText.empty()) {

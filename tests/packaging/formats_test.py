@@ -124,11 +124,13 @@ def main(page, cli, source):
         decoded = lines(output(cli, "decode", "--json", str(golden_datagrams(source / "tests" / "golden", folder))))
         decoded += lines(output(cli, "decode", "--json", str(take)))
         report = json.loads(output(cli, "monitor", str(take), "--json", "--verbose", "--max-loss", "0.1"))
+        queried = lines(output(cli, "query", str(take), "position.z of Pelvis", "--json"))
         told = lines(output(cli, "monitor", str(take), "--json-lines"))
         output(cli, "send", "--to", "127.0.0.1:9", "--duration", "0.1", "--drop", "0.5", "--fault", "frozen",
                "--truth", str(truth))
         sent = json.loads(truth.read_text(encoding="utf-8"))
     compare("decode --json", promised, keys(decoded))
+    compare("query", promised, keys(queried))
     compare("monitor --json", promised, keys(report))
     lines_only = {"monitor --json-lines": promised["monitor --json-lines"] | keys(report["verdict"]) | keys(report["incidents"])}
     compare("monitor --json-lines", lines_only, keys(told))
