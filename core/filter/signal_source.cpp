@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "core/filter/signal_tree.h"
-#include "core/model/accounting/stream.h"
 
 #include <algorithm>
 

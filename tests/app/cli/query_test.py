@@ -62,7 +62,7 @@ class Tests:
             if sample in self.lost:
                 continue
             for character in (0, 1):
-                stamp = BEGIN + sample * 1_000_000_000 // RATE + character * 100_000
+                stamp = BEGIN + sample * 1_000_000_000 // RATE + (1_000 if sample else 0) + character * 100_000
                 packets.append((stamp, writer.udp_packet(pose(sample, character))))
                 packets.append((stamp + 50_000, writer.udp_packet(joints(sample, character))))
         self.take.write_bytes(writer.pcapng(packets))
