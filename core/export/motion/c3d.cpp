@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -52,34 +51,15 @@ std::vector<std::string> labelsOf(const std::vector<std::uint32_t>& markerIds) {
 
 enum class Type : std::int8_t { Text = -1, Integer = 2, Real = 4 };
 
-void appendByte(std::size_t value, std::string& bytes) {
-    bytes += static_cast<char>(static_cast<unsigned char>(value));
-}
-
-template <class Number>
-void appendLow(Number bits, std::string& bytes) {
-    for (std::size_t i = 0; i < sizeof(bits); ++i) {
-        appendByte(static_cast<std::size_t>(bits >> (8 * i)) & 0xff, bytes);
-    }
+/// Clipped to a byte, as the format has numbers of names, texts and dimensions.
+char byteOf(std::size_t value) {
+    return static_cast<char>(static_cast<unsigned char>(value));
 }
 
 std::string contentOf(Type type, std::initializer_list<std::size_t> dimensions) {
-    std::string content;
-    appendByte(static_cast<std::size_t>(type), content);
-    appendByte(dimensions.size(), content);
-    for (const std::size_t size : dimensions) {
-        appendByte(size, content);
-    }
+    std::string content{static_cast<char>(type), byteOf(dimensions.size())};
+    std::ranges::transform(dimensions, std::back_inserter(content), byteOf);
     return content;
-}
-
-/// Intel order.
-void appendC3d(std::int16_t value, std::string& bytes) {
-    appendLow(static_cast<std::uint16_t>(value), bytes);
-}
-
-void appendC3d(float value, std::string& bytes) {
-    appendLow(std::bit_cast<std::uint32_t>(value), bytes);
 }
 
 /// The parameter section of a C3D file, byte by byte in Intel order. Groups are numbered as they are begun;
@@ -98,15 +78,13 @@ public:
         std::string content =
             values.size() == 1 ? contentOf(Type::Integer, {}) : contentOf(Type::Integer, {values.size()});
         for (const std::int16_t value : values) {
-            appendC3d(value, content);
+            content += lowBytes(value);
         }
         addItem(name, m_group, content);
     }
 
     void add(std::string_view name, float value) {
-        std::string content = contentOf(Type::Real, {});
-        appendC3d(value, content);
-        addItem(name, m_group, content);
+        addItem(name, m_group, contentOf(Type::Real, {}) + lowBytes(value));
     }
 
     /// One text, or several of the length of the longest; at most 255. Longer texts are clipped.
@@ -131,13 +109,8 @@ public:
 
     /// Whole blocks.
     [[nodiscard]] std::string section() const {
-        constexpr std::size_t intel = 84;
-        std::string bytes;
-        appendByte(1, bytes);
-        appendByte(0x50, bytes);
-        appendByte(blocks(), bytes);
-        appendByte(intel, bytes);
-        bytes += m_items;
+        constexpr char kIntel = 84;
+        std::string bytes = std::string{'\x01', '\x50', byteOf(blocks()), kIntel} + m_items;
         bytes.resize(blocks() * kBlock, '\0'); // an item without a name ends them
         return bytes;
     }
@@ -150,13 +123,11 @@ public:
 
 private:
     void addItem(std::string_view name, std::int8_t group, std::string_view content) {
-        appendByte(name.size(), m_items);
-        appendByte(static_cast<std::size_t>(group), m_items);
-        m_items += name;
-        // To the next item, from here on; then an empty description.
-        appendC3d(static_cast<std::int16_t>(sizeof(std::int16_t) + content.size() + 1), m_items);
-        m_items += content;
-        appendByte(0, m_items);
+        // Behind the name: how far it is to the next item; behind the content: an empty description.
+        const auto way = static_cast<std::int16_t>(sizeof(std::int16_t) + content.size() + 1);
+        m_items += byteOf(name.size());
+        m_items += static_cast<char>(group);
+        m_items.append(name).append(lowBytes(way)).append(content) += '\0';
     }
 
     std::string m_items;
@@ -208,25 +179,19 @@ private:
         for (const auto& point : m_points) {
             const Eigen::Vector3d at =
                 point ? Eigen::Vector3d(kMillimetres * *point) : Eigen::Vector3d::Zero();
-            for (const double value : {at.x(), at.y(), at.z()}) {
-                appendC3d(static_cast<float>(value), m_bytes);
-            }
-            appendC3d(point ? 0.0F : kUnmeasured, m_bytes);
+            const auto [x, y, z] = model::toFloats(at);
+            m_bytes += lowBytes(x, y, z, point ? 0.0F : kUnmeasured);
         }
         out.write(m_bytes);
     }
 
     [[nodiscard]] std::string header(std::size_t parameterBlocks) const {
-        std::string bytes{'\x02', '\x50'}; // the block with the parameters
-        appendC3d(word(m_labels.size()), bytes);
-        appendC3d(std::int16_t{0}, bytes); // analogue measurements
-        appendC3d(std::int16_t{1}, bytes); // the first frame
-        appendC3d(word(m_survey.frames), bytes);
-        appendC3d(std::int16_t{0}, bytes); // frames that were interpolated
-        appendC3d(kScale, bytes);
-        appendC3d(word(1 + parameterBlocks + 1), bytes);
-        appendC3d(std::int16_t{0}, bytes);
-        appendC3d(static_cast<float>(m_survey.writtenRateHz()), bytes);
+        constexpr std::int16_t kNone = 0; // analogue measurements, interpolated frames, of those in a frame
+        constexpr std::int16_t kFirstFrame = 1;
+        std::string bytes =
+            std::string{'\x02', '\x50'} + // the block with the parameters
+            lowBytes(word(m_labels.size()), kNone, kFirstFrame, word(m_survey.frames), kNone, kScale,
+                     word(1 + parameterBlocks + 1), kNone, static_cast<float>(m_survey.writtenRateHz()));
         bytes.resize(C3dParameters::kBlock, '\0');
         return bytes;
     }

@@ -2,14 +2,12 @@
 #include "core/export/motion/motion_writer.h"
 
 #include "core/export/json_value.h"
+#include "core/export/motion/scratch_column.h"
 #include "core/export/motion/skeleton.h"
-#include "core/log/scratch.h"
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
-#include <cstring>
 #include <functional>
 #include <limits>
 #include <map>
@@ -42,11 +40,6 @@ std::string_view bytesOf(const std::vector<Element>& elements) {
     return {reinterpret_cast<const char*>(elements.data()), elements.size() * sizeof(Element)};
 }
 
-void appendWord(std::uint64_t value, std::string& bytes) {
-    const auto word = static_cast<std::uint32_t>(value);
-    bytes.append(reinterpret_cast<const char*>(&word), sizeof(word));
-}
-
 /// Axes as the file has them.
 void turnToYUp(std::vector<std::array<float, 3>>& vectors) {
     for (std::array<float, 3>& one : vectors) {
@@ -54,66 +47,25 @@ void turnToYUp(std::vector<std::array<float, 3>>& vectors) {
     }
 }
 
-/// Floats that are written one by one and wanted all together at the end. They lie in a scratch: a range of
-/// hours takes no memory.
-class FloatColumn {
-public:
-    explicit FloatColumn(std::shared_ptr<log::Scratch> scratch) : m_scratch(std::move(scratch)) {}
-
-    void add(float value) {
-        const std::size_t place = static_cast<std::size_t>(m_size % kBlock);
-        if (place == 0) {
-            m_blocks.push_back(m_scratch->bytes(kBlock * sizeof(float)));
-        }
-        std::memcpy(m_blocks.back().get() + place * sizeof(float), &value, sizeof(float));
-        ++m_size;
-    }
-
-    [[nodiscard]] std::uint64_t size() const { return m_size; }
-    /// All of them as bytes, piece by piece, as they lie in memory.
-    template <class Visitor>
-    void visit(Visitor&& visitor) const {
-        for (std::size_t i = 0; i < m_blocks.size(); ++i) {
-            const std::uint64_t left = m_size - i * kBlock;
-            visitor(
-                std::string_view(reinterpret_cast<const char*>(m_blocks[i].get()),
-                                 sizeof(float) * (left < kBlock ? static_cast<std::size_t>(left) : kBlock)));
-        }
-    }
-
-private:
-    static constexpr std::size_t kBlock = 4096; ///< floats
-
-    std::shared_ptr<log::Scratch> m_scratch;
-    std::vector<std::shared_ptr<std::byte[]>> m_blocks;
-    std::uint64_t m_size = 0;
-};
-
 /// The keys of one joint relative to its parent. Y-up; rotations x y z w, each on the side of the one before,
 /// so that players turn the short way.
 struct JointKeys {
     explicit JointKeys(const std::shared_ptr<log::Scratch>& scratch)
         : positions(scratch), rotations(scratch) {}
 
-    void addPosition(const Vector3d& zUp) {
-        const Vector3d position = model::yUpFromZUp(zUp);
-        for (const double value : {position.x(), position.y(), position.z()}) {
-            positions.add(static_cast<float>(value));
-        }
-    }
+    void addPosition(const Vector3d& zUp) { positions.add(model::toFloats(model::yUpFromZUp(zUp))); }
     void addRotation(const Eigen::Quaterniond& zUp) {
         Eigen::Quaterniond turn = model::yUpFromZUp(zUp);
         if (turn.dot(newest) < 0) {
             turn.coeffs() = -turn.coeffs();
         }
         newest = turn;
-        for (const double value : {turn.x(), turn.y(), turn.z(), turn.w()}) {
-            rotations.add(static_cast<float>(value));
-        }
+        const auto [w, x, y, z] = model::toFloats(turn);
+        rotations.add(std::array{x, y, z, w});
     }
 
-    FloatColumn positions;
-    FloatColumn rotations;
+    ScratchColumn positions;
+    ScratchColumn rotations;
     Eigen::Quaterniond newest = Eigen::Quaterniond::Identity();
 };
 
@@ -130,15 +82,15 @@ public:
             time = std::nextafter(m_last, std::numeric_limits<float>::infinity());
         }
         m_last = time;
-        m_times.add(time);
+        m_times.add(std::array{time});
     }
 
     [[nodiscard]] float first() const { return m_first; }
     [[nodiscard]] float last() const { return m_last; }
-    [[nodiscard]] const FloatColumn& column() const { return m_times; }
+    [[nodiscard]] const ScratchColumn& column() const { return m_times; }
 
 private:
-    FloatColumn m_times;
+    ScratchColumn m_times;
     float m_first = 0;
     float m_last = 0;
 };
@@ -314,19 +266,19 @@ void addJoints(const Animated& one, std::size_t firstNode, Document& document, L
 }
 
 void addKeys(const Animated& one, std::size_t firstNode, Document& document) {
-    const auto column = [&](const FloatColumn& floats, JsonValue accessor) {
+    const auto column = [&](const ScratchColumn& floats, JsonValue accessor) {
         return document.add(
-            floats.size() * sizeof(float), [&floats](const Document::Visit& visit) { floats.visit(visit); },
+            floats.size(), [&floats](const Document::Visit& visit) { floats.visit(visit); },
             std::move(accessor));
     };
-    const std::uint64_t count = one.times.column().size();
+    const std::uint64_t count = one.times.column().size() / sizeof(float);
     const std::size_t times = column(one.times.column(), {{"componentType", kFloat},
                                                           {"type", "SCALAR"},
                                                           {"count", count},
                                                           {"min", List{floatJson(one.times.first())}},
                                                           {"max", List{floatJson(one.times.last())}}});
     for (std::size_t i = 0; i < one.keys.size(); ++i) {
-        const auto channel = [&](const char* path, const FloatColumn& floats, const char* type) {
+        const auto channel = [&](const char* path, const ScratchColumn& floats, const char* type) {
             const std::size_t output =
                 column(floats, {{"componentType", kFloat}, {"type", type}, {"count", count}});
             document.channels.push_back({{"sampler", document.samplers.size()},
@@ -428,13 +380,9 @@ public:
             out.fail("a glb file cannot be larger than 4 GiB; choose a shorter range or fewer characters");
             return;
         }
-        std::string head = "glTF";
-        for (const std::uint64_t word : {std::uint64_t{2}, size, std::uint64_t{text.size()}}) {
-            appendWord(word, head);
-        }
-        head += "JSON" + text;
-        appendWord(document.bytes(), head);
-        out.write(head + std::string("BIN\0", 4));
+        const auto word = [](std::uint64_t value) { return static_cast<std::uint32_t>(value); };
+        out.write("glTF" + lowBytes(word(2), word(size), word(text.size())) + "JSON" + text +
+                  lowBytes(word(document.bytes())) + std::string("BIN\0", 4));
         document.visit([&out](std::string_view bytes) { out.write(bytes); });
     }
 

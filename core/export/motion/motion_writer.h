@@ -5,6 +5,7 @@
 #include "core/model/body/reference_body.h"
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -167,5 +168,16 @@ inline constexpr std::array<std::string_view, 4> kProvenanceNames{"", "assumed",
 void appendNumber(double value, std::string& text);
 /// With so many decimals.
 void appendFixed(double value, int decimals, std::string& text);
+/// Returns numbers one behind the other, each with its low byte first.
+template <class... Numbers>
+[[nodiscard]] std::string lowBytes(Numbers... numbers) {
+    std::string bytes;
+    const auto append = [&bytes](const auto& raw) {
+        std::endian::native == std::endian::little ? bytes.append(raw.begin(), raw.end())
+                                                   : bytes.append(raw.rbegin(), raw.rend());
+    };
+    (append(std::bit_cast<std::array<char, sizeof(Numbers)>>(numbers)), ...);
+    return bytes;
+}
 
 } // namespace posewire::exporting
