@@ -227,6 +227,8 @@ PoseCharacter::Part partOf(const model::SessionView& session, const model::Chara
         const model::Stream* stream = session.roster().find(log::StreamKey{key.sender, key.character, type});
         return stream != nullptr && stream->accounting.framing().isUnmarked();
     });
+    const log::StreamKey timeOfDay{key.sender, key.character, wire::TimeCode::kType};
+    part.sendsTimeOfDay = session.roster().find(timeOfDay) != nullptr;
     return part;
 }
 

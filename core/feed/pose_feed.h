@@ -33,6 +33,7 @@ struct PoseCharacter {
         std::array<model::LengthUnit, model::kPoseTypes.size()> units{}; ///< of positions
         std::array<bool, model::kPoseTypes.size()> isUnframed{};         ///< see StreamAccounting
         model::UpAxis up = model::UpAxis::Z;
+        bool sendsTimeOfDay = false; ///< type 25
     };
 
     model::CharacterKey key;

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "core/export/motion/motion_reader.h"
 
+#include "core/log/log_reader.h"
 #include "core/model/accounting/probation.h"
 #include "core/model/accounting/sample_window.h"
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <unordered_map>
+#include <utility>
 
 namespace posewire::exporting {
 namespace {
@@ -129,7 +133,7 @@ public:
         m_frame.character = character;
     }
 
-    void add(const feed::PoseSample& sample) {
+    void add(const feed::PoseSample& sample, const std::optional<wire::TimeCode>& timeOfDay) {
         const std::uint32_t step = m_survey->step;
         const double received = log::secondsOf(sample.pose.stamp - m_first);
         if (!sample.beginsRun && step != 0) {
@@ -150,8 +154,10 @@ public:
         }
         m_frame.run += sample.beginsRun ? 1 : 0;
         m_frame.markers = sample.markers;
+        m_frame.timeOfDay = timeOfDay;
         tell(sample.pose.sample, seconds, &sample.pose);
         m_frame.markers = {};
+        m_frame.timeOfDay.reset();
     }
 
 private:
@@ -172,6 +178,74 @@ private:
     MotionFrame m_frame; ///< the newest
     double m_runBegin = 0;
     std::uint32_t m_runSample = 0;
+};
+
+/// Finds the time of day (type 25) of samples, which may come before the pose or after it: reads ahead in the
+/// log, but no further than messages of one sample are apart.
+class TimesOfDay {
+public:
+    explicit TimesOfDay(const feed::PoseSource& source)
+        : m_follower(*source.log, source.firstPacket), m_isSent(source.characters.size()) {
+        for (std::size_t i = 0; i < source.characters.size(); ++i) {
+            for (const feed::PoseCharacter::Part& part : source.characters[i].parts) {
+                m_places.emplace(part.key, i);
+                m_isSent[i] = m_isSent[i] || part.sendsTimeOfDay;
+            }
+        }
+    }
+
+    /// Each is found once: counters may begin again.
+    std::optional<wire::TimeCode> of(std::size_t character, const model::CharacterPose& pose) {
+        const std::pair key(character, pose.sample);
+        const auto isNear = [&](log::Stamp stamp) {
+            return std::chrono::abs(stamp - pose.stamp) <= model::kSentTogether;
+        };
+        m_follower.refresh();
+        auto found = m_times.find(key);
+        while (m_isSent[character] && (found == m_times.end() || !isNear(found->second.second)) &&
+               m_newest - pose.stamp <= model::kSentTogether) {
+            const auto packet = m_follower.next();
+            if (!packet) {
+                break;
+            }
+            m_newest = packet->stamp;
+            take(*packet);
+            found = m_times.find(key);
+        }
+        const auto node = m_times.extract(key);
+        return node && isNear(node.mapped().second) ? std::optional(node.mapped().first) : std::nullopt;
+    }
+
+private:
+    static constexpr std::size_t kMost = std::size_t{1} << 16; ///< of samples whose poses did not come
+
+    void take(const log::Packet& packet) {
+        const auto header = wire::decodeHeader(packet.bytes);
+        if (!header || header->type() != wire::TimeCode::kType ||
+            !wire::decodeInto(packet.bytes, m_datagram)) {
+            return;
+        }
+        const auto place = m_places.find({packet.sender, header->character});
+        const auto* timeOfDay = std::get_if<wire::TimeCode>(&m_datagram.body);
+        const bool isValid = std::ranges::none_of(m_datagram.notices, [](const wire::Notice& notice) {
+            return notice.code == wire::NoticeCode::NotATimeCode;
+        });
+        if (place != m_places.end() && timeOfDay != nullptr && isValid) {
+            if (m_times.size() == kMost) {
+                m_times.clear();
+            }
+            m_times.insert_or_assign({place->second, header->sampleCounter},
+                                     std::pair(*timeOfDay, packet.stamp));
+        }
+    }
+
+    log::LogFollower m_follower;
+    log::Stamp m_newest{}; ///< of what was read
+    std::vector<bool> m_isSent;
+    std::unordered_map<model::CharacterKey, std::size_t> m_places;
+    /// By character and sample counter, with the stamp.
+    std::map<std::pair<std::size_t, std::uint32_t>, std::pair<wire::TimeCode, log::Stamp>> m_times;
+    wire::Datagram m_datagram;
 };
 
 } // namespace
@@ -223,7 +297,10 @@ tl::expected<void, log::FileError> readMotion(const feed::PoseSource& source, fe
     for (std::size_t i = 0; i < survey.characters.size(); ++i) {
         framings.emplace_back(i, survey.characters[i], survey.first, visit);
     }
-    const auto take = [&](const feed::PoseSample& sample) { framings[sample.character].add(sample); };
+    TimesOfDay times(source);
+    const auto take = [&](const feed::PoseSample& sample) {
+        framings[sample.character].add(sample, times.of(sample.character, sample.pose));
+    };
     return walkMotion(source, content, take, progress).map([](std::uint64_t /*missed*/) {});
 }
 

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -33,7 +34,8 @@ struct MotionFrame {
     double seconds = 0; ///< since the first sample of all characters: by counters, through restarts by stamps
     const model::CharacterPose* pose = nullptr; ///< null in a gap; without segments where markers are read
     std::span<const feed::Marker> markers{};
-    std::uint64_t run = 0; ///< counts from 1: a restart of the sender begins the next
+    std::uint64_t run = 0;                     ///< counts from 1: a restart of the sender begins the next
+    std::optional<wire::TimeCode> timeOfDay{}; ///< type 25 of the sample, if it came
 
     [[nodiscard]] bool isGap() const { return pose == nullptr; }
 };

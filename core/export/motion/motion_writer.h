@@ -4,6 +4,7 @@
 #include "core/export/motion/motion_reader.h"
 #include "core/model/body/reference_body.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -76,6 +77,17 @@ struct MotionTask {
     [[nodiscard]] const CharacterSurvey& surveyAt(std::size_t place) const {
         return survey.characters[place];
     }
+    /// Returns when it was received; empty of a gap, and if the file does not say.
+    [[nodiscard]] std::optional<log::WallTime> receiptOf(const MotionFrame& frame) const {
+        return frame.isGap() || !characterAt(frame.character).hasReceipt
+                   ? std::nullopt
+                   : std::optional(source.log->timeline().wallOf(frame.pose->stamp));
+    }
+    [[nodiscard]] bool hasTimeOfDay() const {
+        return std::ranges::any_of(characters, [this](std::size_t place) {
+            return std::ranges::any_of(characterAt(place).parts, &feed::PoseCharacter::Part::sendsTimeOfDay);
+        });
+    }
 };
 
 /// Writes one file of a format.
@@ -94,7 +106,7 @@ public:
 /// One table (RFC 4180, UTF-8, lines end with CR LF), a row for each sample of each character, with the
 /// columns
 ///
-///     character,id,run,sample,time (s),received (ns since 1970 UTC),time code (ms),type,
+///     character,id,run,sample,time (s),received (ns since 1970 UTC),time code (ms),time of day,type,
 ///     Pelvis x (m),Pelvis y (m),Pelvis z (m),Pelvis qw,Pelvis qx,Pelvis qy,Pelvis qz, … all other segments,
 ///     Pelvis from, … all other segments
 ///
@@ -104,18 +116,19 @@ public:
 /// is "sent", "solved" or "assumed", the weaker of both. The row of a sample that did not come whole has no
 /// cells after `time`; of a file that does not say when its datagrams were received, `received` is empty; a
 /// segment that a sample lacks has empty cells. Columns are those of all segments that any sample has: body,
-/// props, left and right fingers.
+/// props, left and right fingers. "time of day" (HH:MM:SS.mmm) is type 25 of the same sample, empty if that
+/// did not come; there is no such column if no character of the file sends it.
 [[nodiscard]] std::unique_ptr<MotionWriter> makeMotionCsv(const MotionTask& task);
 
 /// One object on each line, in the same order:
 ///
-///     {"character":"…","id":0,"run":1,"sample":1,"time":0.000000,"receivedNs":…,"timeCode":…,"type":"02",
-///      "segments":[{"id":1,"name":"Pelvis","position":[x,y,z],"orientation":[w,x,y,z],
+///     {"character":"…","id":0,"run":1,"sample":1,"time":0.000000,"receivedNs":…,"timeCode":…,
+///      "timeOfDay":"HH:MM:SS.mmm","type":"02","segments":[{"id":1,"name":"Pelvis","position":[x,y,z],"orientation":[w,x,y,z],
 ///       "from":"sent"},…]}
 ///
 /// Units as in the table; "id" of a segment is its place in the message, from 1. Of a sample that did not
 /// come whole "segments" is null, and what is between "time" and that is missing; "receivedNs" is missing
-/// where the file does not say.
+/// if the file does not say, "timeOfDay" if type 25 of the sample did not come.
 [[nodiscard]] std::unique_ptr<MotionWriter> makeMotionJsonLines(const MotionTask& task);
 
 /// Biovision hierarchy of one character: body and fingers, without props. Y up, Z forward, centimetres,
@@ -142,10 +155,10 @@ public:
 /// Metres, Z up, quaternions w x y z. It has what was sent or follows from it: the 23 segments of the body
 /// with the points of the null pose, the joints, the null pose as the frames `identity`, `tpose` and
 /// `tpose-isb`, and of each sample orientation, position and joint angles (degrees). The comment of the
-/// subject says whether the null pose was sent. `tc` is the time code of the header, `configuration`
-/// UpperBody if the pelvis stays at the origin with the feet below, else FullBody. Sensors, velocities,
-/// contacts, props and fingers are not in it. A sample that did not come whole has no frame; `index` counts
-/// it.
+/// subject says whether the null pose was sent. `tc` is the time of day of type 25, or if that did not come
+/// the time code of the header, `configuration` UpperBody if the pelvis stays at the origin with the feet
+/// below, else FullBody. Sensors, velocities, contacts, props and fingers are not in it. A sample that did
+/// not come whole has no frame; `index` counts it.
 [[nodiscard]] std::unique_ptr<MotionWriter> makeMvnx(const MotionTask& task);
 
 /// The words of model::Provenance, by its values.
@@ -156,12 +169,13 @@ inline constexpr std::array<std::string_view, 4> kProvenanceNames{"", "assumed",
 ///
 ///     time [n] f8 s; position [n, s, 3] f4 m, Z up; orientation [n, s, 4] f4 w x y z, world from segment;
 ///     provenance [n, s] u1, place in provenance_names; names [s]; sample [n] u4, run [n] u4;
-///     time_code_ms [n] i8; received_ns [n] i8 since 1970 UTC; type [n] u1
+///     time_code_ms [n] i8; received_ns [n] i8 since 1970 UTC; type [n] u1;
+///     time_of_day_ms [n] i8 of type 25, if the character sends it
 ///
 /// Of a sample that did not come whole, and of a segment that it lacks, position and orientation are NaN and
 /// provenance is 0; of the former, time code and receipt are -1 and the type is 0. A receipt that the file
-/// does not say is -1 too. The values wait in a file without a name until the last one is there: memory stays
-/// bounded.
+/// does not say is -1 too, and a time of day that did not come. The values wait in a file without a name
+/// until the last one is there: memory stays bounded.
 [[nodiscard]] std::unique_ptr<MotionWriter> makeNumpy(const MotionTask& task);
 
 /// The fewest digits that read back to the same 32 bits.

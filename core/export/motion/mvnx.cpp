@@ -94,12 +94,13 @@ public:
         if (frame.isGap() || !hasBody(*frame.pose)) {
             return;
         }
+        const auto receipt = m_task.receiptOf(frame);
         std::string text =
             "<frame time=\"" + std::to_string(static_cast<std::int64_t>(frame.seconds * 1000 + 0.5)) +
-            "\" index=\"" + std::to_string(index) + "\" tc=\"" + timeCodeText(frame.pose->timeCode) + '"' +
-            (m_character.hasReceipt
-                 ? " ms=\"" + std::to_string(millisecondsOf(wallOf(frame.pose->stamp))) + '"'
-                 : std::string()) +
+            "\" index=\"" + std::to_string(index) + "\" tc=\"" +
+            timeCodeText(frame.timeOfDay ? static_cast<std::uint32_t>(frame.timeOfDay->milliseconds())
+                                         : frame.pose->timeCode) +
+            '"' + (receipt ? " ms=\"" + std::to_string(millisecondsOf(*receipt)) + '"' : std::string()) +
             " type=\"normal\">\n";
         std::array<Eigen::Quaterniond, kBody> turns;
         text += "<orientation>";
@@ -126,10 +127,6 @@ public:
     }
 
 private:
-    [[nodiscard]] log::WallTime wallOf(log::Stamp stamp) const {
-        return m_task.source.log->timeline().wallOf(stamp);
-    }
-
     static bool hasBody(const model::CharacterPose& pose) {
         const auto isMissing = [](const model::SegmentSource& source) {
             return source.position == model::Provenance::None;
@@ -140,7 +137,7 @@ private:
 
     /// With a blank before them; none where nothing tells the date.
     [[nodiscard]] std::string dateAttributes() const {
-        const log::WallTime start = wallOf(m_survey.first);
+        const log::WallTime start = m_task.source.log->timeline().wallOf(m_survey.first);
         return m_character.hasReceipt ? " recDate=\"" + dateText(start) + "\" recDateMSecsSinceEpoch=\"" +
                                             std::to_string(millisecondsOf(start)) + '"'
                                       : std::string();

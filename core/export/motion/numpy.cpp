@@ -143,10 +143,9 @@ public:
         m_time.add(frame.seconds);
         m_sample.add(frame.sample);
         m_run.add(static_cast<std::uint32_t>(frame.run));
-        const bool hasReceipt = !frame.isGap() && m_task.characterAt(frame.character).hasReceipt;
-        m_received.add(hasReceipt ? static_cast<std::int64_t>(log::nanosecondsOf(
-                                        m_task.source.log->timeline().wallOf(frame.pose->stamp)))
-                                  : kMissing);
+        const auto receipt = m_task.receiptOf(frame);
+        m_received.add(receipt ? static_cast<std::int64_t>(log::nanosecondsOf(*receipt)) : kMissing);
+        m_timeOfDay.add(frame.timeOfDay ? std::int64_t{frame.timeOfDay->milliseconds()} : kMissing);
         m_timeCode.add(frame.isGap() ? kMissing : std::int64_t{frame.pose->timeCode});
         m_type.add(frame.isGap() ? std::uint8_t{0} : frame.pose->type);
         m_positions.assign(3 * m_segments, std::numeric_limits<float>::quiet_NaN());
@@ -172,6 +171,9 @@ public:
              {&m_time, &m_position, &m_orientation, &m_provenance, &m_names, &m_provenanceNames, &m_sample,
               &m_run, &m_timeCode, &m_received, &m_type}) {
             archive.add(*array);
+        }
+        if (m_task.hasTimeOfDay()) {
+            archive.add(m_timeOfDay);
         }
         archive.finish();
     }
@@ -211,6 +213,7 @@ private:
     NumpyArray m_timeCode = array("time_code_ms", "i8");
     NumpyArray m_received = array("received_ns", "i8");
     NumpyArray m_type = array("type", "u1");
+    NumpyArray m_timeOfDay = array("time_of_day_ms", "i8");
     std::vector<float> m_positions; ///< of a frame
     std::vector<float> m_orientations;
     std::vector<std::uint8_t> m_sources;

@@ -5,7 +5,6 @@
 #include "core/export/motion/motion_writer.h"
 #include "core/wire/type_table.h"
 
-#include <array>
 #include <initializer_list>
 
 namespace posewire::exporting {
@@ -20,8 +19,6 @@ void appendList(std::initializer_list<double> values, std::string& text) {
     }
     text += ']';
 }
-
-} // namespace
 
 void appendSegments(const model::CharacterPose& pose, std::string& text) {
     bool isFirst = true;
@@ -44,6 +41,20 @@ void appendSegments(const model::CharacterPose& pose, std::string& text) {
     }
 }
 
+} // namespace
+
+void appendPose(const model::CharacterPose& pose, const std::string& receivedNs, std::string_view timeOfDay,
+                std::string& line) {
+    line += (receivedNs.empty() ? "" : ",\"receivedNs\":" + receivedNs) +
+            ",\"timeCode\":" + std::to_string(pose.timeCode);
+    if (!timeOfDay.empty()) {
+        line.append(",\"timeOfDay\":\"").append(timeOfDay).append("\"");
+    }
+    line += ",\"type\":\"" + wire::typeDigits(pose.type) + "\",\"segments\":[";
+    appendSegments(pose, line);
+    line += "]}";
+}
+
 std::string poseLine(const log::PacketLog& log, const feed::PoseCharacter& character,
                      const feed::PoseSample& sample) {
     const model::CharacterPose& pose = sample.pose;
@@ -53,11 +64,8 @@ std::string poseLine(const log::PacketLog& log, const feed::PoseCharacter& chara
                        ",\"source\":" + jsonText(sender != nullptr ? sender->address : std::string()) +
                        ",\"sample\":" + std::to_string(pose.sample);
     line += sample.beginsRun ? ",\"begins\":true" : "";
-    line += ",\"receivedNs\":" + std::to_string(log::nanosecondsOf(log.timeline().wallOf(pose.stamp))) +
-            ",\"timeCode\":" + std::to_string(pose.timeCode) + ",\"type\":\"" + wire::typeDigits(pose.type) +
-            "\",\"segments\":[";
-    appendSegments(pose, line);
-    return line += "]}";
+    appendPose(pose, std::to_string(log::nanosecondsOf(log.timeline().wallOf(pose.stamp))), {}, line);
+    return line;
 }
 
 } // namespace posewire::exporting

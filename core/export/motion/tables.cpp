@@ -15,11 +15,15 @@ namespace {
 using model::SegmentLayout;
 using model::SegmentPose;
 
-/// Where the receiver's clock stood, in nanoseconds; empty where nothing tells.
+/// In nanoseconds; empty if the file does not say.
 std::string receiptText(const MotionTask& task, const MotionFrame& frame) {
-    return task.characterAt(frame.character).hasReceipt
-               ? std::to_string(log::nanosecondsOf(task.source.log->timeline().wallOf(frame.pose->stamp)))
-               : std::string();
+    const auto receipt = task.receiptOf(frame);
+    return receipt ? std::to_string(log::nanosecondsOf(*receipt)) : std::string();
+}
+
+/// Empty if type 25 did not come.
+std::string_view timeOfDayText(const MotionFrame& frame) {
+    return frame.timeOfDay ? frame.timeOfDay->view() : std::string_view();
 }
 
 SegmentLayout widest(const MotionTask& task) {
@@ -43,9 +47,12 @@ public:
     }
 
     void begin(MotionOutput& out) override {
-        std::vector<std::string> cells{"character",      "id",       "run",
-                                       "sample",         "time (s)", "received (ns since 1970 UTC)",
-                                       "time code (ms)", "type"};
+        std::vector<std::string> cells{
+            "character", "id", "run", "sample", "time (s)", "received (ns since 1970 UTC)", "time code (ms)"};
+        if (m_hasTimeOfDay) {
+            cells.emplace_back("time of day");
+        }
+        cells.emplace_back("type");
         for (int position = 0; position < m_layout.count(); ++position) {
             const std::string name(model::segmentName(m_layout, position));
             for (const char* part : {" x (m)", " y (m)", " z (m)", " qw", " qx", " qy", " qz"}) {
@@ -64,10 +71,14 @@ public:
         appendFixed(frame.seconds, 6, m_line);
         m_line += ',';
         if (frame.isGap()) {
-            m_line.append(2 + (kCells + 1) * static_cast<std::size_t>(m_layout.count()), ',');
+            m_line.append(
+                (m_hasTimeOfDay ? 3 : 2) + (kCells + 1) * static_cast<std::size_t>(m_layout.count()), ',');
         } else {
-            m_line += receiptText(m_task, frame) + ',' + std::to_string(frame.pose->timeCode) + ',' +
-                      wire::typeDigits(frame.pose->type);
+            m_line += receiptText(m_task, frame) + ',' + std::to_string(frame.pose->timeCode) + ',';
+            if (m_hasTimeOfDay) {
+                m_line.append(timeOfDayText(frame)).append(",");
+            }
+            m_line += wire::typeDigits(frame.pose->type);
             for (int position = 0; position < m_layout.count(); ++position) {
                 addSegment(*frame.pose, position);
             }
@@ -99,6 +110,7 @@ private:
 
     const MotionTask& m_task;
     SegmentLayout m_layout;
+    bool m_hasTimeOfDay = m_task.hasTimeOfDay();
     std::vector<std::string> m_begins; ///< of the lines of each character
     std::string m_line;
 };
@@ -122,12 +134,8 @@ public:
         if (frame.isGap()) {
             m_line += ",\"segments\":null}\n";
         } else {
-            const std::string receipt = receiptText(m_task, frame);
-            m_line += (receipt.empty() ? "" : ",\"receivedNs\":" + receipt) +
-                      ",\"timeCode\":" + std::to_string(frame.pose->timeCode) + ",\"type\":\"" +
-                      wire::typeDigits(frame.pose->type) + "\",\"segments\":[";
-            appendSegments(*frame.pose, m_line);
-            m_line += "]}\n";
+            appendPose(*frame.pose, receiptText(m_task, frame), timeOfDayText(frame), m_line);
+            m_line += '\n';
         }
         out.write(m_line);
     }

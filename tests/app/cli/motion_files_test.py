@@ -6,6 +6,8 @@ usage: motion_files_test.py CLI SUPPORT_DIR
 The C3D reader below follows the format's public description (c3d.org) and shares nothing with the writer; MVNX is read
 as XML by Python's own parser, arrays by NumPy (skipped if it is not installed) and, as an archive, by Python's own.
 """
+import csv
+import json
 import math
 import os
 import struct
@@ -307,6 +309,39 @@ class Tests:
             expect(self.c3d(frames).value("SUBJECTS", "USED") == 1, name[:20])
             self.export(frames, "bvh")
         expect(sorted(one.name for one in self.folder.iterdir()) == ["in", "out.bvh", "out.c3d", "out.mvnx"], "files")
+
+    def test_type_25_goes_with_its_sample(self):
+        """Type 25 comes behind the pose, once behind the next one, once not at all, and once with no time in it; then
+        the counter begins again, and the times go on."""
+        def clock(sample: int, behind: int) -> bytes:
+            return datagram("25", sample, 1, text("no time:" if sample == 9 else codes[sample + behind]))
+        codes = [f"23:59:{48 + i // 60:02}.{round(i % 60 * 1000 / 60):03}" for i in range(120)]
+        frames = [[pose(i), clock(i, 0)] for i in range(60)]
+        frames[8].append(frames[7].pop())
+        del frames[5][1]
+        wanted = [None if i in (5, 9) else code for i, code in enumerate(codes)]
+        late = [[pose(i), clock(i, 60)] for i in range(60) if i != 9]
+        lines = self.export(frames + late, "jsonl").read_text().splitlines()
+        found = [(one["run"], one["sample"], one.get("timeOfDay"))
+                 for one in map(json.loads, lines) if one["segments"] is not None]
+        runs = [(1 + i // 60, i % 60, code) for i, code in enumerate(wanted) if i != 69]
+        expect(found == runs, found)
+        with open(self.export(frames, "csv"), encoding="utf-8", newline="") as file:
+            rows = list(csv.DictReader(file))
+        expect([row["time of day"] or None for row in rows] == wanted[:60], rows[:10])
+        expect(list(rows[0])[6:9] == ["time code (ms)", "time of day", "type"], list(rows[0])[:10])
+        tags = [one.get("tc") for one in self.mvnx(frames).findall("frames/frame[@type='normal']")]
+        expect(tags[5] == "00:00:00:04" and tags[7] == "23:59:48:07" and tags[59] == "23:59:48:58", tags)
+        arrays = self.numpy(frames)
+        expect(arrays["time_of_day_ms"].tolist() == [
+            -1 if code is None else 86_388_000 + int(code[-3:]) for code in wanted[:60]], arrays["time_of_day_ms"])
+
+    def test_without_type_25_there_is_no_time_of_day(self):
+        frames = [[pose(i)] for i in range(10)]
+        expect("time of day" not in self.export(frames, "csv").read_text(), "CSV")
+        expect("timeOfDay" not in self.export(frames, "jsonl").read_text(), "JSON Lines")
+        with zipfile.ZipFile(self.export(frames, "npz")) as archive:
+            expect("time_of_day_ms.npy" not in archive.namelist(), archive.namelist())
 
     def test_mvnx_leaves_out_what_is_missing(self):
         kept = [i for i in range(40) if i not in (7, 8)]
