@@ -2,6 +2,7 @@
 #include "app/cli/command.h"
 #include "app/cli/datagram_pacer.h"
 #include "app/cli/record_packets.h"
+#include "app/stage/range.h"
 #include "core/export/json_value.h"
 #include "core/feed/signal.h"
 
@@ -20,8 +21,7 @@ struct QueryOptions {
     std::vector<std::string> expressions;
     bool asJson = false;
     std::optional<double> everySeconds;
-    double fromSeconds = 0;
-    std::optional<double> untilSeconds;
+    stage::Range range;
 };
 
 using Value = std::optional<double>;
@@ -219,8 +219,10 @@ public:
         }
         const field::Candidate& candidate = m_packets.packetOf(record, number, stamp);
         m_faults += candidate.fault != nullptr && wire::startsWithMagic(record.bytes) ? 1 : 0;
-        const double seconds = log::secondsOf(candidate.packet.stamp - m_packets.firstStamp());
-        m_isDone = m_options.untilSeconds && seconds >= *m_options.untilSeconds;
+        if (!m_range) {
+            m_range = m_options.range.times(m_packets.firstStamp(), m_packets.firstTime());
+        }
+        m_isDone = candidate.packet.stamp >= m_range->to;
         if (isDone()) {
             return;
         }
@@ -304,9 +306,9 @@ private:
     void writeFirst() {
         const QueryRow& row = m_rows.front();
         const double seconds = log::secondsOf(row.stamp - m_packets.firstStamp());
-        if (seconds >= m_options.fromSeconds && m_means) {
+        if (row.stamp >= m_range->from && m_means) {
             m_means->add(seconds, row, [this] { return m_out.isWanted(); });
-        } else if (seconds >= m_options.fromSeconds) {
+        } else if (row.stamp >= m_range->from) {
             m_table.write(seconds, row);
         }
         m_spare.push_back(std::move(m_rows.front()));
@@ -322,6 +324,7 @@ private:
     std::array<bool, 256> m_reads{}; ///< message types
     bool m_readsAll = false;
     bool m_isDone = false;
+    std::optional<model::TimeRange> m_range; ///< known from the first packet on
     DatagramPacer m_pacer{1.0 / 240, 1.0};
     log::Duration m_paced{};
     RecordPackets m_packets;
@@ -339,9 +342,6 @@ ExitStatus query(const QueryOptions& options, Console& console) {
             return console.unusable(markedError(text, column.error()));
         }
         columns.push_back(*std::move(column));
-    }
-    if (options.untilSeconds && options.fromSeconds >= *options.untilSeconds) {
-        return console.unusable("--from must be before --until");
     }
     if (options.everySeconds && *options.everySeconds <= 0) {
         return console.unusable("--every must be more than 0");
@@ -394,10 +394,7 @@ Command addQueryCommand(CommandLine& program) {
              "it; of a signal without values there the field is empty. Means of angles go the short way "
              "round.")
         .seconds();
-    arguments.add("--from SECONDS", options->fromSeconds, "begin this many seconds after the first datagram")
-        .seconds();
-    arguments.add("--until SECONDS", options->untilSeconds, "end this many seconds after the first datagram")
-        .seconds();
+    stage::addRange(arguments, options->range);
     return {"query", [options](Console& console) { return query(*options, console); }};
 }
 

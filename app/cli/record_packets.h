@@ -24,6 +24,7 @@ public:
     log::Stamp stampOf(const log::FileRecord& record, log::Stamp stamp = {});
     /// Of the first record.
     [[nodiscard]] log::Stamp firstStamp() const { return m_firstStamp.value_or(log::Stamp()); }
+    [[nodiscard]] log::WallTime firstTime() const { return m_timeline.wallOf(firstStamp()); }
 
 private:
     log::SenderId numberOf(const log::SenderInfo& sender);

@@ -154,9 +154,9 @@ class Tests:
             near(math.remainder(angle - first - math.remainder(last - first, 360) / 2, 360), 0, "angle", 1e-5)
 
     def test_ranges(self):
-        _, *rows = self.query("position.x of Pelvis", "--from", 1, "--until", 2)
+        _, *rows = self.query("position.x of Pelvis", "--since", 1, "--until", 2)
         expect(rows[0]["sample"] == 60 and rows[-1]["sample"] == 119, rows[0], rows[-1])
-        self.run("query", self.take, "size", "--from", 2, "--until", 1, status=2)
+        self.run("query", self.take, "size", "--since", 2, "--until", 1, status=2)
 
     def test_wrong_texts_are_shown_with_their_place(self):
         done = self.run("query", self.take, "position.z + delta", status=2)
