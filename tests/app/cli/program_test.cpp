@@ -30,7 +30,8 @@ TEST(Program, ShowsHelpWithoutADisplay) {
 TEST(Program, ShowsItsVersionWithoutADisplay) {
     const ProgramRun run = runProgram({"--version"});
     EXPECT_EQ(run.status, 0);
-    EXPECT_TRUE(contains(run.out, R"(^posewire-cli \d+\.\d+\.\d+([~+]dev\S*)?\nQt \d+\.\d+\.\d+\n$)")) << run.out;
+    EXPECT_TRUE(contains(run.out, R"(^posewire-cli \d+\.\d+\.\d+([~+]dev\S*)?\nQt \d+\.\d+\.\d+\n$)"))
+        << run.out;
     EXPECT_EQ(runProgram({"-v"}).out, run.out);
     EXPECT_EQ(runProgram({"monitor", "-v"}).out, run.out);
 }
