@@ -57,18 +57,34 @@ std::string fieldListing(wire::Bytes bytes) {
     return text;
 }
 
+/// Returns what is wrong with a list of fields, divided by commas; or nothing.
+std::string readFields(const std::string& text, std::vector<std::string>& fields) {
+    const std::vector<std::string> known = exporting::jsonFields();
+    for (std::size_t begin = 0; begin <= text.size();) {
+        const std::size_t end = std::min(text.find(',', begin), text.size());
+        const std::string& field = fields.emplace_back(text.substr(begin, end - begin));
+        if (std::find(known.begin(), known.end(), field) == known.end()) {
+            return "there is no field \"" + field + "\"; choose from " + usage::joined(known, ", ");
+        }
+        begin = end + 1;
+    }
+    return {};
+}
+
 struct DecodeOptions {
     std::vector<std::string> files;
     bool asJson = false;
-    bool hasNames = false;
+    exporting::JsonChoice choice{};
     std::string filter;
+
+    [[nodiscard]] bool isJson() const { return asJson || choice.hasNames || !choice.fields.empty(); }
 };
 
 class RecordWriter {
 public:
     /// Without a filter everything is written.
     RecordWriter(Output& out, const DecodeOptions& options, const filter::Filter& filter)
-        : m_out(out), m_asJson(options.asJson || options.hasNames), m_hasNames(options.hasNames) {
+        : m_out(out), m_options(options) {
         if (!filter.matchesEverything()) {
             m_filter.emplace(filter);
         }
@@ -91,8 +107,8 @@ public:
             m_firstFault = m_faults == 0 ? record.offset : m_firstFault;
             ++m_faults;
         }
-        m_out.write(m_asJson ? exporting::datagramJson(place, record.bytes, m_hasNames) + '\n'
-                             : listed(place, record));
+        m_out.write(m_options.isJson() ? exporting::datagramJson(place, record.bytes, m_options.choice) + '\n'
+                                       : listed(place, record));
     }
 
     /// Call after the last record.
@@ -107,8 +123,8 @@ public:
                             place.index))) {
             return;
         }
-        m_out.write(m_asJson
-                        ? exporting::skippedJson(place, skipped) + '\n'
+        m_out.write(m_options.isJson()
+                        ? exporting::skippedJson(place, skipped, m_options.choice) + '\n'
                         : "#" + std::to_string(place.index) + "  offset " + std::to_string(place.offset) +
                               "  " + std::to_string(skipped) + " bytes that belong to no datagram\n\n");
         m_allSkipped += skipped;
@@ -157,8 +173,7 @@ private:
     }
 
     Output& m_out;
-    bool m_asJson;
-    bool m_hasNames;
+    const DecodeOptions& m_options;
     std::optional<filter::Filter> m_filter;
     RecordPackets m_packets;
     std::vector<std::byte>
@@ -201,7 +216,7 @@ ExitStatus decode(const DecodeOptions& options, Console& console) {
     }
     ExitStatus status = ExitStatus::Fine;
     for (const std::string& path : options.files) {
-        if (!options.asJson && !options.hasNames && options.files.size() > 1) {
+        if (!options.isJson() && options.files.size() > 1) {
             console.out.write(path + "\n\n");
         }
         status = worse(status, decodeFile(path, options, *filter, console));
@@ -219,8 +234,12 @@ Command addDecodeCommand(CommandLine& program) {
         .add("FILE", options->files, "datagrams back to back, or pcap, pcapng or MVNX; - for standard input")
         .required();
     arguments.flag("--json", options->asJson, "one JSON object a line for each datagram");
-    arguments.flag("--names", options->hasNames,
+    arguments.flag("--names", options->choice.hasNames,
                    "the same, with the names of segments, points and joints beside their ids");
+    arguments.read(
+        "--fields NAMES",
+        [options](const std::string& text) { return readFields(text, options->choice.fields); },
+        "JSON of these fields alone, in this order, such as index,sample,body.segments");
     arguments.add("--filter", options->filter,
                   "only packets that this matches, such as \"type == 02 && position.z > 2\"; "
                   "reference --filter has the language");

@@ -7,6 +7,7 @@
 #include "core/wire/codec.h"
 #include "core/wire/form.h"
 #include "core/wire/text.h"
+#include "core/wire/type_table.h"
 #include "core/wire/walk.h"
 #include "core/words/say.h"
 
@@ -16,20 +17,59 @@
 #include <cmath>
 #include <concepts>
 #include <functional>
+#include <span>
 
 namespace posewire::exporting {
 namespace {
 
 /// An object while it is written, without its last brace.
 struct Line {
+    /// A part of the text that can be asked for, with its key: "body", "body.segments".
+    struct Member {
+        std::string name;
+        std::size_t begin = 0;
+        std::size_t end = 0;
+    };
+
     std::string text;
-    bool isOdd = false; ///< of what is written the bytes may not follow
+    bool isOdd = false;                    ///< of what is written the bytes may not follow
+    std::span<const std::string> fields{}; ///< those asked for; none: all
+    std::vector<Member> members{};         ///< if fields are asked for
+    int depth = 0;                         ///< 1 within the body
 
     void add(std::string_view words) { text += words; }
-    /// Before the value of a key.
-    void key(std::string_view name) {
+    /// A key and its value.
+    void member(std::string_view name, auto&& writeValue) {
         text += text.back() == '{' || text.back() == '[' ? "\"" : ",\"";
         text.append(name).append("\":");
+        const std::size_t begin = text.size();
+        ++depth;
+        writeValue();
+        --depth;
+        if (!fields.empty() && depth < 2) {
+            members.push_back({(depth == 0 ? "" : "body.") + std::string(name), begin, text.size()});
+        }
+    }
+    [[nodiscard]] bool wants(std::string_view name) const {
+        return fields.empty() || std::ranges::any_of(fields, [name](const std::string& field) {
+                   return field.starts_with(name) &&
+                          (field.size() == name.size() || field[name.size()] == '.');
+               });
+    }
+    /// Returns the whole object, or of it the fields asked for, in their order.
+    [[nodiscard]] std::string finished() && {
+        if (fields.empty()) {
+            return std::move(text) + '}';
+        }
+        std::string chosen = "{";
+        for (const std::string& field : fields) {
+            const auto found = std::ranges::find(members, field, &Member::name);
+            if (found != members.end()) {
+                chosen.append(chosen.size() > 1 ? ",\"" : "\"").append(field).append("\":");
+                chosen.append(text, found->begin, found->end - found->begin);
+            }
+        }
+        return chosen + '}';
     }
 };
 
@@ -111,27 +151,27 @@ void appendFields(Line& line, const T& value, const ItemName& nameOf = {}) {
         const auto& member = value.*FieldType::kMember;
         if constexpr (requires { FieldType::kItemForm; }) {
             const bool isNamed = nameOf && line.text.back() == '{';
-            line.key(field.about.name);
-            line.text += '[';
-            line.isOdd = line.isOdd || member.empty();
-            for (std::size_t i = 0; i < member.size(); ++i) {
-                line.add(i == 0 ? "" : ",");
-                appendFields<typename FieldType::Item, FieldType::kItemForm>(line, member[i]);
-                if (const std::string_view name = isNamed ? nameOf(i) : ""; !name.empty()) {
-                    line.text.back() = ',';
-                    line.text.append("\"name\":\"").append(name).append("\"}");
+            line.member(field.about.name, [&] {
+                line.text += '[';
+                line.isOdd = line.isOdd || member.empty();
+                for (std::size_t i = 0; i < member.size(); ++i) {
+                    line.add(i == 0 ? "" : ",");
+                    appendFields<typename FieldType::Item, FieldType::kItemForm>(line, member[i]);
+                    if (const std::string_view name = isNamed ? nameOf(i) : ""; !name.empty()) {
+                        line.text.back() = ',';
+                        line.text.append("\"name\":\"").append(name).append("\"}");
+                    }
                 }
-            }
-            line.text += ']';
+                line.text += ']';
+            });
         } else if constexpr (requires { FieldType::kKind; }) {
             const bool isTags = field.about.unit == wire::Unit::TagLines;
             line.isOdd = true;
-            line.key(isTags ? kTagsKey : field.about.name);
-            isTags ? appendTags(line, member) : append(line, member);
+            line.member(isTags ? kTagsKey : field.about.name,
+                        [&] { isTags ? appendTags(line, member) : append(line, member); });
         } else if (!isLength(field.about)) {
             line.isOdd = line.isOdd || field.about.unit == wire::Unit::TimeOfDay;
-            line.key(field.about.name);
-            append(line, member);
+            line.member(field.about.name, [&] { append(line, member); });
         }
     });
     line.text += '}';
@@ -148,13 +188,11 @@ public:
             m_line.isOdd = m_line.isOdd || (about.unit == wire::Unit::Reserved && value != 0);
         }
         if (about.parts.empty() && about.unit != wire::Unit::Reserved) {
-            m_line.key(about.name);
-            append(m_line, value);
+            m_line.member(about.name, [&] { append(m_line, value); });
         }
         for (const wire::FieldPart& part : about.parts) {
             if (!part.key.empty()) {
-                m_line.key(part.key);
-                appendPart(part, value);
+                m_line.member(part.key, [&] { appendPart(part, value); });
             }
         }
     }
@@ -187,36 +225,36 @@ void appendHeader(Line& line, wire::Bytes bytes) {
 void appendBody(Line& line, const wire::Datagram& datagram, bool hasNames) {
     const ItemName nameOf =
         hasNames ? [&](std::size_t item) { return model::itemName(datagram, item); } : ItemName();
-    line.key("body");
-    if (const auto* raw = std::get_if<wire::RawBody>(&datagram.body)) {
-        line.isOdd = true;
-        line.add("{\"raw\":\"" + wire::hexadecimal(raw->bytes) + "\"}");
-    }
-    wire::visitMessage(datagram.body, [&]<wire::Form F, class T>(const T& message) {
-        appendFields<T, F>(line, message, nameOf);
+    line.member("body", [&] {
+        if (const auto* raw = std::get_if<wire::RawBody>(&datagram.body)) {
+            line.isOdd = true;
+            line.text += '{';
+            line.member("raw", [&] { line.add('"' + wire::hexadecimal(raw->bytes) + '"'); });
+            line.text += '}';
+        }
+        wire::visitMessage(datagram.body, [&]<wire::Form F, class T>(const T& message) {
+            appendFields<T, F>(line, message, nameOf);
+        });
     });
 }
 
-Line placed(const DatagramPlace& place, std::uint64_t size, std::size_t room) {
-    Line line;
+Line placed(const DatagramPlace& place, std::uint64_t size, std::size_t room,
+            std::span<const std::string> fields) {
+    Line line{.text = "{", .fields = fields};
     line.text.reserve(room);
-    line.add("{\"index\":");
-    append(line, place.index);
-    line.key("offset");
-    append(line, place.offset);
-    line.key("size");
-    append(line, size);
+    line.member("index", [&] { append(line, place.index); });
+    line.member("offset", [&] { append(line, place.offset); });
+    line.member("size", [&] { append(line, size); });
     return line;
 }
 
 void appendError(Line& line, const wire::WireError& error) {
-    line.key("error");
-    line.add(Json{{"code", std::string(wire::errorName(error.code))},
-                  {"offset", error.offset},
-                  {"need", error.need},
-                  {"have", error.have},
-                  {"text", wire::errorText(error)}}
-                 .dump());
+    const Json object{{"code", std::string(wire::errorName(error.code))},
+                      {"offset", error.offset},
+                      {"need", error.need},
+                      {"have", error.have},
+                      {"text", wire::errorText(error)}};
+    line.member("error", [&] { line.add(object.dump()); });
 }
 
 void appendNotices(Line& line, const DatagramPlace& place, const wire::Datagram& datagram) {
@@ -227,8 +265,7 @@ void appendNotices(Line& line, const DatagramPlace& place, const wire::Datagram&
     if (place.shared != 0) {
         notices.push_back(say(words::sharedFact(place.shared), words::Form::Sentence));
     }
-    line.key("notices");
-    line.add(notices.dump());
+    line.member("notices", [&] { line.add(notices.dump()); });
 }
 
 /// True if the line gives back the bytes. One that is not odd need not be read for that: its values are
@@ -244,32 +281,60 @@ bool givesBack(const Line& line, const wire::Datagram& datagram, wire::Bytes byt
 
 } // namespace
 
-std::string datagramJson(const DatagramPlace& place, wire::Bytes bytes, bool hasNames) {
+std::string datagramJson(const DatagramPlace& place, wire::Bytes bytes, const JsonChoice& choice) {
     constexpr std::size_t kRoom = 512;
     static thread_local wire::Datagram datagram; // its memory is reused: no allocation for each datagram
-    Line line = placed(place, bytes.size(), kRoom + 5 * bytes.size());
-    line.key("stampNs");
-    line.add(place.time ? std::to_string(log::nanosecondsOf(*place.time)) : "null");
-    line.key("source");
-    place.sender ? append(line, *place.sender) : line.add("null");
+    Line line = placed(place, bytes.size(), kRoom + 5 * bytes.size(), choice.fields);
+    line.member("stampNs",
+                [&] { line.add(place.time ? std::to_string(log::nanosecondsOf(*place.time)) : "null"); });
+    line.member("source", [&] { place.sender ? append(line, *place.sender) : line.add("null"); });
     appendHeader(line, bytes);
     if (const auto decoded = wire::decodeInto(bytes, datagram); !decoded) {
         appendError(line, decoded.error());
-        line.add(",\"notices\":[]}");
-        return std::move(line.text);
+        line.member("notices", [&line] { line.add("[]"); });
+        return std::move(line).finished();
     }
-    appendBody(line, datagram, hasNames);
+    const bool isWhole = line.wants("bytes");
+    if (isWhole || line.wants("body")) {
+        appendBody(line, datagram, choice.hasNames);
+    }
     appendNotices(line, place, datagram);
-    if (!givesBack(line, datagram, bytes)) {
-        line.key("bytes");
-        line.add('"' + wire::hexadecimal(bytes) + '"');
+    if (isWhole && !givesBack(line, datagram, bytes)) {
+        line.member("bytes", [&] { line.add('"' + wire::hexadecimal(bytes) + '"'); });
     }
-    return std::move(line.text) + '}';
+    return std::move(line).finished();
 }
 
-std::string skippedJson(const DatagramPlace& place, std::uint64_t size) {
+std::string skippedJson(const DatagramPlace& place, std::uint64_t size, const JsonChoice& choice) {
     constexpr std::size_t kRoom = 96;
-    return placed(place, size, kRoom).text + ",\"skipped\":true}";
+    Line line = placed(place, size, kRoom, choice.fields);
+    line.member("skipped", [&line] { append(line, true); });
+    return std::move(line).finished();
+}
+
+std::vector<std::string> jsonFields() {
+    std::vector<std::string> names{"index", "offset", "size", "stampNs", "source"};
+    for (const wire::FieldRow& row : wire::headerRows()) {
+        if (row.about.parts.empty() && row.about.unit != wire::Unit::Reserved) {
+            names.emplace_back(row.about.name);
+        }
+        for (const wire::FieldPart& part : row.about.parts) {
+            if (!part.key.empty()) {
+                names.emplace_back(part.key);
+            }
+        }
+    }
+    names.insert(names.end(), {"notices", "bytes", "error", "skipped", "body", "body.raw"});
+    for (const wire::TypeInfo& type : wire::typeTable()) {
+        for (const wire::FieldRow& row : type.fields()) {
+            const bool isTags = row.about.unit == wire::Unit::TagLines;
+            std::string name = "body." + std::string(isTags ? kTagsKey : row.about.name);
+            if (!isLength(row.about) && std::ranges::find(names, name) == names.end()) {
+                names.push_back(std::move(name));
+            }
+        }
+    }
+    return names;
 }
 
 } // namespace posewire::exporting

@@ -24,14 +24,25 @@ struct DatagramPlace {
     std::uint8_t shared = 0; ///< datagrams in its packet; 0 if it came alone
 };
 
+/// What is written of a datagram.
+struct JsonChoice {
+    /// Items that have a name in the tables of segments, points and joints say it beside their ids.
+    bool hasNames = false;
+    std::vector<std::string> fields{}; ///< those of jsonFields(), in the order that is wanted; none: all
+};
+
 /// One object without a newline. A datagram with a fault has the header fields that could be read and
 /// "error" instead of "body". Where the values alone would not give back the same bytes (reserved bytes in
 /// use, trailing bytes …), "bytes" holds the whole datagram in hexadecimal.
-/// With names, items that have one in the tables of segments, points and joints say it beside their ids.
-[[nodiscard]] std::string datagramJson(const DatagramPlace& place, wire::Bytes bytes, bool hasNames = false);
+[[nodiscard]] std::string datagramJson(const DatagramPlace& place, wire::Bytes bytes,
+                                       const JsonChoice& choice = {});
 
 /// The object for `size` bytes that belong to no datagram.
-[[nodiscard]] std::string skippedJson(const DatagramPlace& place, std::uint64_t size);
+[[nodiscard]] std::string skippedJson(const DatagramPlace& place, std::uint64_t size,
+                                      const JsonChoice& choice = {});
+
+/// The names of all fields that an object may have, and "body.segments" and the like for those of its body.
+[[nodiscard]] std::vector<std::string> jsonFields();
 
 /// Why a line gives no datagram.
 struct JsonFault {

@@ -46,6 +46,52 @@ TEST(DecodeCommand, CountsObjectsAndBytesThroughTheFile) {
                                    R"({"index":2,"offset":76,"size":36,)"));
 }
 
+TEST(DecodeCommand, WritesTheFieldsThatAreAskedForInTheirOrder) {
+    const std::string file =
+        asText(golden("25_time_code_counted").bytes) + "xxx" + asText(golden("24_centre_12_counted").bytes);
+    const ProgramRun all = runProgram({"decode", "--json", "-"}, file);
+    const ProgramRun run =
+        runProgram({"decode", "--fields", "body.timeCode,sample,index,skipped,body,type", "-"}, file);
+    const auto valueOf = [lines = all.out](const std::string& key, std::size_t from, const std::string& end) {
+        const std::size_t begin = lines.find("\"" + key + "\":", from) + key.size() + 3;
+        return lines.substr(begin, lines.find(end, begin) - begin);
+    };
+    const std::size_t second = all.out.rfind("\n{");
+    const std::string code = valueOf("timeCode", all.out.find("\"body\""), "}");
+    EXPECT_EQ(run.status, all.status);
+    EXPECT_EQ(run.out, R"({"body.timeCode":)" + code + R"(,"sample":)" + valueOf("sample", 0, ",") +
+                           R"(,"index":0,"body":{"timeCode":)" + code +
+                           R"(},"type":"25"})"
+                           "\n"
+                           R"({"index":1,"skipped":true})"
+                           "\n"
+                           R"({"sample":)" +
+                           valueOf("sample", second, ",") + R"(,"index":2,"body":)" +
+                           valueOf("body", second, ",\"notices\"") +
+                           R"(,"type":"24"})"
+                           "\n");
+}
+
+TEST(DecodeCommand, WritesEachFieldAsItIsAmongAll) {
+    const ProgramRun names = runProgram({"decode", "--fields", "nothing", "-"}, "");
+    EXPECT_EQ(names.status, 2);
+    EXPECT_THAT(names.err,
+                HasSubstr(R"(there is no field "nothing"; choose from index, offset, size, stampNs, )"));
+    EXPECT_THAT(names.err, HasSubstr(", body.segments"));
+    for (const auto& golden : goldens()) {
+        const std::string file = asText(golden.bytes);
+        const ProgramRun all = runProgram({"decode", "--json", "-"}, file);
+        const ProgramRun some = runProgram({"decode", "--fields",
+                                            "index,offset,size,stampNs,source,type,sample,datagram,last,"
+                                            "items,timeCode,character,bodySegments,props,"
+                                            "fingerSegments,payloadSize,error,body,notices,bytes",
+                                            "-"},
+                                           file);
+        EXPECT_EQ(some.out, all.out) << golden.name;
+        EXPECT_EQ(some.status, all.status) << golden.name;
+    }
+}
+
 TEST(DecodeCommand, ShowsBytesThatBelongToNoDatagramAsOneObject) {
     const std::string datagram = asText(golden("24_centre_12_counted").bytes);
     const std::string garbage(200'000, 'x');

@@ -92,7 +92,7 @@ TEST(DatagramJson, KeepsTheWholeDatagramWhereTheValuesWouldNotGiveItBack) {
 TEST(DatagramJson, HasNamesBesideIdsWhereTheyAreAskedFor) {
     const auto named = [](const std::string& name) {
         const auto& bytes = posewire::test::golden(name).bytes;
-        const std::string json = datagramJson({}, bytes, true);
+        const std::string json = datagramJson({}, bytes, {.hasNames = true});
         EXPECT_EQ(*datagramFromJson(json), bytes) << "names change no bytes";
         return json;
     };
