@@ -311,8 +311,8 @@ class Tests:
         expect(sorted(one.name for one in self.folder.iterdir()) == ["in", "out.bvh", "out.c3d", "out.mvnx"], "files")
 
     def test_type_25_goes_with_its_sample(self):
-        """Type 25 comes behind the pose, once behind the next one, once not at all, and once with no time in it; then
-        the counter begins again, and the times go on."""
+        """Type 25 comes behind the pose, once behind the next one, once not at all, and once with no time in it. The
+        counter jumps, without type 25, and begins again, and the times go on."""
         def clock(sample: int, behind: int) -> bytes:
             return datagram("25", sample, 1, text("no time:" if sample == 9 else codes[sample + behind]))
         codes = [f"23:59:{48 + i // 60:02}.{round(i % 60 * 1000 / 60):03}" for i in range(120)]
@@ -320,11 +320,13 @@ class Tests:
         frames[8].append(frames[7].pop())
         del frames[5][1]
         wanted = [None if i in (5, 9) else code for i, code in enumerate(codes)]
-        late = [[pose(i), clock(i, 60)] for i in range(60) if i != 9]
-        lines = self.export(frames + late, "jsonl").read_text().splitlines()
+        ahead = [[pose(20_000 + i)] for i in range(30)]
+        again = [[pose(i), clock(i, 60)] for i in range(60) if i != 9]
+        lines = self.export(frames + ahead + again, "jsonl").read_text().splitlines()
         found = [(one["run"], one["sample"], one.get("timeOfDay"))
                  for one in map(json.loads, lines) if one["segments"] is not None]
-        runs = [(1 + i // 60, i % 60, code) for i, code in enumerate(wanted) if i != 69]
+        runs = [(1, i, wanted[i]) for i in range(60)] + [(2, 20_000 + i, None) for i in range(30)]
+        runs += [(3, i, wanted[60 + i]) for i in range(60) if i != 9]
         expect(found == runs, found)
         with open(self.export(frames, "csv"), encoding="utf-8", newline="") as file:
             rows = list(csv.DictReader(file))
