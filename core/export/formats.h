@@ -3,7 +3,9 @@
 
 #include "core/export/reports.h"
 #include "core/export/sheets.h"
+#include "core/wire/text.h"
 
+#include <array>
 #include <span>
 #include <string>
 #include <string_view>
@@ -26,16 +28,28 @@ struct ReportSheet {
 
 /// All formats of a subject, the usual one first: of EventSheet, NullPoseSheet and ReportSheet.
 template <class Subject>
-[[nodiscard]] std::span<const Format<Subject>> formats();
+inline constexpr std::array<Format<Subject>, 0> kFormatsOf{};
 template <>
-std::span<const Format<EventSheet>> formats();
+inline constexpr std::array<Format<EventSheet>, 2> kFormatsOf<EventSheet>{
+    {{"CSV", "Comma-separated values", "csv", eventsCsv}, {"JSON", "JSON", "json", eventsJson}}};
 template <>
-std::span<const Format<NullPoseSheet>> formats();
+inline constexpr std::array<Format<NullPoseSheet>, 2> kFormatsOf<NullPoseSheet>{
+    {{"CSV", "Comma-separated values", "csv", nullPoseCsv}, {"JSON", "JSON", "json", nullPoseJson}}};
 template <>
-std::span<const Format<ReportSheet>> formats();
+inline constexpr std::array<Format<ReportSheet>, 1> kFormatsOf<ReportSheet>{
+    {{"HTML", "Web pages", "html",
+      [](const ReportSheet& sheet) { return streamReport(sheet.session, sheet.options); }}}};
+
+template <class Subject>
+[[nodiscard]] std::span<const Format<Subject>> formats() {
+    return kFormatsOf<Subject>;
+}
 
 /// In whatever case.
-[[nodiscard]] bool hasSuffix(std::string_view name, std::string_view suffix);
+[[nodiscard]] inline bool hasSuffix(std::string_view name, std::string_view suffix) {
+    const std::size_t dot = name.rfind('.');
+    return dot != std::string_view::npos && wire::lowered(name.substr(dot + 1)) == suffix;
+}
 
 /// The format that a file's name asks for; the usual one where it ends with no suffix of the list.
 template <class Subject>

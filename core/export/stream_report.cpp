@@ -10,7 +10,7 @@
 #include "core/model/text.h"
 #include "core/words/say.h"
 
-#include "report_style.h"
+#include "embedded_texts.h"
 
 #include <algorithm>
 #include <chrono>

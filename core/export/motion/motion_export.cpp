@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <numeric>
 #include <set>
 #include <system_error>
 #include <utility>
@@ -49,19 +50,17 @@ ExportProgress partOf(const ExportProgress& progress, int index, int count) {
 tl::expected<std::vector<Share>, FileError> surveyed(const MotionRequest& request,
                                                      const ExportProgress& progress) {
     std::vector<std::size_t> left(request.source.characters.size());
-    for (std::size_t i = 0; i < left.size(); ++i) {
-        left[i] = i;
+    std::iota(left.begin(), left.end(), std::size_t{0});
+    std::vector<feed::PoseContent> contents{feed::PoseContent::Segments};
+    if (request.format.takesMarkers) {
+        contents.insert(contents.begin(), feed::PoseContent::Markers);
     }
     std::vector<Share> shares;
-    const int parts = request.format.takesMarkers ? 2 : 1;
-    for (const feed::PoseContent content : {feed::PoseContent::Markers, feed::PoseContent::Segments}) {
-        if (content == feed::PoseContent::Markers && !request.format.takesMarkers) {
-            continue;
-        }
+    for (const feed::PoseContent content : contents) {
         Share share = shareOf(request.source, content, left);
+        const auto part = static_cast<int>(shares.size());
         auto survey =
-            surveyMotion(share.source, content,
-                         partOf(progress, content == feed::PoseContent::Markers ? 0 : parts - 1, parts));
+            surveyMotion(share.source, content, partOf(progress, part, static_cast<int>(contents.size())));
         if (!survey) {
             return tl::unexpected(survey.error());
         }

@@ -16,7 +16,7 @@ namespace posewire::exporting {
 namespace {
 
 /// Numbers of arrays are as this computer has them; those of the archive begin with the low byte.
-constexpr char kOrder = std::endian::native == std::endian::little ? '<' : '>';
+constexpr char kByteOrder = std::endian::native == std::endian::little ? '<' : '>';
 
 /// An array in the format of numpy (NEP 1, version 1.0), kept in scratch memory until the file ends.
 class NumpyArray {
@@ -52,7 +52,7 @@ public:
     [[nodiscard]] std::string head() const {
         constexpr std::size_t kAlignment = 64;
         constexpr std::size_t kBefore = 10;
-        std::string text = std::string("{'descr': '") + (m_type == "u1" ? '|' : kOrder) + m_type +
+        std::string text = std::string("{'descr': '") + (m_type == "u1" ? '|' : kByteOrder) + m_type +
                            "', 'fortran_order': False, 'shape': (" + std::to_string(m_rows) +
                            (m_shape.empty() ? "," : m_shape) + "), }";
         const std::size_t size = kBefore + text.size() + 1;
