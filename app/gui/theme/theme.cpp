@@ -2,6 +2,7 @@
 #include "app/gui/theme/theme.h"
 
 #include "app/gui/theme/icon_drawing.h"
+#include "window_style.h"
 
 #include <QFile>
 #include <QFontDatabase>
@@ -10,7 +11,6 @@
 #include <QPainter>
 #include <QPalette>
 #include <QStyleFactory>
-#include <QTextDocument>
 
 #include <algorithm>
 #include <array>
@@ -109,99 +109,6 @@ QPalette paletteOf(const Theme& theme) {
     return palette;
 }
 
-constexpr const char* kSheet = R"(
-QMainWindow, QDialog, QMessageBox { background: @window; }
-QMainWindow::separator { background: @window; width: 3px; height: 3px; }
-QMainWindow::separator:hover { background: @accent; }
-QToolTip { background: @raised; color: @text; border: 1px solid @line; padding: 4px 6px; }
-
-QMenuBar { background: @window; border: none; border-bottom: 1px solid @line; padding: 2px 4px; }
-QToolBar { background: @window; border: none; padding: 0; margin: 0; spacing: 6px; }
-QStatusBar { background: @window; border-top: 1px solid @line; }
-QStatusBar::item { border: none; }
-QDockWidget { border: 1px solid @dim; }
-QMenuBar::item { background: transparent; padding: @menuv 9px; border-radius: 4px; }
-QMenuBar::item:selected { background: @raised; }
-QMenu { background: @raised; border: 1px solid @line; padding: 5px 0; }
-QMenu::item { padding: @menuv 28px @menuv 26px; }
-QMenu::item:selected { background: @selection; color: @text; }
-QMenu::item:disabled { color: @dim; }
-QMenu::separator { height: 1px; background: @line; margin: 5px 0; }
-QMenu::indicator { left: 8px; }
-
-QAbstractItemView { background: @panel; alternate-background-color: @stripe; border: none; outline: none;
-  selection-background-color: @selection; selection-color: @text; }
-QTreeView, QTableView, QListView { gridline-color: @line; }
-QTreeView::item, QListView::item { height: @row; border: none; }
-QTableView::item { padding: 0 4px; border: none; }
-QTreeView::item:selected, QTableView::item:selected, QListView::item:selected { background: @selection; color: @text; }
-QTreeView::item:hover:!selected, QListView::item:hover:!selected { background: @raised; }
-QListView[popup="true"] { background: @raised; border: 1px solid @line; }
-QHeaderView { background: @panel; border: none; }
-QHeaderView::section { background: @panel; color: @dim; border: none; border-bottom: 1px solid @line; padding: 0 6px;
-  height: @row; font-weight: normal; }
-QTableCornerButton::section { background: @panel; border: none; }
-
-QPushButton, QToolButton[framed="true"], QComboBox { background: @raised; color: @text; border: 1px solid @line;
-  border-radius: 5px; padding: @buttonv 10px; }
-QPushButton:hover, QToolButton[framed="true"]:hover, QComboBox:hover { border-color: @dim; }
-QPushButton:pressed, QToolButton[framed="true"]:pressed { background: @selection; }
-QPushButton:disabled, QToolButton[framed="true"]:disabled { color: @dim; }
-QPushButton:focus, QToolButton[framed="true"]:focus, QComboBox:focus, QLineEdit:focus { border-color: @accent; }
-QComboBox { padding-right: 22px; }
-QComboBox::drop-down { border: none; width: 0; }
-QDialogButtonBox { dialogbuttonbox-buttons-have-icons: 0; }
-QToolButton[framed="true"]:checked { background: @selection; border-color: @accent; }
-QToolButton#recordButton:checked { background: @errorfill; border-color: @error; }
-QToolButton[alarm="true"]:checked { color: @error; border-color: @error; font-weight: 600; }
-QToolButton[framed="true"]::menu-indicator { image: none; width: 0; }
-QToolButton[live="true"] { background: @goodfill; color: @good; border: 1px solid @good; border-radius: 5px;
-  padding: @buttonv 10px; font-weight: 600; }
-QToolButton[live="false"] { background: @raised; color: @dim; border: 1px solid @line; border-radius: 5px;
-  padding: @buttonv 10px; font-weight: 600; }
-QToolButton[live="false"]:hover { color: @text; border-color: @good; }
-QToolButton[live="true"]:focus, QToolButton[live="false"]:focus { border-color: @accent; }
-QToolButton[flat="true"] { background: transparent; border: 1px solid transparent; border-radius: 4px; padding: 1px; }
-QToolButton[flat="true"]::menu-indicator { image: none; width: 0; }
-QToolButton[flat="true"]:hover { background: @raised; border-color: @line; }
-QToolButton[flat="true"]:focus { border-color: @accent; }
-QToolButton[flat="true"]:checked { background: @selection; color: @text; border-color: @accent; }
-QToolButton[framed="true"]:checked:focus, QToolButton[flat="true"]:checked:focus { border-color: @text; }
-QLineEdit, QAbstractSpinBox, QPlainTextEdit, QTextEdit, QTextBrowser { background: @panel; border: 1px solid @line;
-  border-radius: 5px; padding: 3px 6px; selection-background-color: @selection; selection-color: @text; }
-QAbstractSpinBox::up-button, QAbstractSpinBox::down-button { background: transparent; border: none; width: 16px; }
-QAbstractSpinBox::up-arrow, QAbstractSpinBox::down-arrow { width: 0; height: 0; border-left: 4px solid @panel;
-  border-right: 4px solid @panel; }
-QAbstractSpinBox::up-arrow { border-bottom: 5px solid @dim; }
-QAbstractSpinBox::down-arrow { border-top: 5px solid @dim; }
-QAbstractSpinBox::up-arrow:hover { border-bottom-color: @text; }
-QAbstractSpinBox::down-arrow:hover { border-top-color: @text; }
-QAbstractSpinBox:focus, QPlainTextEdit:focus, QTextEdit:focus, QTextBrowser:focus { border-color: @accent; }
-
-QLabel[heading="true"] { font-weight: 600; }
-QCheckBox::indicator { background: @panel; border: 1px solid @dim; border-radius: 3px; width: @box; height: @box; }
-QCheckBox::indicator:checked { background: @accent; border-color: @accent; image: url(:/icons/check_@mark.svg); }
-QCheckBox::indicator:hover, QCheckBox::indicator:focus { border-color: @text; }
-
-QTabBar::tab { background: @header; color: @dim; border: none; border-right: 1px solid @line;
-  border-top: 2px solid transparent; padding: @menuv 8px; }
-QTabBar::tab:selected { background: @panel; color: @text; border-top-color: @accent; }
-QTabBar::tab:hover:!selected { color: @text; }
-QTabBar::tab:selected:focus { background: @selection; }
-QTabWidget::pane { border: none; }
-
-QScrollBar:vertical { background: transparent; width: 10px; margin: 0; }
-QScrollBar:horizontal { background: transparent; height: 10px; margin: 0; }
-QScrollBar::handle { background: @handle; border-radius: 3px; margin: 2px; }
-QScrollBar::handle:vertical { min-height: 28px; }
-QScrollBar::handle:horizontal { min-width: 28px; }
-QScrollBar::handle:hover { background: @dim; }
-QScrollBar::add-line, QScrollBar::sub-line { width: 0; height: 0; }
-QScrollBar::add-page, QScrollBar::sub-page { background: transparent; }
-QSplitter::handle { background: @line; }
-QScrollArea { background: transparent; border: none; }
-)";
-
 /// A colour between two, by channels: 0 is the first, 1 the second.
 QColor mixed(const QColor& a, const QColor& b, double share) {
     const auto at = [share](int from, int to) { return static_cast<int>(from + (to - from) * share); };
@@ -234,7 +141,8 @@ QString styleSheet(const Theme& theme, const QFontMetrics& metrics) {
         {"@menuv", pixels(std::max(3, metrics.height() / 4))},
         {"@buttonv", pixels(std::max(3, metrics.height() / 4))},
     }};
-    QString sheet = QString::fromLatin1(kSheet);
+    const std::string_view style = windowQss();
+    QString sheet = QString::fromUtf8(style.data(), static_cast<qsizetype>(style.size()));
     for (const auto& [name, value] : values) {
         sheet.replace(name, value);
     }
