@@ -2,9 +2,9 @@
 #include "app/mvnx/frame.h"
 
 #include "core/model/body/spaces.h"
+#include "core/model/text.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <utility>
 
@@ -13,55 +13,36 @@ namespace {
 
 using Result = tl::expected<void, log::FileError>;
 
-enum class Per : std::uint8_t { Segment, Sensor, Joint, ErgonomicAngle, Frame };
-
 struct Element {
     std::string_view name;
-    Per per;
+    std::size_t (*count)(const Subject& subject);
     std::size_t size; ///< numbers for each
 };
 
+constexpr auto kSegments = [](const Subject& subject) { return subject.segments.size(); };
+constexpr auto kSensors = [](const Subject& subject) { return subject.sensors.size(); };
+constexpr auto kJoints = [](const Subject& subject) { return subject.joints.size(); };
+constexpr auto kErgonomicAngles = [](const Subject& subject) { return subject.ergonomicAngles.size(); };
+constexpr auto kOne = [](const Subject& /*subject*/) { return std::size_t{1}; };
+
 /// In the order of Frame::Field.
 constexpr std::array<Element, Frame::FieldCount> kElements{{
-    {"orientation", Per::Segment, 4},
-    {"position", Per::Segment, 3},
-    {"velocity", Per::Segment, 3},
-    {"acceleration", Per::Segment, 3},
-    {"angularVelocity", Per::Segment, 3},
-    {"angularAcceleration", Per::Segment, 3},
-    {"sensorFreeAcceleration", Per::Sensor, 3},
-    {"sensorAcceleration", Per::Sensor, 3},
-    {"sensorAngularVelocity", Per::Sensor, 3},
-    {"sensorMagneticField", Per::Sensor, 3},
-    {"sensorOrientation", Per::Sensor, 4},
-    {"jointAngle", Per::Joint, 3},
-    {"jointAngleErgo", Per::ErgonomicAngle, 3},
-    {"centerOfMass", Per::Frame, 3},
+    {"orientation", kSegments, 4},
+    {"position", kSegments, 3},
+    {"velocity", kSegments, 3},
+    {"acceleration", kSegments, 3},
+    {"angularVelocity", kSegments, 3},
+    {"angularAcceleration", kSegments, 3},
+    {"sensorFreeAcceleration", kSensors, 3},
+    {"sensorAcceleration", kSensors, 3},
+    {"sensorAngularVelocity", kSensors, 3},
+    {"sensorMagneticField", kSensors, 3},
+    {"sensorOrientation", kSensors, 4},
+    {"jointAngle", kJoints, 3},
+    {"jointAngleErgo", kErgonomicAngles, 3},
+    {"centerOfMass", kOne, 3},
 }};
 constexpr std::size_t kMassWithDerivatives = 9; ///< numbers: position, velocity, acceleration
-
-std::size_t countOf(Per per, const Subject& subject) {
-    switch (per) {
-    case Per::Segment:
-        return subject.segments.size();
-    case Per::Sensor:
-        return subject.sensors.size();
-    case Per::Joint:
-        return subject.joints.size();
-    case Per::ErgonomicAngle:
-        return subject.ergonomicAngles.size();
-    case Per::Frame:
-        break;
-    }
-    return 1;
-}
-
-std::optional<std::int64_t> integerIn(std::string_view text) {
-    std::int64_t number = 0;
-    const auto parsed = std::from_chars(text.data(), text.data() + text.size(), number);
-    const bool isWhole = parsed.ec == std::errc() && parsed.ptr == text.data() + text.size();
-    return isWhole ? std::optional(number) : std::nullopt;
-}
 
 } // namespace
 
@@ -75,7 +56,7 @@ Result Frame::begins(const XmlReader& xml, double rateHz) {
     }
     const std::string_view written = xml.attribute("index");
     const std::int64_t next = m_hasBegun ? std::int64_t{index} + 1 : 0;
-    const std::int64_t number = written.empty() ? next : integerIn(written).value_or(-1);
+    const std::int64_t number = written.empty() ? next : numberIn<std::int64_t>(written).value_or(-1);
     if (number < next || number > INT32_MAX) {
         return tl::unexpected(xml.damage("a frame with the index \"" + std::string(written.substr(0, 32)) +
                                          "\", not " + std::to_string(next) + " or more"));
@@ -83,8 +64,8 @@ Result Frame::begins(const XmlReader& xml, double rateHz) {
     m_hasBegun = true;
     index = static_cast<std::uint32_t>(number);
     const auto byRate = static_cast<std::int64_t>(std::llround(1000.0 * static_cast<double>(index) / rateHz));
-    timeMs = static_cast<std::uint32_t>(integerIn(xml.attribute("time")).value_or(byRate));
-    epochMs = integerIn(xml.attribute("ms"));
+    timeMs = static_cast<std::uint32_t>(numberIn<std::int64_t>(xml.attribute("time")).value_or(byRate));
+    epochMs = numberIn<std::int64_t>(xml.attribute("ms"));
     m_timeCode = xml.attribute("tc").substr(0, 16);
     return {};
 }
@@ -96,8 +77,8 @@ Result Frame::ends(const XmlReader& xml, const Subject& subject) {
         return {};
     }
     std::vector<float>& field = m_fields[static_cast<std::size_t>(element - kElements.begin())];
-    const std::size_t need = element->size * countOf(element->per, subject);
-    const bool isMass = element->per == Per::Frame;
+    const std::size_t need = element->size * element->count(subject);
+    const bool isMass = element - kElements.begin() == CentreOfMass;
     if (auto read = readNumbers(xml, isMass ? kMassWithDerivatives : need, field); !read) {
         return read;
     }
@@ -230,7 +211,7 @@ std::optional<wire::TimeCode> Frame::timeCode(double rateHz) const {
     std::size_t count = 0;
     for (std::string_view rest = m_timeCode; !rest.empty() && count < parts.size(); ++count) {
         const std::size_t end = std::min(rest.find_first_of(":;."), rest.size());
-        const auto part = integerIn(rest.substr(0, end));
+        const auto part = numberIn<std::int64_t>(rest.substr(0, end));
         if (!part || *part < 0 || *part > 999) {
             return std::nullopt;
         }
@@ -242,16 +223,11 @@ std::optional<wire::TimeCode> Frame::timeCode(double rateHz) const {
     }
     parts[3] =
         std::min<std::int64_t>(999, std::llround(std::ceil(1000.0 * static_cast<double>(parts[3]) / rateHz)));
+    using model::padded;
+    const std::string text = padded(parts[0], 2) + ':' + padded(parts[1], 2) + ':' + padded(parts[2], 2) +
+                             '.' + padded(parts[3], 3);
     wire::TimeCode code;
-    const auto digits = [&code](std::int64_t value, std::size_t first, std::size_t width) {
-        for (; width-- > 0; value /= 10) {
-            code.text[first + width] = static_cast<char>('0' + value % 10);
-        }
-    };
-    digits(parts[0], 0, 2);
-    digits(parts[1], 3, 2);
-    digits(parts[2], 6, 2);
-    digits(parts[3], 9, 3);
+    std::copy(text.begin(), text.end(), code.text.begin());
     return code;
 }
 

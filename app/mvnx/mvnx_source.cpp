@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/mvnx/mvnx_source.h"
 
+#include "core/log/memory_sink.h"
+
 #include <algorithm>
 #include <cmath>
 #include <string_view>
@@ -10,19 +12,6 @@ namespace posewire::mvnx {
 namespace {
 
 using Result = tl::expected<void, log::FileError>;
-
-class MemorySink final : public log::ByteSink {
-public:
-    explicit MemorySink(std::vector<std::byte>& bytes) : m_bytes(bytes) {}
-    Result write(std::span<const std::byte> bytes) override {
-        m_bytes.insert(m_bytes.end(), bytes.begin(), bytes.end());
-        return {};
-    }
-    Result flush() override { return {}; }
-
-private:
-    std::vector<std::byte>& m_bytes;
-};
 
 std::string_view textOf(std::span<const std::byte> bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
@@ -127,7 +116,7 @@ private:
     static constexpr unsigned kMostSubjects = 64;
 
     XmlReader m_xml;
-    MemorySink m_sink;
+    log::MemorySink m_sink;
     log::PcapngWriter m_writer;
     log::SenderInfo m_sender;
     Subject m_subject;

@@ -5,9 +5,7 @@
 
 #include "core/log/pcapng_writer.h"
 
-#include <cstdint>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>

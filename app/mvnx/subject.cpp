@@ -4,20 +4,11 @@
 #include "core/model/body/points.h"
 
 #include <algorithm>
-#include <charconv>
 
 namespace posewire::mvnx {
 namespace {
 
 constexpr std::size_t kLongestName = 256;
-
-template <typename Number>
-std::optional<Number> numberIn(std::string_view text) {
-    Number number{};
-    const auto parsed = std::from_chars(text.data(), text.data() + text.size(), number);
-    const bool isWhole = parsed.ec == std::errc() && parsed.ptr == text.data() + text.size();
-    return isWhole ? std::optional(number) : std::nullopt;
-}
 
 tl::expected<void, log::FileError> fits(const XmlReader& xml, std::size_t size, std::size_t most) {
     return size <= most ? tl::expected<void, log::FileError>()

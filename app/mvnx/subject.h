@@ -5,10 +5,10 @@
 
 #include "core/wire/messages.h"
 
+#include <charconv>
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace posewire::mvnx {
@@ -48,6 +48,15 @@ private:
     /// Of "RightUpperLeg/jRightKnee".
     [[nodiscard]] std::uint32_t pointIdOf(std::string_view connector) const;
 };
+
+/// The number that a text is, all of it.
+template <typename Number>
+std::optional<Number> numberIn(std::string_view text) {
+    Number number{};
+    const auto parsed = std::from_chars(text.data(), text.data() + text.size(), number);
+    const bool isWhole = parsed.ec == std::errc() && parsed.ptr == text.data() + text.size();
+    return isWhole ? std::optional(number) : std::nullopt;
+}
 
 /// The numbers of a text, divided by spaces. Fails if one of them is none, or there are more than `most`.
 tl::expected<void, log::FileError> readNumbers(const XmlReader& xml, std::size_t most,

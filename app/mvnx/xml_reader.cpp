@@ -2,7 +2,6 @@
 #include "app/mvnx/xml_reader.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace posewire::mvnx {
 namespace {

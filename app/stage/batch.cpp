@@ -7,19 +7,6 @@
 namespace posewire::stage {
 namespace {
 
-class MemorySink final : public log::ByteSink {
-public:
-    explicit MemorySink(std::vector<std::byte>& bytes) : m_bytes(bytes) {}
-    tl::expected<void, log::FileError> write(std::span<const std::byte> bytes) override {
-        m_bytes.insert(m_bytes.end(), bytes.begin(), bytes.end());
-        return {};
-    }
-    tl::expected<void, log::FileError> flush() override { return {}; }
-
-private:
-    std::vector<std::byte>& m_bytes;
-};
-
 class MemorySource final : public log::ByteSource {
 public:
     explicit MemorySource(std::span<const std::byte> bytes) : m_left(bytes) {}
@@ -46,8 +33,6 @@ std::string newRun() {
     return run;
 }
 
-Batch::Batch() : m_sink(std::make_unique<MemorySink>(m_bytes)) {}
-
 bool Batch::hasRoomFor(const log::Packet& packet) const {
     constexpr std::size_t kBeside = 1024; // its headers and comments
     return isEmpty() || m_bytes.size() + packet.bytes.size() + kBeside <= kMostBytes;
@@ -61,7 +46,7 @@ void Batch::clear() {
 void Batch::add(const log::Packet& packet, const log::SenderInfo& sender) {
     if (isEmpty()) {
         m_first = packet.number;
-        m_writer.emplace(*m_sink);
+        m_writer.emplace(m_sink);
         static_cast<void>(m_writer->begin({})); // memory takes everything
     }
     static_cast<void>(m_writer->add(packet, sender));

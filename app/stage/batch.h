@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/log/byte_io.h"
+#include "core/log/memory_sink.h"
 #include "core/log/packet.h"
 #include "core/log/pcapng_writer.h"
 #include "core/log/recording_file.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -35,7 +34,9 @@ public:
     /// Bytes. A message of NATS holds 1 MB unless its server is configured otherwise.
     static constexpr std::size_t kMostBytes = 900'000;
 
-    Batch();
+    Batch() = default;
+    Batch(const Batch&) = delete;
+    Batch& operator=(const Batch&) = delete;
 
     [[nodiscard]] bool isEmpty() const { return m_count == 0; }
     [[nodiscard]] bool hasRoomFor(const log::Packet& packet) const;
@@ -49,7 +50,7 @@ public:
 
 private:
     std::vector<std::byte> m_bytes;
-    std::unique_ptr<log::ByteSink> m_sink; ///< into these
+    log::MemorySink m_sink{m_bytes};
     std::optional<log::PcapngWriter> m_writer;
     std::uint64_t m_first = 0;
     std::uint64_t m_count = 0;

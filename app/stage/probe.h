@@ -8,7 +8,6 @@
 #include "core/log/log_reader.h"
 #include "core/log/packet_log.h"
 
-#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>

@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
-#include <optional>
-#include <string_view>
 
 namespace posewire::stage {
 namespace {

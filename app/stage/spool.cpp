@@ -7,7 +7,6 @@
 #include <array>
 #include <cinttypes>
 #include <cstdio>
-#include <filesystem>
 
 namespace posewire::stage {
 namespace {
