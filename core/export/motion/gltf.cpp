@@ -69,29 +69,19 @@ struct JointKeys {
 };
 
 /// When the keys of one character are: each later than the one before.
-class KeyTimes {
-public:
-    explicit KeyTimes(std::shared_ptr<log::Scratch> scratch) : m_times(std::move(scratch)) {}
-
+struct KeyTimes {
     void add(double seconds) {
-        float time = static_cast<float>(seconds);
-        if (m_times.size() == 0) {
-            m_first = time;
-        } else if (time <= m_last) {
-            time = std::nextafter(m_last, std::numeric_limits<float>::infinity());
-        }
-        m_last = time;
-        m_times.add(std::array{time});
+        const auto time = static_cast<float>(seconds);
+        first = column.size() == 0 ? time : first;
+        last = column.size() == 0 || time > last
+                   ? time
+                   : std::nextafter(last, std::numeric_limits<float>::infinity());
+        column.add(std::array{last});
     }
 
-    [[nodiscard]] float first() const { return m_first; }
-    [[nodiscard]] float last() const { return m_last; }
-    [[nodiscard]] const ScratchColumn& column() const { return m_times; }
-
-private:
-    ScratchColumn m_times;
-    float m_first = 0;
-    float m_last = 0;
+    ScratchColumn column;
+    float first = 0;
+    float last = 0;
 };
 
 /// What is in the file: the document, and the pieces of its binary part in their order.
@@ -153,7 +143,7 @@ struct Animated {
         : character(task.characterAt(place)),
           skeleton(skeletonOf(character, task.surveyAt(place), true)),
           motion(skeleton),
-          times(task.source.log->scratch()) {
+          times{ScratchColumn(task.source.log->scratch())} {
         slotToJoint.fill(-1);
         for (std::size_t i = 0; i < skeleton.joints.size(); ++i) {
             if (const auto segment = model::placeOf(skeleton.layout, skeleton.joints[i].position)) {
@@ -270,12 +260,12 @@ void addKeys(const Animated& one, std::size_t firstNode, Document& document) {
             floats.size(), [&floats](const Document::Visit& visit) { floats.visit(visit); },
             std::move(accessor));
     };
-    const std::uint64_t count = one.times.column().size() / sizeof(float);
-    const std::size_t times = column(one.times.column(), {{"componentType", kFloat},
-                                                          {"type", "SCALAR"},
-                                                          {"count", count},
-                                                          {"min", List{floatJson(one.times.first())}},
-                                                          {"max", List{floatJson(one.times.last())}}});
+    const std::uint64_t count = one.times.column.size() / sizeof(float);
+    const std::size_t times = column(one.times.column, {{"componentType", kFloat},
+                                                        {"type", "SCALAR"},
+                                                        {"count", count},
+                                                        {"min", List{floatJson(one.times.first)}},
+                                                        {"max", List{floatJson(one.times.last)}}});
     for (std::size_t i = 0; i < one.keys.size(); ++i) {
         const auto channel = [&](const char* path, const ScratchColumn& floats, const char* type) {
             const std::size_t output =
@@ -368,7 +358,7 @@ public:
     void finish(MotionOutput& out) override {
         Document document;
         for (const auto& [place, one] : m_characters) {
-            if (one->times.column().size() != 0) {
+            if (one->times.column.size() != 0) {
                 addCharacter(*one, document);
             }
         }

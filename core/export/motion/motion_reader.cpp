@@ -196,13 +196,16 @@ public:
 
     /// Each is found once: counters may begin again.
     std::optional<wire::TimeCode> of(std::size_t character, const model::CharacterPose& pose) {
+        if (!m_isSent[character]) {
+            return std::nullopt;
+        }
         const std::pair key(character, pose.sample);
         const auto isNear = [&](log::Stamp stamp) {
             return std::chrono::abs(stamp - pose.stamp) <= model::kSentTogether;
         };
         m_follower.refresh();
         auto found = m_times.find(key);
-        while (m_isSent[character] && (found == m_times.end() || !isNear(found->second.second)) &&
+        while ((found == m_times.end() || !isNear(found->second.second)) &&
                m_newest - pose.stamp <= model::kSentTogether) {
             const auto packet = m_follower.next();
             if (!packet) {
