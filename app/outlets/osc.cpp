@@ -5,7 +5,6 @@
 #include "core/model/body/spaces.h"
 #include "core/wire/type_table.h"
 
-#include <array>
 #include <utility>
 #include <vector>
 

@@ -4,7 +4,6 @@
 #include <lo/lo.h>
 
 #include <cstdlib>
-#include <span>
 #include <utility>
 
 namespace posewire::outlets {

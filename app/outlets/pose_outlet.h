@@ -5,8 +5,6 @@
 #include "core/feed/pose_feed.h"
 
 #include <condition_variable>
-#include <cstddef>
-#include <cstdint>
 #include <functional>
 #include <memory>
 #include <mutex>

@@ -7,11 +7,9 @@
 
 #include <dds/dds.h>
 
-#include <array>
 #include <charconv>
 #include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace posewire::outlets {

@@ -9,8 +9,6 @@
 #include "core/model/session/messages.h"
 #include "core/model/session/roster.h"
 
-#include <algorithm>
-
 namespace posewire::gui {
 
 namespace {
