@@ -11,6 +11,7 @@
 #include <QPainter>
 #include <QPalette>
 #include <QStyleFactory>
+#include <QTextDocument>
 
 #include <algorithm>
 #include <array>
