@@ -160,8 +160,9 @@ bool FieldInfo::isConverted() const {
 
 std::optional<std::uint8_t> takeType(std::string_view& name) {
     const std::size_t dot = name.find('.');
-    const auto number =
-        dot != std::string_view::npos && dot <= 2 ? numberOf(name.substr(0, dot)) : std::nullopt;
+    const bool isLed =
+        dot != std::string_view::npos && dot <= 2 && name.find_first_of("0123456789", dot) != dot + 1;
+    const auto number = isLed ? numberOf(name.substr(0, dot)) : std::nullopt;
     const wire::TypeInfo* info =
         number && *number >= 0 ? wire::findType(static_cast<std::uint8_t>(*number)) : nullptr;
     if (info == nullptr) {

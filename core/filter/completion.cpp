@@ -20,6 +20,7 @@ enum class Next : std::uint8_t { Field, Item, Operator, Value, SetMember, AfterM
 struct Context {
     Next next = Next::Field;
     std::string_view field; ///< the newest
+    bool hasItem = false;   ///< that it is of
     bool isSet = false;     ///< after `in`
     bool isNumber = false;  ///< the newest value, and no unit came after it
 };
@@ -32,10 +33,12 @@ void advance(Context& context, const Token& token, std::string_view text) {
     } else if (context.next == Next::Field && token.kind == TokenKind::Word) {
         context.next = Next::Operator;
         context.field = token.in(text);
-    } else if (context.next == Next::Operator && token.in(text) == kOf) {
+        context.hasItem = false;
+    } else if (context.next == Next::Operator && token.in(text) == kOf && !context.hasItem) {
         context.next = Next::Item;
     } else if (context.next == Next::Item && isValue) {
         context.next = Next::Operator;
+        context.hasItem = true;
     } else if (token.kind == TokenKind::Operator) {
         context.next = Next::Value;
         context.isSet = token.op == Operator::In;
@@ -218,7 +221,6 @@ void offerOperators(std::string_view name, Collector& into) {
     if (!isVector) {
         into.offer("in {", "is one of a set");
     }
-    offerOf(name, into);
     into.offer("&&", "and");
     into.offer("||", "or");
 }
@@ -365,6 +367,9 @@ std::vector<Completion> completions(std::string_view text, std::size_t cursor) {
         break;
     case Next::Operator:
         offerOperators(context.field, into);
+        if (!context.hasItem) {
+            offerOf(context.field, into);
+        }
         break;
     case Next::Value:
         if (context.isSet) {

@@ -20,9 +20,10 @@ tl::unexpected<FilterError> wrong(const Token& at, std::string text) {
     return tl::unexpected(FilterError{at.offset, at.length, std::move(text)});
 }
 
-/// From the beginning of one to the end of another.
+/// From one to another.
 Token placeFrom(const Token& first, const Token& last) {
-    return {TokenKind::Word, first.offset, last.end() - first.offset};
+    const std::size_t begin = std::min(first.offset, last.offset);
+    return {TokenKind::Word, begin, std::max(first.end(), last.end()) - begin};
 }
 
 /// "a length", "a number in %".
@@ -178,6 +179,9 @@ private:
         const Quantity& b = right.quantity;
         const bool isProduct = sign.in(m_text) == "*";
         const Token whole = placeFrom(left.place, right.place);
+        if (isProduct && a.components == 1 && b.components == 3) {
+            return multiplied(right, sign, left);
+        }
         if (std::max(a.components, b.components) == kOrientation || b.components != 1) {
             return wrong(right.place, "Vectors are multiplied and divided by numbers only.");
         }
@@ -229,8 +233,9 @@ private:
         if (m_tokens[m_at + 1].kind == TokenKind::Open) {
             return call(depth);
         }
-        const auto number = amountOf({first, std::string(first.in(m_text))});
-        return number ? constant() : source();
+        std::string_view name = first.in(m_text);
+        const bool isNumber = !takeType(name) && amountOf({first, std::string(name)});
+        return isNumber ? constant() : source();
     }
 
     ParsedOperand constant() {
@@ -468,7 +473,8 @@ std::vector<Token> signalTokens(std::string_view text) {
             const TokenKind before = all.empty() ? TokenKind::Open : all.back().kind;
             const bool isBetween =
                 before == TokenKind::Word || before == TokenKind::Quoted || before == TokenKind::Close;
-            if (isSign && (isBetween || !amountOf({token, std::string(word)}))) {
+            std::string_view name = word.substr(isSign ? 1 : 0);
+            if (isSign && (isBetween || takeType(name) || !amountOf({token, std::string(word)}))) {
                 take(TokenKind::Unknown, 1);
             } else {
                 take(TokenKind::Word, lengthWithoutDivision(word));
