@@ -54,7 +54,7 @@ public:
 
     void write(double seconds, const QueryRow& row) {
         m_line.clear();
-        add(m_asJson ? "{\"timeS\":" : "", seconds);
+        addTime(m_asJson ? "{\"timeS\":" : "", seconds);
         add(m_asJson ? ",\"sample\":" : ",", row.sample);
         add(m_asJson ? ",\"character\":" : ",", row.character);
         if (row.source != m_source || m_sourceText.empty()) {
@@ -105,7 +105,13 @@ private:
         const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), *number).ptr;
         m_line.append(digits.data(), end);
     }
-    void add(std::string_view before, double number) { add(before, Value(number)); }
+    /// To the nanosecond.
+    void addTime(std::string_view before, double seconds) {
+        std::array<char, 32> digits{};
+        const auto end =
+            std::to_chars(digits.data(), digits.data() + digits.size(), seconds, std::chars_format::fixed, 9);
+        m_line.append(before).append(digits.data(), end.ptr);
+    }
 
     Output& m_out;
     bool m_asJson;

@@ -15,7 +15,8 @@ from pathlib import Path
 
 RATE = 60
 BEGIN = 1_700_000_000_000_000_000
-PELVIS, LEFT_HAND = 1, 15
+PELVIS, LEFT_HAND = 1, 15  # ids
+KNEE = 15  # the place of jRightKnee
 
 
 class Failure(Exception):
@@ -49,7 +50,9 @@ def pose(sample: int, character: int) -> bytes:
 
 def joints(sample: int, character: int) -> bytes:
     degrees = math.remainder(7 * sample, 360)
-    return datagram("20", sample, 1, struct.pack(">II3f", 256 * 16 + 2, 256 * 17 + 1, 1, 2, degrees), character)
+    rows = b"".join(struct.pack(">II3f", 256 * 16 + 2, 256 * 17 + 1, 1, 2, degrees if place == KNEE else 0)
+                    for place in range(22))
+    return datagram("20", sample, 22, rows, character)
 
 
 class Tests:
@@ -105,7 +108,7 @@ class Tests:
             near(found[2], math.dist(pelvis["position"], hand["position"]), "distance", 1e-6)
             dot = abs(sum(a * b for a, b in zip(pelvis["orientation"], hand["orientation"])))
             near(found[3], 2 * math.degrees(math.acos(min(1, dot))), "angle", 2e-3)
-            near(found[4], angles[row["sample"]]["body"]["joints"][0]["rotation"][2], "knee", 1e-6)
+            near(found[4], angles[row["sample"]]["body"]["joints"][KNEE]["rotation"][2], "knee", 1e-6)
             near(found[5], pelvis["position"][0] - hand["position"][0] + 0.01, "difference", 1e-6)
         expect(all(a["timeS"] <= b["timeS"] for a, b in zip(rows, rows[1:])), "order")
 
@@ -150,7 +153,7 @@ class Tests:
                 expect(place is None and angle is None and row["sample"] is None, row)
                 continue
             near(place, sum(self.item(poses[one], LEFT_HAND)["position"][0] for one in samples) / len(samples), "mean", 1e-6)
-            first, last = (angles[one]["body"]["joints"][0]["rotation"][2] for one in (samples[0], samples[-1]))
+            first, last = (angles[one]["body"]["joints"][KNEE]["rotation"][2] for one in (samples[0], samples[-1]))
             near(math.remainder(angle - first - math.remainder(last - first, 360) / 2, 360), 0, "angle", 1e-5)
 
     def test_ranges(self):
