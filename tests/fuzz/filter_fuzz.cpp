@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/filter/completion.h"
 #include "core/filter/filter.h"
+#include "core/filter/signal_tree.h"
 #include "tests/support/golden.h"
 
 #include <algorithm>
@@ -60,8 +61,10 @@ void checkMatching(const filter::Filter& compiled) {
 void checkCompletions(std::string_view text) {
     constexpr std::size_t kMostCursors = 200;
     for (std::size_t cursor = 0; cursor <= std::min(text.size(), kMostCursors); ++cursor) {
-        for (const filter::Completion& one : filter::completions(text, cursor)) {
-            require(one.offset <= cursor && one.offset + one.length <= text.size() && !one.text.empty());
+        for (const auto& complete : {&filter::completions, &filter::signalCompletions}) {
+            for (const filter::Completion& one : complete(text, cursor)) {
+                require(one.offset <= cursor && one.offset + one.length <= text.size() && !one.text.empty());
+            }
         }
     }
 }
@@ -75,6 +78,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         checkMatching(*compiled);
     } else {
         const filter::FilterError& error = compiled.error();
+        require(error.offset <= size && error.length <= size - error.offset && !error.text.empty());
+    }
+    if (const auto signal = filter::parsedSignal(text); !signal) {
+        const filter::FilterError& error = signal.error();
         require(error.offset <= size && error.length <= size - error.offset && !error.text.empty());
     }
     checkCompletions(text);

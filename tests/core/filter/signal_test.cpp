@@ -6,6 +6,8 @@
 
 #include <gmock/gmock.h>
 
+#include <random>
+
 namespace posewire::filter::test {
 namespace {
 
@@ -140,6 +142,75 @@ TEST(FilterOfItems, SaysWhichNamesThereAre) {
     EXPECT_THAT(errorOf("position.z of LeftHadn > 1"), HasSubstr("LeftHadn: `position.z` has no item"));
     EXPECT_THAT(errorOf("sample of Pelvis == 1"), HasSubstr("Pelvis: `sample` is of no item"));
     EXPECT_THAT(errorOf("20.position.z > 1"), HasSubstr("20.position.z: There is no field"));
+}
+
+// Texts of pieces that belong to signals: each compiles or says where it is wrong, and reads what it can.
+TEST(Signal, EndsWellWhateverIsWritten) {
+    constexpr std::array kPieces{"position",
+                                 "2.",
+                                 "20.rotation.z",
+                                 ".z",
+                                 " of ",
+                                 "LeftHand",
+                                 "\"Left Hand\"",
+                                 "speed(",
+                                 "angle(",
+                                 "norm(",
+                                 "distance(",
+                                 "derivative(",
+                                 "rate",
+                                 "2.jitter",
+                                 ")",
+                                 ",",
+                                 " + ",
+                                 "-",
+                                 "*",
+                                 "/",
+                                 "10 cm",
+                                 "3",
+                                 "m/s",
+                                 " where ",
+                                 "type == 2",
+                                 "orientation",
+                                 "size",
+                                 "velocity",
+                                 "(",
+                                 "\"",
+                                 "é",
+                                 "wire.",
+                                 "matrix.1"};
+    const std::vector packets{golden("02_quaternion_counted"), golden("20_joints_counted")};
+    std::mt19937 random(4);
+    std::size_t compiled = 0;
+    for (int i = 0; i < 20'000; ++i) {
+        std::string text;
+        for (std::size_t pieces = random() % 8; pieces-- > 0;) {
+            text += kPieces[random() % kPieces.size()];
+        }
+        const auto tree = parsedSignal(text);
+        if (!tree) {
+            EXPECT_LE(tree.error().offset + tree.error().length, text.size()) << text;
+            EXPECT_FALSE(tree.error().text.empty()) << text;
+        } else {
+            ++compiled;
+            EXPECT_EQ(tree->quantity.components, 1U) << text;
+            for (const Case& packet : packets) {
+                const Candidate candidate = packet.candidate();
+                Subject subject(candidate);
+                std::size_t last = 7;
+                for (const SignalSource& source : tree->sources) {
+                    static_cast<void>(source.read(subject, last));
+                }
+            }
+        }
+        const std::size_t cursor = text.empty() ? 0 : random() % text.size();
+        for (const Completion& one :
+             i % 50 == 0 ? signalCompletions(text, cursor) : std::vector<Completion>()) {
+            EXPECT_LE(one.offset, cursor) << text;
+            EXPECT_LE(one.offset + one.length, text.size()) << text;
+        }
+    }
+    EXPECT_GT(compiled, 500U);
 }
 
 /// `|` marks the cursor.
