@@ -210,7 +210,7 @@ TEST(Signal, EndsWellWhateverIsWritten) {
             EXPECT_LE(one.offset + one.length, text.size()) << text;
         }
     }
-    EXPECT_GT(compiled, 500U);
+    EXPECT_GT(compiled, 200U);
 }
 
 /// `|` marks the cursor.
