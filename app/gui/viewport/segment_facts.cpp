@@ -123,7 +123,8 @@ std::optional<JointReading> jointReading(const PoseSubject& subject, int segment
     };
     const Eigen::Vector3d angles =
         model::kDegreesPerRadian *
-        model::jointAngle(definition, turn(definition.parentSegment()), turn(definition.childSegment()));
+        model::jointAngle(definition, turn(definition.parentSegment()), turn(definition.childSegment()),
+                          model::stanceOf(subject.session.messages().bodyOrigins(subject.key).places));
     return JointReading{{angles.x(), angles.y(), angles.z()}, false};
 }
 

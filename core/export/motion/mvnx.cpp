@@ -113,7 +113,7 @@ public:
             appendNumbers(frame.pose->segments[i].position, text);
         }
         std::array<Eigen::Vector3d, kJoints> angles;
-        model::jointAngles(turns, angles);
+        model::jointAngles(turns, angles, model::stanceOf(m_character.body().places));
         text += "</position>\n<jointAngle>";
         for (const Eigen::Vector3d& angle : angles) {
             appendNumbers(angle * model::kDegreesPerRadian, text);
