@@ -24,6 +24,8 @@ inline constexpr int kShortTextRole = Qt::UserRole + 8; ///< QString: instead of
 inline constexpr int kSeriesRole = Qt::UserRole + 4;    ///< QList<float>: a small curve; NaN breaks it
 /// QList<float>: where the curve is to be marked, as many as it has values; 0 for no mark.
 inline constexpr int kMarksRole = Qt::UserRole + 6;
+/// QList<float>: a bar below a number: the ends of its range, of the part to be coloured, and a value.
+inline constexpr int kBarRole = Qt::UserRole + 10;
 /// ColumnRoom of a horizontal header.
 inline constexpr int kRoomRole = Qt::UserRole + 9;
 

@@ -121,6 +121,31 @@ void paintSeries(QPainter& painter, const QRectF& rect, const QList<float>& seri
     painter.drawPath(path);
 }
 
+/// Paints a range as a line along the bottom, the part in use in colour and what is beyond as a warning.
+void paintBar(QPainter& painter, const QRectF& rect, const QList<float>& bar) {
+    constexpr qsizetype kNumbers = 5;
+    const auto numbers = std::minmax_element(bar.begin(), bar.end());
+    if (bar.size() != kNumbers || *numbers.second <= *numbers.first) {
+        return;
+    }
+    const double line = std::max(2.0, rect.height() / 9);
+    const double scale = rect.width() / (*numbers.second - *numbers.first);
+    const auto fill = [&](float from, float to, const QColor& colour) {
+        if (to > from) {
+            painter.fillRect(QRectF(rect.left() + scale * (from - *numbers.first), rect.bottom() - line,
+                                    scale * (to - from), line),
+                             colour);
+        }
+    };
+    fill(bar[0], bar[1], theme().line);
+    fill(std::max(bar[0], bar[2]), std::min(bar[1], bar[3]), theme().accent);
+    fill(bar[2], std::min(bar[0], bar[3]), theme().warning);
+    fill(std::max(bar[1], bar[2]), bar[3], theme().warning);
+    const double at =
+        std::clamp(rect.left() + scale * (bar[4] - *numbers.first), rect.left() + 1, rect.right() - 1);
+    painter.fillRect(QRectF(at - 1, rect.bottom() - line - 1, 2, line + 1), theme().text);
+}
+
 /// Beside a number: dim, smaller, in a column of its own, where there is room for both. Returns where the
 /// number ends.
 int paintShare(QPainter& painter, const QRect& rect, const QString& number, const QString& share,
@@ -151,9 +176,9 @@ bool lacksRoom(const QTreeView& view, const QModelIndex& index, const QString& t
 
 /// Returns the data that a cell is painted from, its text first.
 QVariantList contentOf(const QModelIndex& index) {
-    constexpr std::array<int, 9> kRoles{Qt::DisplayRole, Qt::ForegroundRole, Qt::CheckStateRole,
-                                        kDotRole,        kSwatchRole,        kSuffixRole,
-                                        kShortTextRole,  kSeriesRole,        kMarksRole};
+    constexpr std::array<int, 10> kRoles{
+        Qt::DisplayRole, Qt::ForegroundRole, Qt::CheckStateRole, kDotRole,   kSwatchRole,
+        kSuffixRole,     kShortTextRole,     kSeriesRole,        kMarksRole, kBarRole};
     QVariantList content;
     std::ranges::transform(kRoles, std::back_inserter(content), [&](int role) { return index.data(role); });
     return content;
@@ -286,6 +311,9 @@ void CellDelegate::paint(QPainter* painter, const QStyleOptionViewItem& given,
         option.font = font;
     }
     painter->setFont(option.font);
+    if (const QVariant bar = index.data(kBarRole); bar.isValid()) {
+        paintBar(*painter, QRectF(rect), bar.value<QList<float>>());
+    }
     const QVariant series = index.data(kSeriesRole);
     if (series.isValid()) {
         const QVariant colour = index.data(Qt::ForegroundRole);

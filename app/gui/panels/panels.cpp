@@ -6,6 +6,7 @@
 #include "app/gui/panels/faults_panel.h"
 #include "app/gui/panels/incidents_panel.h"
 #include "app/gui/panels/inspector_panel.h"
+#include "app/gui/panels/joints_panel.h"
 #include "app/gui/panels/metadata_panel.h"
 #include "app/gui/panels/nullpose_panel.h"
 #include "app/gui/panels/packets_panel.h"
@@ -54,6 +55,7 @@ constexpr PanelInfo kPanels[] = {
     dock<StatisticsPanel>("statistics", QT_TRANSLATE_NOOP("Panel", "Statistics"), kRight),
     dock<InspectorPanel>("inspector", QT_TRANSLATE_NOOP("Panel", "Inspector"), kRight),
     dock<TrackersPanel>("trackers", QT_TRANSLATE_NOOP("Panel", "Trackers"), kRight),
+    dock<JointsPanel>("joints", QT_TRANSLATE_NOOP("Panel", "Joints"), kRight),
     dock<ComparePanel>("compare", QT_TRANSLATE_NOOP("Panel", "Comparison"), kRight),
     dock<PacketsPanel>("packets", QT_TRANSLATE_NOOP("Panel", "Packets"), kBottom),
     dock<NullPosePanel>("nullpose", QT_TRANSLATE_NOOP("Panel", "Null pose"), kRight),

@@ -7,7 +7,7 @@
 #include "app/gui/window/main_window.h"
 #include "app/gui/window/verdict_bar.h"
 #include "app/net/datagram_sender.h"
-#include "core/model/body/joint_angles.h"
+#include "core/model/body/joint_ranges.h"
 #include "core/model/body/points.h"
 #include "core/model/body/pose_difference.h"
 #include "core/model/body/segments.h"
@@ -102,6 +102,7 @@ const QSet<QString>& foreignNames() {
         for (const model::AnatomicalPoint& point : model::anatomicalPoints()) {
             addName(point.name, names);
         }
+        addName(model::kRangeSource, names);
         return names;
     }();
     return kNames;
