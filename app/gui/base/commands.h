@@ -5,6 +5,7 @@
 
 #include <QObject>
 #include <QString>
+#include <QStringList>
 
 namespace posewire::gui {
 
@@ -73,6 +74,13 @@ public:
     /// character alone if there is one.
     void showIncident(std::optional<std::uint64_t> number, std::optional<model::CharacterKey> of = {});
 
+    /// Brings the plots to the front with curves of these signals (see feed::parseSignal) of the shown
+    /// character.
+    void plot(const QStringList& curves) {
+        emit showDock(QStringLiteral("plots"));
+        emit plotRequested(curves);
+    }
+
     // On the live session, whichever is shown:
     /// A new span counts for the take: counts, incidents and verdict from now on.
     void resetForTake();
@@ -96,6 +104,8 @@ signals:
     void frameCharacter(const model::CharacterKey& key);
     /// Brings a dock before the others, by its object name.
     void showDock(const QString& dock);
+    // A request that docks carry out.
+    void plotRequested(const QStringList& curves);
 
 private:
     bool travel(bool (model::Session::*step)());

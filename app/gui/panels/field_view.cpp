@@ -2,6 +2,7 @@
 #include "app/gui/panels/field_view.h"
 
 #include "app/gui/base/saving.h"
+#include "app/gui/models/curve_text.h"
 #include "app/gui/models/display_filter.h"
 #include "app/gui/models/field_text.h"
 #include "app/gui/theme/theme.h"
@@ -56,6 +57,10 @@ FieldView::FieldView(FieldModel& model, Commands& commands, QWidget* parent)
     connect(&model, &QAbstractItemModel::modelReset, this, [this] {
         m_wasReset = true;
         m_hovered = {};
+    });
+    setDragged([this](const QModelIndex& index) -> QMimeData* {
+        const QStringList curves = curvesOf(m_fields.document(), m_fields.node(index));
+        return curves.isEmpty() ? nullptr : asDragged(curves);
     });
     columns().setContextMenuPolicy(Qt::NoContextMenu); // its columns follow from the packets
 }
@@ -161,6 +166,9 @@ void FieldView::showMenu(const QPoint& at) {
     }
     QMenu menu(this);
     addFilters(menu);
+    const QStringList curves = curvesOf(m_fields.document(), node);
+    menu.addAction(tr("Plot"), this, [this, curves] { m_commands.plot(curves); })
+        ->setEnabled(!curves.isEmpty());
     menu.addSeparator();
     const auto addCopy = [&](const QString& text, const QString& copied) {
         menu.addAction(text, this, [copied] { copyText(copied); })->setEnabled(!copied.isEmpty());

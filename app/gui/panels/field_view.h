@@ -10,6 +10,8 @@
 
 namespace posewire::gui {
 
+class Commands;
+
 /// The tree of fields. What is open, what is selected and where it is scrolled to stay while packets change.
 class FieldView : public TableView {
     Q_OBJECT

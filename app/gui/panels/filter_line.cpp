@@ -5,7 +5,6 @@
 #include "app/gui/panels/cell_delegate.h"
 #include "app/gui/theme/theme.h"
 #include "app/gui/theme/widgets.h"
-#include "core/filter/completion.h"
 
 #include <QInputMethodEvent>
 #include <QKeyEvent>
@@ -32,7 +31,17 @@ int placeOf(const QString& text, std::size_t byte) {
 
 } // namespace
 
-FilterLine::FilterLine(QLabel* problem, QWidget* parent) : QLineEdit(parent), m_problem(problem) {
+LineLanguage filterLanguage() {
+    return {[](const std::string& text) {
+                const auto compiled = filter::Filter::compile(text);
+                return compiled ? std::nullopt : std::optional(compiled.error());
+            },
+            filter::completions, FilterLine::tr("Press Enter to filter"),
+            FilterLine::tr("Alt and arrow down: earlier filters")};
+}
+
+FilterLine::FilterLine(QLabel* problem, QWidget* parent, LineLanguage language)
+    : QLineEdit(parent), m_language(std::move(language)), m_problem(problem) {
     setObjectName(QStringLiteral("displayFilter"));
     setAccessibleName(tr("Display filter"));
     setPlaceholderText(tr("Filter packets, such as type == 02 && gap > 0"));
@@ -73,8 +82,7 @@ void FilterLine::setApplied(const QString& filter) {
 }
 
 void FilterLine::compile() {
-    const auto compiled = filter::Filter::compile(filter().toStdString());
-    m_error = compiled ? std::nullopt : std::optional(compiled.error());
+    m_error = m_language.errorOf(filter().toStdString());
     restyle();
     if (!m_error || m_problem->isVisible()) {
         showError();
@@ -124,8 +132,8 @@ void FilterLine::restyle() {
                                                : theme().accent;
     const bool isTinted = m_error || (isApplied && !filter().isEmpty());
     setToolTip(toolTipText(m_error     ? QString::fromStdString(m_error->text)
-                           : isApplied ? tr("Alt and arrow down: earlier filters")
-                                       : tr("Press Enter to filter")));
+                           : isApplied ? m_language.onHistory
+                                       : m_language.onEnter));
     const QString sheet = QStringLiteral("QLineEdit { border: 1px solid %1; background: %2; }")
                               .arg(border.name(), (isTinted ? tinted(border) : theme().panel).name());
     if (styleSheet() != sheet) {
@@ -161,7 +169,7 @@ void FilterLine::setHistory(const QStringList& history) {
 void FilterLine::offerCompletions() {
     m_offers->clear();
     const QByteArray before = text().left(cursorPosition()).toUtf8();
-    auto found = filter::completions(text().toStdString(), static_cast<std::size_t>(before.size()));
+    auto found = m_language.completions(text().toStdString(), static_cast<std::size_t>(before.size()));
     found.resize(std::min(found.size(), kMostOffers));
     for (const filter::Completion& one : found) {
         addOffer(QString::fromStdString(one.text), QString::fromStdString(one.about), one.offset, one.length);

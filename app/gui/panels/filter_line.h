@@ -1,27 +1,38 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/filter/completion.h"
 #include "core/filter/filter.h"
 
 #include <QCompleter>
 #include <QLineEdit>
 #include <QStandardItemModel>
 
+#include <functional>
 #include <optional>
 
 class QLabel;
 
 namespace posewire::gui {
 
-/// The line of the display filter: shows while it is written whether it is right, and where it is not; offers
-/// what may follow, and what was used before (Alt and arrow down).
+/// What is written in a line.
+struct LineLanguage {
+    std::function<std::optional<filter::FilterError>(const std::string& text)> errorOf;
+    std::function<std::vector<filter::Completion>(const std::string& text, std::size_t cursor)> completions;
+    QString onEnter;   ///< what Enter does, in words
+    QString onHistory; ///< what Alt and arrow down does
+};
+[[nodiscard]] LineLanguage filterLanguage();
+
+/// The line of the display filter, or of another language: shows while it is written whether it is right, and
+/// where it is not; offers what may follow, and what was used before (Alt and arrow down).
 class FilterLine final : public QLineEdit {
     Q_OBJECT
 
 public:
     /// Says in `problem` what is wrong once the line is left or applied: what is still being written is not
     /// wrong yet.
-    FilterLine(QLabel* problem, QWidget* parent);
+    FilterLine(QLabel* problem, QWidget* parent, LineLanguage language = filterLanguage());
 
     [[nodiscard]] QString filter() const { return text().trimmed(); }
     /// Shows a filter that is in use, also one set elsewhere.
@@ -59,6 +70,7 @@ private:
     void offer();
     void insertOffer(const QModelIndex& offer);
 
+    LineLanguage m_language;
     QLabel* m_problem;
     QStandardItemModel* m_offers = new QStandardItemModel(this);
     QCompleter* m_completer = new QCompleter(m_offers, this);

@@ -10,6 +10,7 @@
 #include "app/gui/panels/metadata_panel.h"
 #include "app/gui/panels/nullpose_panel.h"
 #include "app/gui/panels/packets_panel.h"
+#include "app/gui/panels/plots_panel.h"
 #include "app/gui/panels/probes_panel.h"
 #include "app/gui/panels/statistics_panel.h"
 #include "app/gui/panels/timecode_panel.h"
@@ -32,7 +33,7 @@ Panel* make(Parts parts, QWidget* parent) {
         return new T(parts.view, parts.commands, parts.receiving, parts.health, parent);
     } else if constexpr (std::is_same_v<T, ComparePanel>) {
         return new T(parts.view, parts.commands, parts.playback, parts.comparing, parent);
-    } else if constexpr (std::is_same_v<T, TimelinePanel>) {
+    } else if constexpr (std::is_same_v<T, TimelinePanel> || std::is_same_v<T, PlotsPanel>) {
         return new T(parts.view, parts.commands, parts.playback, parent);
     } else {
         return new T(parts.view, parts.commands, parent);
@@ -63,6 +64,8 @@ constexpr PanelInfo kPanels[] = {
     dock<FaultsPanel>("faults", QT_TRANSLATE_NOOP("Panel", "Faults"), kBottom),
     dock<ProbesPanel>("probes", QT_TRANSLATE_NOOP("Panel", "Probes"), kBottom),
     dock<TimelinePanel>("timeline", QT_TRANSLATE_NOOP("Panel", "Timeline"), kBottom),
+    dock<PlotsPanel>("plots", QT_TRANSLATE_NOOP("Panel", "Plots"), kBottom),
+    {"plots2", QT_TRANSLATE_NOOP("Panel", "Plots 2"), kBottom, make<PlotsPanel>, &Panel::actionTable},
 };
 
 } // namespace

@@ -9,6 +9,7 @@
 #include "app/gui/theme/widgets.h"
 
 #include <QContextMenuEvent>
+#include <QDrag>
 #include <QKeyEvent>
 #include <QMenu>
 #include <QPainter>
@@ -107,6 +108,20 @@ void TableView::showFacts(QAbstractItemModel& facts) {
 void TableView::fixHeight() {
     setFixedHeight(heightForRows(model()->rowCount()));
     setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+}
+
+void TableView::setDragged(std::function<QMimeData*(const QModelIndex& index)> dragged) {
+    m_dragged = std::move(dragged);
+    setDragEnabled(true);
+}
+
+void TableView::startDrag(Qt::DropActions /*of the model*/) {
+    QMimeData* content = m_dragged && currentIndex().isValid() ? m_dragged(currentIndex()) : nullptr;
+    if (content != nullptr) {
+        auto* drag = new QDrag(this); // goes by itself
+        drag->setMimeData(content);
+        drag->exec(Qt::CopyAction);
+    }
 }
 
 int TableView::heightForRows(int rows) const {

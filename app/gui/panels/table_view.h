@@ -5,7 +5,10 @@
 
 #include <QTreeView>
 
+#include <functional>
+
 class QMenu;
+class QMimeData;
 
 namespace posewire::gui {
 
@@ -36,6 +39,9 @@ public:
     /// readers then.
     void setEmptyText(const QString& text);
 
+    /// From now on rows can be dragged as what `dragged` makes of them: null for those that cannot.
+    void setDragged(std::function<QMimeData*(const QModelIndex& index)> dragged);
+
     [[nodiscard]] int heightForRows(int rows) const;
 
     /// Rows as lines, cells set apart by tabs: what the copy commands give.
@@ -52,6 +58,7 @@ protected:
     /// rows below them may have changed as well.
     void dataChanged(const QModelIndex& topLeft, const QModelIndex& bottomRight,
                      const QList<int>& roles = {}) override;
+    void startDrag(Qt::DropActions actions) override;
     void contextMenuEvent(QContextMenuEvent* event) override;
     void keyPressEvent(QKeyEvent* event) override;
 
@@ -63,6 +70,7 @@ private:
 
     FittingHeader* m_columns;
     QString m_emptyText;
+    std::function<QMimeData*(const QModelIndex& index)> m_dragged;
 };
 
 } // namespace posewire::gui

@@ -4,12 +4,12 @@
 #include "app/gui/models/text.h"
 #include "app/gui/panels/cell_delegate.h"
 #include "app/gui/panels/table_view.h"
+#include "app/gui/panels/time_ruler.h"
 #include "app/gui/panels/timeline_view.h"
 #include "app/gui/theme/theme.h"
 #include "core/model/session/roster.h"
 #include "core/model/session/verdict.h"
 
-#include <QDateTime>
 #include <QPainter>
 #include <QScrollBar>
 
@@ -22,33 +22,6 @@
 namespace posewire::gui {
 
 namespace {
-
-using namespace std::chrono_literals;
-
-/// The shortest round step that is at least as long.
-log::Duration roundStep(log::Duration least) {
-    constexpr std::array<log::Duration, 33> kSteps{1us,   2us,   5us, 10us, 20us, 50us, 100us, 200us, 500us,
-                                                   1ms,   2ms,   5ms, 10ms, 20ms, 50ms, 100ms, 200ms, 500ms,
-                                                   1s,    2s,    5s,  10s,  15s,  30s,  1min,  2min,  5min,
-                                                   10min, 30min, 1h,  3h,   6h,   12h};
-    const auto step = std::ranges::lower_bound(kSteps, least);
-    return step == kSteps.end() ? log::Duration(24h) : *step;
-}
-
-/// As exact as the step needs.
-QString tickText(log::WallTime time, log::Duration step) {
-    const QString whole = timeOfDay(time);
-    if (step >= 1s) {
-        return whole.chopped(4);
-    }
-    const auto micros = std::chrono::floor<std::chrono::microseconds>(time).time_since_epoch() % 1ms;
-    return step >= 1ms ? whole : whole + QStringLiteral("%1").arg(micros / 1us, 3, 10, QLatin1Char('0'));
-}
-
-QString inSight(log::Duration length) {
-    const double seconds = log::secondsOf(length);
-    return seconds < 0.1 ? fixed(seconds * 1'000, 1) + QStringLiteral(" ms") : duration(seconds);
-}
 
 /// Marks of the worst lie on top of others.
 std::vector<const model::Incident*> worstLast(const auto& incidents) {
@@ -131,28 +104,17 @@ private:
         m_painter.drawLine(m_names, 0, m_names, m_room.height());
         m_painter.setFont(tabularFont());
         const QFontMetrics metrics = m_painter.fontMetrics();
-        const auto length = m_window.to - m_window.from;
-        const auto stepFor = [&](const QString& text) {
-            return roundStep(length * metrics.horizontalAdvance(text) / m_timeline.stripWidth());
-        };
-        const log::Duration coarse = stepFor(QStringLiteral("00:00:00.000   "));
-        const log::Duration step = coarse < 1ms ? stepFor(QStringLiteral("00:00:00.000000   ")) : coarse;
         const int lane = m_metrics.height();
         m_painter.setClipRect(m_strips);
-        // Ticks stand at round times of day, which is the local one.
-        const auto wall = m_view.wallOf(m_window.from).time_since_epoch();
-        const auto seconds = std::chrono::floor<std::chrono::seconds>(wall).count();
-        const std::chrono::seconds offset(QDateTime::fromSecsSinceEpoch(seconds).offsetFromUtc());
-        for (log::Stamp tick = m_window.from - (wall + offset) % step; tick < m_window.to; tick += step) {
-            const double x = m_timeline.placeOf(tick);
+        for (const TimeTick& tick : timeTicks(m_view, m_window, m_timeline.stripWidth(), metrics)) {
+            const double x = m_timeline.placeOf(tick.stamp);
             m_painter.setPen(theme().line);
             m_painter.drawLine(QPointF(x, lane * 0.3), QPointF(x, m_ruler));
             if (x < m_names) {
                 continue; // half a label says nothing
             }
             m_painter.setPen(theme().dim);
-            m_painter.drawText(QPointF(x + 4, lane * 0.3 + metrics.ascent()),
-                               tickText(m_view.wallOf(tick), step));
+            m_painter.drawText(QPointF(x + 4, lane * 0.3 + metrics.ascent()), tick.text);
         }
         m_painter.setClipping(false);
         m_painter.setFont(m_timeline.font());
@@ -160,7 +122,7 @@ private:
         const int margin = CellDelegate::margin(m_metrics);
         m_painter.drawText(QRect(margin, 0, m_names - margin, ruler.height()),
                            Qt::AlignVCenter | Qt::AlignLeft,
-                           TimelineView::tr("%1 in sight").arg(inSight(length)));
+                           TimelineView::tr("%1 in sight").arg(inSight(m_window.to - m_window.from)));
     }
 
     void paintIncidents() {

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/panels/trackers_panel.h"
 
+#include "app/gui/models/curve_text.h"
 #include "app/gui/models/shown_character.h"
 #include "app/gui/theme/event_watch.h"
 #include "app/gui/theme/widgets.h"
 
 #include <QItemSelectionModel>
+#include <QMenu>
 
 #include <array>
 #include <limits>
@@ -15,6 +17,14 @@ namespace posewire::gui {
 namespace {
 
 constexpr int kTableCharacters = 36; ///< names and flags
+
+/// What a column has the norm of, by its field.
+const char* fieldOf(int column) {
+    return column == TrackerModel::kAcceleration ? "acceleration"
+           : column == TrackerModel::kGyro       ? "angularVelocity"
+           : column == TrackerModel::kMagnetic   ? "magneticField"
+                                                 : "freeAcceleration";
+}
 
 /// Free acceleration x y z above, norm of the magnetic field below.
 TimePlot* makeTrackerPlot(QWidget* parent) {
@@ -77,6 +87,8 @@ TrackersPanel::TrackersPanel(model::SessionView& view, Commands& commands, QWidg
     m_table->setMinimumWidth(fontMetrics().averageCharWidth() * kTableCharacters);
     m_table->setEmptyText(tr("No tracker data on the air.\nIn MVN: Network Streamer > enable Motion Tracker "
                              "Kinematics (type 23)."));
+    m_table->setDragged([this](const QModelIndex& cell) { return asDragged(curvesOf(cell)); });
+    connect(m_table, &TableView::menuRequested, this, &TrackersPanel::addPlots);
     m_facts.dimWhile([this] { return m_trackers.isStale(); });
     m_factTable->showFacts(m_facts);
     m_factTable->fixHeight();
@@ -123,6 +135,25 @@ void TrackersPanel::select(const QModelIndex& index) {
     }
     const int segment = static_cast<int>(m_trackers.tracker(index.row()).id) - 1;
     m_commands.select(selectionOf(m_view, *key, segment));
+}
+
+QStringList TrackersPanel::curvesOf(const QModelIndex& cell) const {
+    return curvesOfTracker(fieldOf(cell.column()), m_trackers.tracker(cell.row()).id);
+}
+
+void TrackersPanel::addPlots(QMenu& menu, const QModelIndex& index) {
+    if (!index.isValid()) {
+        return;
+    }
+    QMenu* plots = menu.addMenu(tr("Plot"));
+    for (const auto& [column, title] : {std::pair{TrackerModel::kFree, tr("Free acceleration")},
+                                        {TrackerModel::kAcceleration, tr("Acceleration")},
+                                        {TrackerModel::kGyro, tr("Angular velocity")},
+                                        {TrackerModel::kMagnetic, tr("Magnetic field")}}) {
+        const QStringList curves = curvesOf(index.siblingAtColumn(column));
+        plots->addAction(title, this, [this, curves] { m_commands.plot(curves); });
+    }
+    menu.addSeparator();
 }
 
 QString TrackersPanel::summary() const {

@@ -26,6 +26,8 @@ public:
 
 private:
     void select(const QModelIndex& index);
+    [[nodiscard]] QStringList curvesOf(const QModelIndex& cell) const;
+    void addPlots(QMenu& menu, const QModelIndex& index);
 
     TrackerModel m_trackers{m_view};
     PropertyModel m_facts;

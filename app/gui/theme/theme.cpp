@@ -213,6 +213,25 @@ const Theme& theme() {
     return current();
 }
 
+QColor plotColour(int number) {
+    static constexpr std::array<std::pair<const char*, const char*>, kPlotColours> kColours{{
+        {"#58a6ff", "#1f6feb"},
+        {"#ffb24d", "#b35900"},
+        {"#56d08f", "#0f7b45"},
+        {"#c79bff", "#8a4fd0"},
+        {"#ff7f93", "#c4304f"},
+        {"#45d0d8", "#007a8a"},
+        {"#dccb5c", "#776800"},
+        {"#b4bcc6", "#565f69"},
+    }};
+    if (number >= kPlotColours) {
+        constexpr std::array kAxes{&Theme::axisX, &Theme::axisY, &Theme::axisZ};
+        return theme().*kAxes[static_cast<std::size_t>(number - kPlotColours) % kAxes.size()];
+    }
+    const auto [dark, light] = kColours[static_cast<std::size_t>(std::max(0, number))];
+    return theme().isDark ? dark : light;
+}
+
 QColor withAlpha(QColor colour, double alpha) {
     colour.setAlphaF(static_cast<float>(alpha));
     return colour;

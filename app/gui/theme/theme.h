@@ -48,6 +48,11 @@ enum class ThemeChoice { System, Dark, Light };
 [[nodiscard]] Theme themeFor(ThemeChoice choice, const QPalette& desktop);
 void applyTheme(QApplication& application, ThemeChoice choice);
 
+/// Colours of curves, from 0 on: those of a plot first, as far apart as can be; then those of the axes x, y,
+/// z.
+inline constexpr int kPlotColours = 8;
+[[nodiscard]] QColor plotColour(int number);
+
 /// Fonts from the desktop's own, sizes from its metrics.
 [[nodiscard]] QFont monospaceFont();
 [[nodiscard]] QFont

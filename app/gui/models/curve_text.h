@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/gui/models/field_document.h"
+#include "core/filter/completion.h"
+
+#include <QStringList>
+
+class QMimeData;
+
+/// Signals as texts: what can be plotted of what docks show.
+namespace posewire::gui {
+
+/// Of a node of the inspector: a number as it is, of a vector each component, such as `02.position.z of "Left
+/// Hand"`; empty if it is no number.
+[[nodiscard]] QStringList curvesOf(const FieldDocument& document, std::int32_t node);
+
+/// Each component of a vector of a tracker, by the field's name in type 23.
+[[nodiscard]] QStringList curvesOfTracker(const char* field, std::uint32_t id);
+
+/// What is dragged from dock to dock; the second returns an empty list if it is something else.
+[[nodiscard]] QMimeData* asDragged(const QStringList& curves);
+[[nodiscard]] QStringList draggedCurves(const QMimeData& data);
+
+/// What can come at the cursor (a byte offset) of a signal.
+[[nodiscard]] std::vector<filter::Completion> curveCompletions(const std::string& text, std::size_t cursor);
+
+} // namespace posewire::gui
