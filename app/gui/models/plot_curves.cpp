@@ -24,9 +24,9 @@ struct CurveBatch {
 
 namespace {
 
-/// Of each curve: a day at 240 Hz in a scratch file, an hour and more in memory.
+/// Of each curve: a day at 240 Hz in a scratch file, half an hour and more in memory.
 constexpr std::size_t kMostRowsOnDisk = std::size_t{24} * 3600 * 240;
-constexpr std::size_t kMostRowsInMemory = std::size_t{1} << 20;
+constexpr std::size_t kMostRowsInMemory = std::size_t{1} << 19;
 /// Packets that are read at once without a thread.
 constexpr std::uint64_t kFew = 4096;
 /// Rows that are looked at for a value, where other signals of the packets have values.
@@ -252,22 +252,20 @@ void PlotCurves::refresh() {
 }
 
 void PlotCurves::resume() {
-    const std::uint64_t end = m_view.end();
-    std::uint64_t left = 0;
-    for (const auto& batch : m_batches) {
-        const std::uint64_t position = m_reading.valid() ? end : batch->feed.position();
-        if (end - std::min(end, position) <= kFew) {
-            while (!m_reading.valid() && batch->feed.advance(end)) {
-            }
-        } else {
-            left = std::max(left, end - position);
-        }
-    }
     if (m_reading.valid()) {
         return;
     }
-    const std::uint64_t all = end - m_view.begin();
-    m_share = left == 0 ? 1 : 1 - static_cast<double>(left) / static_cast<double>(std::max(all, left));
+    const std::uint64_t end = m_view.end();
+    std::uint64_t left = 0;
+    m_read = 0;
+    for (const auto& batch : m_batches) {
+        while (end - std::min(end, batch->feed.position()) <= kFew && batch->feed.advance(end)) {
+        }
+        left = std::max(left, end - std::min(end, batch->feed.position()));
+        m_read += batch->feed.position();
+    }
+    const std::uint64_t all = std::max(end - m_view.begin(), left);
+    m_share = left == 0 ? 1 : 1 - static_cast<double>(left) / static_cast<double>(all);
     if (left != 0) {
         m_reading = std::async(std::launch::async, [this, end, batches = m_batches] {
             for (const auto& batch : batches) {
@@ -276,15 +274,6 @@ void PlotCurves::resume() {
             }
         });
     }
-}
-
-std::uint64_t PlotCurves::version() {
-    pause();
-    std::uint64_t version = m_changes;
-    for (const auto& batch : m_batches) {
-        version += batch->feed.position();
-    }
-    return version;
 }
 
 namespace {

@@ -93,8 +93,8 @@ public:
     [[nodiscard]] bool isReading() const { return m_share < 1; }
     /// How much of the log was read, 0 to 1, as of the newest refresh().
     [[nodiscard]] double share() const { return m_share; }
-    /// Changes with whatever changes curves.
-    [[nodiscard]] std::uint64_t version();
+    /// Changes with whatever changes curves; as of the newest refresh() or resume().
+    [[nodiscard]] std::uint64_t version() const { return m_changes + m_read; }
 
     /// About one for each pixel at most.
     [[nodiscard]] std::vector<PlotPoint> points(const PlotCurve& curve, const model::TimeRange& window,
@@ -120,7 +120,8 @@ private:
     std::future<void> m_reading;
     std::atomic<bool> m_isWanted{false}; ///< the thread that reads is to stop
     double m_share = 1;
-    std::uint64_t m_changes = 0;
+    std::uint64_t m_read = 0;    ///< packets, of all batches
+    std::uint64_t m_changes = 0; ///< by the operator
 };
 
 } // namespace posewire::gui

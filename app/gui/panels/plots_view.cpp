@@ -126,6 +126,10 @@ void PlotsView::layOut() {
         shown.area = {gutter(), shown.head.bottom() + 1 + space / 2, stripWidth(), room};
         top = shown.area.bottom() + 1 + space;
     }
+    if (const int least = minimumSizeHint().height(); least != m_leastHeight) {
+        m_leastHeight = least;
+        updateGeometry();
+    }
 }
 
 /// To what is in view, with some room, unless the operator chose a range.
@@ -206,7 +210,7 @@ void PlotsView::moveWindow() {
         m_window = *span;
     } else if (m_isAtNow && isLive) {
         m_window = {span->to - length, span->to};
-    } else if (cursor != m_cursor && m_drag == Drag::None &&
+    } else if (!isLive && cursor != m_cursor && m_drag == Drag::None &&
                (cursor < m_window.from || cursor > m_window.to)) {
         setWindow({cursor - length / 2, cursor + length / 2});
     }

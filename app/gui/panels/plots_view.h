@@ -122,7 +122,8 @@ private:
         bool operator==(const Key&) const = default;
     };
     Key m_read;
-    QPixmap m_picture; ///< all but cursor, values and pointer; null: to be painted
+    int m_leastHeight = 0; ///< as the layout knows it
+    QPixmap m_picture;     ///< all but cursor, values and pointer; null: to be painted
     Drag m_drag = Drag::None;
     QPoint m_pressed;
     model::TimeRange m_windowBefore{};

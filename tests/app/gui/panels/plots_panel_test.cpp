@@ -132,7 +132,7 @@ TEST_F(PlotsPanelTest, TheWheelZoomsAboutThePointer) {
 TEST_F(PlotsPanelTest, ADoubleClickLeadsToThePacket) {
     add(kHeight);
     const double x = m_view.placeOf(at(2s));
-    const auto value = m_view.curves().valueAt(curve(), m_view.stampAt(std::lround(x)));
+    const auto value = m_view.curves().valueAt(curve(), m_view.stampAt(std::round(x)));
     ASSERT_TRUE(value);
     QTest::mouseDClick(&m_view, Qt::LeftButton, {},
                        {static_cast<int>(std::lround(x)), static_cast<int>(m_view.placeOf(0, value->value))});
