@@ -8,6 +8,7 @@
 #include <QJsonArray>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <utility>
@@ -29,6 +30,8 @@ constexpr std::size_t kMostRowsOnDisk = std::size_t{24} * 3600 * 240;
 constexpr std::size_t kMostRowsInMemory = std::size_t{1} << 19;
 /// Packets that are read at once without a thread.
 constexpr std::uint64_t kFew = 4096;
+/// As long as there are no more rows in a pixel they are drawn one by one: sums would look like stairs.
+constexpr std::size_t kRowsOfPixel = 4;
 /// Rows that are looked at for a value, where other signals of the packets have values.
 constexpr std::uint64_t kLook = 256;
 
@@ -36,23 +39,28 @@ const feed::Series& seriesOf(const PlotCurve::Part& part) {
     return part.batch->feed.series(part.source);
 }
 
-/// x, y and z have their colours, as long as those are free.
+/// x, y and z have their colours, as long as those are free; others none that looks like one of them.
 int colourFor(const PlotChart& chart, const std::string& text) {
-    const auto isFree = [&](int colour) {
-        return std::ranges::none_of(chart.curves,
-                                    [=](const PlotCurve& other) { return other.colour == colour; });
+    constexpr std::array kLookAlikes{4, 2, 0}; // of red, green and blue
+    const auto has = [&](int colour) {
+        return std::ranges::any_of(chart.curves, [=](const PlotCurve& one) { return one.colour == colour; });
     };
     const std::size_t dot = text.find_last_of('.');
     const char after = dot + 1 < text.size() ? text[dot + 1] : ' ';
     const bool isLetterAlone = dot + 2 >= text.size() || text[dot + 2] == ' ' || text[dot + 2] == ')';
-    if (isLetterAlone && after >= 'x' && after <= 'z' && isFree(kPlotColours + (after - 'x'))) {
+    if (isLetterAlone && after >= 'x' && after <= 'z' && !has(kPlotColours + (after - 'x'))) {
         return kPlotColours + (after - 'x');
     }
-    int colour = 0;
-    while (colour + 1 < kPlotColours && !isFree(colour)) {
-        ++colour;
+    for (const bool mayLookAlike : {false, true}) {
+        for (int colour = 0; colour < kPlotColours; ++colour) {
+            const auto axis = std::ranges::find(kLookAlikes, colour) - kLookAlikes.begin();
+            const bool isAlike = axis < 3 && has(kPlotColours + static_cast<int>(axis));
+            if (!has(colour) && (mayLookAlike || !isAlike)) {
+                return colour;
+            }
+        }
     }
-    return isFree(colour) ? colour : static_cast<int>(chart.curves.size()) % kPlotColours;
+    return static_cast<int>(chart.curves.size()) % kPlotColours;
 }
 
 /// Curves without a unit stand together only if they are of the same field.
@@ -322,7 +330,7 @@ std::vector<PlotPoint> PlotCurves::points(const PlotCurve& curve, const model::T
     std::vector<PlotPoint> points;
     for (const PlotCurve::Part& part : curve.parts) {
         const feed::Series& series = seriesOf(part);
-        if (series.rowFrom(window.to) - series.rowFrom(window.from) <= pixels) {
+        if (series.rowFrom(window.to) - series.rowFrom(window.from) <= kRowsOfPixel * pixels) {
             addRows(points, series, part.signal, window);
         } else {
             addColumns(points, series, part.signal, window, pixels);

@@ -96,7 +96,7 @@ public:
     /// Changes with whatever changes curves; as of the newest refresh() or resume().
     [[nodiscard]] std::uint64_t version() const { return m_changes + m_read; }
 
-    /// About one for each pixel at most.
+    /// One for each pixel, or each value as long as there are at most four in a pixel.
     [[nodiscard]] std::vector<PlotPoint> points(const PlotCurve& curve, const model::TimeRange& window,
                                                 std::size_t pixels);
     /// The newest value by then; nothing in gaps, and once it is stale.

@@ -104,7 +104,8 @@ private:
             m_painter.fillRect(QRect(0, shown.head.top() - m_line / 4, m_plots.width(), 1), theme().line);
         }
         constexpr double kApart = 2.2; // lines of text
-        const auto ticks = ticksOf(shown.least, shown.most, isLog, shown.area.height() / (kApart * m_line));
+        const auto ticks =
+            ticksOf(shown.least, shown.most, isLog, std::max(2.5, shown.area.height() / (kApart * m_line)));
         for (std::size_t i = 0; i < ticks.size(); ++i) {
             const int y = qRound(m_plots.placeOf(chart, ticks[i]));
             const double step = isLog              ? ticks[i]
@@ -138,7 +139,9 @@ private:
             }
             const QColor colour = healthColour(healthOf(incident.severity()));
             const QRectF band(from, area.top(), std::max(kLeastMark, to - from), area.height());
-            m_painter.fillRect(band, withAlpha(colour, 0.10));
+            if (band.width() < area.width() / 2.0) { // what lasts longer would only tint the chart
+                m_painter.fillRect(band, withAlpha(colour, 0.09));
+            }
             m_painter.fillRect(QRectF(band.topLeft(), QSizeF(band.width(), 2)), colour);
         }
     }
@@ -356,7 +359,7 @@ void PlotsView::paintEvent(QPaintEvent* /*event*/) {
     if (m_shown.empty()) {
         painter.fillRect(rect(), theme().panel);
         drawEmptyText(
-            *this, tr("No curves yet.\nWrite a field above, such as `position.z of Pelvis`, or drag one here "
+            *this, tr("No curves yet.\nWrite a field above, such as “position.z of Pelvis”, or drag one here "
                       "from the Inspector or Trackers."));
         return;
     }

@@ -105,7 +105,7 @@ void PlotsView::layOut() {
     const auto& charts = m_curves.charts();
     m_shown.resize(charts.size());
     const int space = fontMetrics().height() / 2;
-    int heads = 0;
+    int entry = 0; // of all charts, so that their legends are in line
     for (std::size_t i = 0; i < charts.size(); ++i) {
         const double largest = std::max({std::abs(m_shown[i].least), std::abs(m_shown[i].most), 1.0});
         const double widestValue = -8 * std::pow(10.0, std::floor(std::log10(largest)));
@@ -114,7 +114,11 @@ void PlotsView::layOut() {
         for (const PlotCurve& curve : charts[i].curves) {
             names = std::max(names, fontMetrics().horizontalAdvance(nameOf(curve)));
         }
-        m_shown[i].entryWidth = names + QFontMetrics(tabularFont()).horizontalAdvance(widest) + 5 * space;
+        entry = std::max(entry, names + QFontMetrics(tabularFont()).horizontalAdvance(widest) + 6 * space);
+    }
+    int heads = 0;
+    for (std::size_t i = 0; i < charts.size(); ++i) {
+        m_shown[i].entryWidth = entry;
         heads += linesOf(i) * lineHeight() + 2 * space;
     }
     const int room =
