@@ -191,6 +191,16 @@
     </message>
 </context>
 <context>
+    <name>posewire::gui::PlotsPanel</name>
+    <message numerus="yes">
+        <source>%n curves</source>
+        <translation>
+            <numerusform>%n curve</numerusform>
+            <numerusform>%n curves</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
     <name>posewire::gui::StatisticsPanel</name>
     <message numerus="yes">
         <source>%1 · %n streams</source>

@@ -165,7 +165,7 @@ void PlotCurves::clear() {
     ++m_changes;
 }
 
-/// Those on the air that the signal reads; of a plain field the first: others have it too.
+/// Those on the air that the signal reads; of a plain field one alone, poses before others.
 std::vector<std::uint8_t> PlotCurves::typesOf(const PlotCurve& curve, const model::CharacterKey& key) {
     std::vector<std::uint8_t> types;
     for (const std::uint8_t type : curve.expression.types) {
@@ -173,9 +173,13 @@ std::vector<std::uint8_t> PlotCurves::typesOf(const PlotCurve& curve, const mode
             types.push_back(type);
         }
     }
-    const bool isComputed = curve.expression.text.find_first_of("(+*/") != std::string::npos ||
-                            curve.expression.text.find(" - ") != std::string::npos;
-    types.resize(isComputed ? types.size() : std::min<std::size_t>(types.size(), 1));
+    const std::string& text = curve.expression.text;
+    const bool isComputed =
+        text.find_first_of("(+*/") != std::string::npos || text.find(" - ") != std::string::npos;
+    if (!isComputed && !types.empty()) {
+        const auto pose = std::ranges::find(types, wire::PoseQuaternion::kType);
+        types = {pose == types.end() ? types.front() : *pose};
+    }
     return types;
 }
 

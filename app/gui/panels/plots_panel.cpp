@@ -33,7 +33,7 @@ LineLanguage curveLanguage() {
 }
 
 QString setFilter() {
-    return PlotsPanel::tr("Curves") + QStringLiteral(" (*.json)");
+    return PlotsPanel::tr("Curves (*.json)");
 }
 
 } // namespace
@@ -156,19 +156,19 @@ void PlotsPanel::addCurveEntries(QMenu& menu, const PlotsView::Spot& spot, const
     const PlotCurve& curve = chart.curves[*spot.curve];
     const bool isInArea = m_plots->shown()[spot.chart].area.contains(place);
     const log::Stamp stamp = isInArea ? m_plots->stampAt(place.x()) : m_view.cursorStamp();
-    menu.addSection(menuText(m_plots->nameOf(curve)));
-    menu.addAction(tr("Show the packet"), this, [this, spot, stamp] {
+    const QString name = m_plots->nameOf(curve);
+    menu.addAction(menuText(tr("Show the packet of %1").arg(name)), this, [this, spot, stamp] {
         if (!m_plots->showPacket(m_plots->curves().charts()[spot.chart].curves[*spot.curve], stamp)) {
             m_message->say(noPacketsText());
         }
     });
-    menu.addAction(tr("In a chart of its own"), this,
+    menu.addAction(menuText(tr("%1 in a chart of its own").arg(name)), this,
                    [this, spot] {
                        m_plots->curves().moveApart(spot.chart, *spot.curve);
                        showChanged();
                    })
         ->setEnabled(chart.curves.size() > 1);
-    menu.addAction(tr("Remove"), this, [this, spot] {
+    menu.addAction(menuText(tr("Remove %1").arg(name)), this, [this, spot] {
         m_plots->curves().remove(spot.chart, *spot.curve);
         showChanged();
     });
@@ -206,12 +206,9 @@ void PlotsPanel::showMenu(const QPoint& place, const QPoint& onScreen) {
 }
 
 void PlotsPanel::save() {
-    const QString path = askWhereToSave(this, tr("Export plots"), QStringLiteral("plots.png"),
-                                        QStringList{fileFilter(QT_TR_NOOP("Picture"), "png"),
-                                                    fileFilter(QT_TR_NOOP("Drawing"), "svg"),
-                                                    fileFilter(QT_TR_NOOP("Document"), "pdf"),
-                                                    fileFilter(QT_TR_NOOP("Values in view"), "csv")}
-                                            .join(QStringLiteral(";;")));
+    const QString path =
+        askWhereToSave(this, tr("Export plots"), QStringLiteral("plots.png"),
+                       tr("Picture (*.png);;Drawing (*.svg);;Document (*.pdf);;Values in view (*.csv)"));
     if (!path.isEmpty()) {
         const QString problem = saveTo(path);
         m_message->say(problem.isEmpty() ? tr("Saved: %1").arg(path) : problem);
