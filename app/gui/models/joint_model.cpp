@@ -164,7 +164,7 @@ TableColumn<JointRow> angleColumn(const JointModel& joints, const QString& title
                tr("As sent in type 20, and smaller as computed from the pose. The bar is the reference "
                   "range; the coloured part of it is how far the joint went, the line is the angle."),
                [axis](const JointRow& row) { return degrees(component(row.shown(), axis)); })
-        .in({.usual = QStringLiteral("−180.0 −180.0"), .least = QStringLiteral("−180.0")})
+        .in({.usual = QStringLiteral("−180.0"), .wish = QStringLiteral("−180.0 −180.0")})
         .withToolTip([axis](const JointRow& row) {
             const auto at = static_cast<int>(std::ranges::find(kJointOrder, row.joint) - kJointOrder.begin());
             return tr("%1: sent %2, computed %3")
@@ -176,6 +176,16 @@ TableColumn<JointRow> angleColumn(const JointModel& joints, const QString& title
                    : role == kBarRole                 ? barOf(row, axis, joints.motion().extents())
                                                       : QVariant();
         });
+}
+
+template <class Row, class IsStale>
+std::vector<TableColumn<Row>> dimmedWhile(std::vector<TableColumn<Row>> columns, IsStale isStale) {
+    for (TableColumn<Row>& column : columns) {
+        column.colour = [isStale, own = column.colour](const Row& row) {
+            return isStale(row) ? QVariant(theme().dim) : own ? own(row) : QVariant();
+        };
+    }
+    return columns;
 }
 
 std::vector<TableColumn<AngleRow>> angleColumns() {
@@ -265,12 +275,8 @@ std::vector<TableColumn<JointRow>> JointModel::columns(const JointModel& joints)
                   .room = {.usual = QStringLiteral("▲ beyond"), .order = 1, .isOpen = true}},
             [&joints](const JointRow& row) { return joints.state(row); }),
     };
-    for (Joint& column : columns) {
-        column.colour = [&joints, own = column.colour](const JointRow& row) {
-            return joints.isStale() ? QVariant(theme().dim) : own ? own(row) : QVariant();
-        };
-    }
-    return withHelpInCells(std::move(columns));
+    return dimmedWhile(withHelpInCells(std::move(columns)),
+                       [&joints](const JointRow&) { return joints.isStale(); });
 }
 
 void JointModel::refresh() {
@@ -322,7 +328,9 @@ PropertyValue JointModel::state(const JointRow& row) const {
     return isBeyond ? PropertyValue{tr("beyond"), Health::Warning} : PropertyValue{};
 }
 
-AngleModel::AngleModel(const JointModel& joints) : TableModel(angleColumns()), m_joints(joints) {}
+AngleModel::AngleModel(const JointModel& joints)
+    : TableModel(dimmedWhile(angleColumns(), [](const AngleRow& row) { return row.joints->isStale(); })),
+      m_joints(joints) {}
 
 void AngleModel::refresh() {
     std::vector<AngleRow> rows;

@@ -214,6 +214,8 @@ TEST_F(JointModelTest, DimsWhatIsNoLongerSent) {
     EXPECT_TRUE(m_model.isStale());
     EXPECT_TRUE(text(0, JointModel::kState).startsWith("stale"));
     EXPECT_EQ(m_model.index(0, JointModel::kFlexion).data(Qt::ForegroundRole), QVariant(theme().dim));
+    m_angles.refresh();
+    EXPECT_EQ(m_angles.index(0, 1).data(Qt::ForegroundRole), QVariant(theme().dim));
 }
 
 } // namespace
