@@ -20,7 +20,8 @@ TEST(Program, ShowsHelpWithoutADisplay) {
     const ProgramRun run = runProgram({"--help"});
     EXPECT_EQ(run.status, 0);
     EXPECT_EQ(run.err, "");
-    for (const char* command : {"decode", "encode", "export", "send", "monitor", "report", "reference"}) {
+    for (const char* command :
+         {"decode", "encode", "export", "query", "send", "monitor", "report", "reference"}) {
         EXPECT_THAT(run.out, HasSubstr(command));
         EXPECT_EQ(runProgram({command, "--help"}).status, 0);
         EXPECT_THAT(runProgram({command, "--help"}).out, HasSubstr(std::string("posewire-cli ") + command));
