@@ -244,7 +244,8 @@ def check_window(folder, window):
 
                 def datagrams():
                     text = urllib.request.urlopen(address).read().decode()
-                    return int(float(re.search(r"^posewire_datagrams_total (\S+)", text, re.M)[1]))
+                    found = re.search(r"^posewire_datagrams_total (\S+)", text, re.M)
+                    return int(float(found[1])) if found else 0  # before the first tick of the window there are none
                 until(lambda: datagrams() == sent, f"not all {sent} are shown")
 
 
