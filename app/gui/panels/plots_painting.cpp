@@ -22,7 +22,7 @@ constexpr double kLeastGap = 4;  ///< pixels; shorter ones are marked at the bot
 constexpr double kDotsApart = 9; ///< pixels between values that are drawn one by one
 /// A curve that goes up and down further than this, in widths of the chart, is a band of noise: drawing its
 /// edges smoothly takes long and shows no more.
-constexpr double kRestless = 12;
+constexpr double kRestless = 8;
 
 /// Values at which the axis has lines, the lowest first.
 std::vector<double> ticksOf(double least, double most, bool isLog, double room) {
@@ -220,7 +220,7 @@ private:
         const QColor colour = plotColour(charts()[chart].curves[curve].colour);
         const bool isCalm = travelled < kRestless * m_shown[chart].area.width();
         m_painter.setRenderHint(QPainter::Antialiasing, isCalm);
-        m_painter.setPen(QPen(colour, isCalm ? 1.4 : 1));
+        m_painter.setPen(QPen(colour, 1)); // wider ones take many times as long
         m_painter.setBrush(Qt::NoBrush);
         for (const QPolygonF& line : lines) {
             line.size() == 1 ? m_painter.drawPoint(line.front()) : m_painter.drawPolyline(line);
