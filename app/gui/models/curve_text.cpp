@@ -80,32 +80,4 @@ QStringList draggedCurves(const QMimeData& data) {
     return QString::fromUtf8(curves).split(QLatin1Char('\n'), Qt::SkipEmptyParts);
 }
 
-std::vector<filter::Completion> curveCompletions(const std::string& text, std::size_t cursor) {
-    const std::string before = text.substr(0, cursor);
-    const std::size_t begin = before.find_last_of(" (,+-*/") + 1; // 0 if there is none
-    const std::string word = before.substr(begin);
-    const std::size_t last = before.find_last_not_of(' ', begin == 0 ? 0 : begin - 1);
-    const bool isItem = begin >= 3 && last != std::string::npos && before.substr(last - 1, 2) == "of";
-    std::vector<filter::Completion> found;
-    if (!isItem) {
-        for (filter::Completion one : filter::completions(word, word.size())) {
-            one.offset += begin;
-            found.push_back(std::move(one));
-        }
-        return found;
-    }
-    const QString begun = QString::fromStdString(word).remove(QLatin1Char('"'));
-    for (const auto kind : {field::Kind::Segment, field::Kind::Joint, field::Kind::Point}) {
-        for (const std::string_view name : field::namesOf(kind)) {
-            const bool isSpaced = name.find(' ') != std::string_view::npos;
-            if (fromUtf8(name).contains(begun, Qt::CaseInsensitive)) {
-                found.push_back({begin, word.size(),
-                                 isSpaced ? '"' + std::string(name) + '"' : std::string(name),
-                                 std::string(field::kindWords(kind).name)});
-            }
-        }
-    }
-    return found;
-}
-
 } // namespace posewire::gui

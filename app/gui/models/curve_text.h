@@ -2,7 +2,6 @@
 #pragma once
 
 #include "app/gui/models/field_document.h"
-#include "core/filter/completion.h"
 
 #include <QStringList>
 
@@ -21,8 +20,5 @@ namespace posewire::gui {
 /// What is dragged from dock to dock; the second returns an empty list if it is something else.
 [[nodiscard]] QMimeData* asDragged(const QStringList& curves);
 [[nodiscard]] QStringList draggedCurves(const QMimeData& data);
-
-/// What can come at the cursor (a byte offset) of a signal.
-[[nodiscard]] std::vector<filter::Completion> curveCompletions(const std::string& text, std::size_t cursor);
 
 } // namespace posewire::gui

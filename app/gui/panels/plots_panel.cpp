@@ -15,7 +15,9 @@
 #include <QMenu>
 #include <QPainter>
 #include <QPdfWriter>
+#if __has_include(<QSvgGenerator>)
 #include <QSvgGenerator>
+#endif
 
 namespace posewire::gui {
 
@@ -28,7 +30,7 @@ LineLanguage curveLanguage() {
                 const auto signal = feed::parseSignal(text);
                 return text.empty() || signal ? std::nullopt : std::optional(signal.error());
             },
-            curveCompletions, PlotsPanel::tr("Press Enter to plot"),
+            filter::signalCompletions, PlotsPanel::tr("Press Enter to plot"),
             PlotsPanel::tr("Alt and arrow down: earlier curves")};
 }
 
@@ -206,9 +208,11 @@ void PlotsPanel::showMenu(const QPoint& place, const QPoint& onScreen) {
 }
 
 void PlotsPanel::save() {
-    const QString path =
-        askWhereToSave(this, tr("Export plots"), QStringLiteral("plots.png"),
-                       tr("Picture (*.png);;Drawing (*.svg);;Document (*.pdf);;Values in view (*.csv)"));
+    QString kinds = tr("Picture (*.png);;Drawing (*.svg);;Document (*.pdf);;Values in view (*.csv)");
+#if !__has_include(<QSvgGenerator>)
+    kinds = tr("Picture (*.png);;Document (*.pdf);;Values in view (*.csv)");
+#endif
+    const QString path = askWhereToSave(this, tr("Export plots"), QStringLiteral("plots.png"), kinds);
     if (!path.isEmpty()) {
         const QString problem = saveTo(path);
         m_message->say(problem.isEmpty() ? tr("Saved: %1").arg(path) : problem);
@@ -226,6 +230,7 @@ QString PlotsPanel::saveTo(const QString& path) {
                       : tr("Not saved: there are too many values in view. Zoom in, or use `posewire-cli "
                            "query`.");
     }
+#if __has_include(<QSvgGenerator>)
     if (suffix == QLatin1String("svg")) {
         QSvgGenerator drawing;
         drawing.setOutputDevice(&content);
@@ -234,7 +239,11 @@ QString PlotsPanel::saveTo(const QString& path) {
         drawing.setResolution(logicalDpiX());
         QPainter painter(&drawing);
         m_plots->paint(painter);
-    } else if (suffix == QLatin1String("pdf")) {
+        painter.end();
+        return saveFile(path, content.data());
+    }
+#endif
+    if (suffix == QLatin1String("pdf")) {
         constexpr double kPoints = 72; // an inch
         QPdfWriter document(&content);
         document.setResolution(logicalDpiX());
