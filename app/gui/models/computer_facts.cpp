@@ -82,9 +82,10 @@ PropertyValue computer(const Source& from) {
     if (sums.kernelDrops != 0) {
         state = Health::Error;
     }
-    return {tr("buffer %1 · dropped %2 in all · %3 fps")
-                .arg(percent(health.bufferFill), droppedText(sums.kernelDrops, !sums.hasUncountedDrops),
-                     fixed(health.framesPerSecond, 0)),
+    const QString dropped = sums.hasUncountedDrops ? tr("drops not known here")
+                                                   : tr("dropped %1 in all").arg(grouped(sums.kernelDrops));
+    return {tr("buffer %1 · %2 · %3 fps")
+                .arg(percent(health.bufferFill), dropped, fixed(health.framesPerSecond, 0)),
             state};
 }
 
