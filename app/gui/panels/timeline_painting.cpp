@@ -7,6 +7,7 @@
 #include "app/gui/panels/time_ruler.h"
 #include "app/gui/panels/timeline_view.h"
 #include "app/gui/theme/theme.h"
+#include "app/gui/theme/widgets.h"
 #include "core/model/session/roster.h"
 #include "core/model/session/verdict.h"
 
