@@ -94,7 +94,7 @@ const HelpPage* HelpPages::find(const QString& id) const {
 }
 
 void HelpPages::readChapters() {
-    static const QRegularExpression link(QStringLiteral("^[-0-9]+\\.? \\[[^]]*\\]\\(([a-z-]+)\\.md\\)"));
+    static const QRegularExpression link(QStringLiteral("^[-0-9]+\\.? \\[[^]]*\\]\\(([a-z0-9-]+)\\.md\\)"));
     const HelpPage* start = find(QLatin1String(kStart));
     for (const QString& line : start != nullptr ? start->markdown.split(u'\n') : QStringList()) {
         if (line.startsWith(QLatin1String("## "))) {

@@ -92,7 +92,7 @@ void PlotsPanel::layOut() {
 
 std::span<const ActionInfo> PlotsPanel::actionTable() {
     using Do = ActionsOf<PlotsPanel>;
-    static constexpr const char* kMenu = QT_TRANSLATE_NOOP("Action", "&View/&Plots");
+    static constexpr const char* kMenu = QT_TRANSLATE_NOOP("Action", "&View/Plots");
     static constexpr ActionInfo kActions[] = {
         {"plotsZoomIn", kMenu, QT_TRANSLATE_NOOP("Action", "Zoom &in"), "", Do::call<&PlotsPanel::zoomIn>},
         {"plotsZoomOut", kMenu, QT_TRANSLATE_NOOP("Action", "Zoom &out"), "", Do::call<&PlotsPanel::zoomOut>},

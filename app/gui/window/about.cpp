@@ -21,7 +21,9 @@ QString libraryLicences() {
         for (const QString& row : QString::fromUtf8(table.readAll()).split(u'\n')) {
             const QStringList cells = row.split(u'|');
             if (cells.size() == 4) {
-                libraries += QStringLiteral("%1 (%2)").arg(cells[3].trimmed(), cells[1].trimmed());
+                const QChar unbroken(0x2011); // a hyphen that ends no line
+                libraries += QStringLiteral("%1 (%2)").arg(cells[3].trimmed(),
+                                                           cells[1].trimmed().replace(u'-', unbroken));
             }
         }
     }

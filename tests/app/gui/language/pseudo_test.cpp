@@ -85,13 +85,13 @@ const QSet<QString>& fieldNames() {
 /// What products, formats, senders and the specification call by name, in small letters.
 const QSet<QString>& foreignNames() {
     static const QSet<QString> kNames = [] {
-        QSet<QString> names{"posewire", "mira",    "lindqvist",  "jonas",       "adeyemi",    "sword",
-                            "name",     "color",   "count",      "xmid",        "timeoffset", "json",
-                            "udp",      "take",    "pcapng",     "mixamo",      "unreal",     "unity",
-                            "vroid",    "blender", "character",  "creator",     "rigify",     "biped",
-                            "humanoid", "studio",  "max",        "jsonl",       "assimp",     "cyclone",
-                            "eigen",    "epoxy",   "liblo",      "libpng",      "nats",       "zlib",
-                            "nlohmann", "mit",     "prometheus", "qcustomplot", "expected",   "unlicense"};
+        QSet<QString> names{
+            "posewire",   "mira",        "lindqvist",  "jonas",    "adeyemi",   "sword",   "name",   "color",
+            "count",      "xmid",        "timeoffset", "json",     "udp",       "take",    "pcapng", "mixamo",
+            "unreal",     "unity",       "vroid",      "blender",  "character", "creator", "rigify", "biped",
+            "humanoid",   "studio",      "max",        "jsonl",    "assimp",    "cyclone", "eigen",  "epoxy",
+            "liblo",      "libpng",      "nats",       "zlib",     "nlohmann",  "mit",     "cli11",  "re2",
+            "prometheus", "qcustomplot", "expected",   "unlicense"};
         for (int place = 0; place < model::kAllSegments.count(); ++place) {
             addName(model::segmentName(model::kAllSegments, place), names);
             addName(model::segmentTitle(model::kAllSegments, place), names);
@@ -122,7 +122,8 @@ QStringList untranslated(QString text, bool isOfInspector) {
     }
     static const QRegularExpression word("\\p{L}[\\p{L}\\d_]{2,}");
     static const QRegularExpression plain("^[A-Za-z\\d_]*[aeiouyAEIOUY][A-Za-z\\d_]*$");
-    static const QRegularExpression licence("\\w+-\\d[\\w.]*(-[\\w.]+)*"); // "GPL-3.0-or-later"
+    static const QRegularExpression licence(
+        QStringLiteral("\\w+[-\u2011]\\d[\\w.]*([-\u2011][\\w.]+)*")); // "GPL-3.0-or-later"
     text.remove('&').remove(placeholder).remove(licence);
     QStringList found;
     for (auto match = word.globalMatch(text); match.hasNext();) {

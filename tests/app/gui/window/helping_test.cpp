@@ -79,6 +79,7 @@ TEST_F(HelpingTest, TheTitleOfEachDockLeadsToItsPage) {
 TEST_F(HelpingTest, ANarrowDockKeepsItsNameAndTheWayToItsPage) {
     for (QDockWidget* dock : docks()) {
         QWidget* title = dock->titleBarWidget();
+        dock->show(); // what is hidden is not laid out
         title->resize(title->minimumSizeHint());
         QTest::qWait(1);
         const auto* button = title->findChild<QToolButton*>("helpButton");
@@ -121,9 +122,9 @@ TEST_F(HelpingTest, AboutListsTheLibrariesWithTheirLicences) {
     window.findChild<QAction*>("about")->trigger();
     const auto* box = window.findChild<QMessageBox*>();
     ASSERT_NE(box, nullptr);
-    EXPECT_TRUE(box->informativeText().contains(", QCustomPlot (GPL-3.0-or-later), "))
+    EXPECT_TRUE(box->informativeText().contains(", QCustomPlot (GPL‑3.0‑or‑later), "))
         << box->informativeText().toStdString();
-    EXPECT_TRUE(box->informativeText().contains("Eigen (MPL-2.0)"));
+    EXPECT_TRUE(box->informativeText().contains("Eigen (MPL‑2.0)"));
 }
 
 TEST_F(HelpingTest, TheMenuOpensTheGuideItsCausesAndItsShortcuts) {

@@ -433,7 +433,8 @@ TEST_F(MainWindowTest, GivesTheKeyboardToTheViewportWhenALayoutTakesItFromADock)
 
 TEST_F(MainWindowTest, F6GoesThroughTheDocksAndBackToTheViewport) {
     const auto window = makeWindow();
-    for (const char* const name : {"compare", "probes"}) { // no layout opens them
+    for (const char* const name :
+         {"compare", "joints", "plots", "plots2", "probes"}) { // no layout opens them
         dock(*window, name)->show();
     }
     window->viewport().setFocus();
