@@ -137,6 +137,7 @@ public:
           m_character(character),
           m_lasts(tree.sources.size()),
           m_from(tree.sources.size()),
+          m_keepsTime(tree.memories != 0),
           m_computing(tree) {
         for (Sample& sample : m_samples) {
             sample.values.resize(tree.sources.size());
@@ -207,8 +208,10 @@ private:
         }
         if (!m_samples[m_newest].isUsed || ahead(counter, m_highest) > 0) {
             m_highest = counter;
-            m_rate.add(counter, header.timeCode);
-            m_hz = m_rate.frameHz() ? m_rate.frameHz() : m_hz;
+            if (m_keepsTime) {
+                m_rate.add(counter, header.timeCode);
+                m_hz = m_rate.frameHz() ? m_rate.frameHz() : m_hz;
+            }
         }
         for (std::size_t i = 0; i < kSamples; ++i) {
             Sample& sample = m_samples[(m_newest + kSamples - i) % kSamples];
@@ -259,6 +262,7 @@ private:
     std::uint8_t m_character;
     std::vector<std::size_t> m_lasts; ///< of the sources: where their items were
     std::vector<From> m_from;
+    bool m_keepsTime; ///< it has derivatives
     std::array<Sample, kSamples> m_samples{};
     std::size_t m_newest = 0;
     std::uint32_t m_highest = 0;
