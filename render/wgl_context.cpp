@@ -9,7 +9,7 @@
 
 #include <windows.h>
 
-// By Windows' own functions, not epoxy's: those need a library of their own that is told of every thread.
+// By Windows' own functions, not epoxy's: those need a library of their own that learns of every thread.
 namespace posewire::render {
 namespace {
 

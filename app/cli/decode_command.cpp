@@ -57,7 +57,7 @@ std::string fieldListing(wire::Bytes bytes) {
     return text;
 }
 
-/// Returns what is wrong with a list of fields, divided by commas; or nothing.
+/// Returns why a list of fields, divided by commas, cannot be used; empty if it can.
 std::string readFields(const std::string& text, std::vector<std::string>& fields) {
     const std::vector<std::string> known = exporting::jsonFields();
     for (std::size_t begin = 0; begin <= text.size();) {

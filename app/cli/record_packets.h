@@ -20,9 +20,9 @@ public:
     /// until the next call.
     [[nodiscard]] const field::Candidate& packetOf(const log::FileRecord& record, std::uint64_t number,
                                                    log::Stamp stamp = {});
-    /// When a record came that no packet is made of.
+    /// Returns when a record came that no packet is made of.
     log::Stamp stampOf(const log::FileRecord& record, log::Stamp stamp = {});
-    /// Of the first record.
+    /// The stamp of the first record.
     [[nodiscard]] log::Stamp firstStamp() const { return m_firstStamp.value_or(log::Stamp()); }
     [[nodiscard]] log::WallTime firstTime() const { return m_timeline.wallOf(firstStamp()); }
 

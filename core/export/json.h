@@ -24,7 +24,7 @@ struct DatagramPlace {
     std::uint8_t shared = 0; ///< datagrams in its packet; 0 if it came alone
 };
 
-/// What is written of a datagram.
+/// Chooses what is written of a datagram.
 struct JsonChoice {
     /// Items that have a name in the tables of segments, points and joints say it beside their ids.
     bool hasNames = false;

@@ -22,7 +22,7 @@ public:
     void update(PoseSource newest);
     /// As PoseFeed::advance().
     bool advance(log::Stamp now);
-    /// Of the samples that were read, those of the window before the newest one.
+    /// Those of the samples read that are in the window before the newest one.
     [[nodiscard]] model::JointExtents extents() const;
 
 private:

@@ -295,7 +295,7 @@ public:
     }
 
 private:
-    /// Of fields that all packets have.
+    /// Computes a signal of fields that all packets have.
     std::optional<double> alone(field::Subject& packet) {
         std::size_t last = 0;
         m_values.clear();

@@ -94,7 +94,7 @@ struct Subject {
 
     /// Null if there is none.
     [[nodiscard]] const wire::Header* header();
-    /// Of the datagram, which is there.
+    /// Returns the shape of the datagram, which is there.
     [[nodiscard]] std::size_t shape();
 
     const Candidate& candidate;

@@ -6,7 +6,7 @@
 namespace posewire::filter {
 namespace {
 
-/// What tells the items of a list apart, best first.
+/// The kinds that tell the items of a list apart, best first.
 constexpr std::array kTelling{std::pair{Kind::Joint, "joint"}, std::pair{Kind::Point, "point"},
                               std::pair{Kind::Segment, "segment"}};
 
@@ -16,7 +16,7 @@ std::optional<double> numberOfItem(Kind kind, const std::string& name) {
     return number || kind != Kind::Joint ? number : numberNamed(kind, "j" + name);
 }
 
-/// What tells the items of a list apart; null if that is not of the kind.
+/// The field that tells the items of a list apart; null if it is not of the kind.
 const FieldInfo* tellingField(std::size_t shape, std::size_t list, Kind kind, std::string_view name) {
     const auto found = std::ranges::find_if(fieldTable(), [&](const FieldInfo& field) {
         return field.kind == kind && field.name == name && field.places[shape][list].read != nullptr;

@@ -111,7 +111,7 @@ struct WrittenField {
 [[nodiscard]] tl::expected<std::shared_ptr<const NamedItem>, FilterError> itemOf(const WrittenField& written,
                                                                                  const FieldMatch& match);
 
-/// What the items of these fields can be named by.
+/// The kinds of names that the items of these fields have.
 [[nodiscard]] std::vector<Kind> itemKinds(const FieldMatch& match);
 
 /// A condition as written.

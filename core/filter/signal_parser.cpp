@@ -37,7 +37,7 @@ Quantity measured(Dimension dimension, std::size_t components = 1) {
     return {dimension, std::string(unitsOf(dimension).front().symbol), components};
 }
 
-/// What changes by `quantity` each second.
+/// The quantity that changes by `quantity` each second.
 Quantity perSecond(const Quantity& quantity) {
     using enum Dimension;
     constexpr std::array kRates{std::pair{Length, Velocity}, std::pair{Velocity, Acceleration},
@@ -447,7 +447,7 @@ bool isWithUnit(std::string_view word) {
     return findUnit(word.substr(std::min(word.find_first_not_of("+-.0123456789"), word.size()))) != nullptr;
 }
 
-/// A word without the arithmetic that stands in it, as in "position.z/2": "/" may also be in a unit.
+/// A word without the arithmetic in it, as in "position.z/2": "/" may also be in a unit.
 std::size_t lengthWithoutDivision(std::string_view word) {
     std::size_t longest = word.find('/');
     for (std::size_t end = longest; end != std::string_view::npos && end < word.size();) {

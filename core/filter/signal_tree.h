@@ -13,7 +13,7 @@ namespace posewire::filter {
 /// Between a signal and the filter that its packets must match.
 inline constexpr std::string_view kWhere = "where";
 
-/// What a value is.
+/// The kind of a value.
 struct Quantity {
     Dimension dimension = Dimension::None;
     std::string unit{};         ///< "m", "%"; empty for plain numbers
@@ -61,10 +61,10 @@ struct SignalFigure {
     std::optional<double> (*read)(const model::Stream& stream, log::Stamp now);
 };
 [[nodiscard]] std::span<const SignalFigure> signalFigures();
-/// Null if nothing is called so.
+/// Null if no figure has that name.
 [[nodiscard]] const SignalFigure* findFigure(std::string_view name);
 
-/// What a signal reads from one packet: a field, or a figure of the packet's stream.
+/// A field, or a figure of the packet's stream, that a signal reads from one packet.
 struct SignalSource {
     struct Spot {
         const FieldInfo* field = nullptr;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* kMimeType = "application/x-posewire-curves";
 
-/// With the type before it, if that is understood and needed; empty if there is no such signal.
+/// Puts the type before a name, if that is understood and needed; empty if there is no such signal.
 QString understood(std::uint8_t type, const QString& name, const QString& of) {
     const QString text = of.isEmpty() ? name : QStringLiteral("%1 of \"%2\"").arg(name, of);
     const QString exact = QStringLiteral("%1.%2").arg(type, 2, 10, QLatin1Char('0')).arg(text);

@@ -72,7 +72,7 @@ QString motionName(int row, std::size_t axis) {
     }
 }
 
-/// What is known of a character's joints at the cursor.
+/// The facts about a character's joints at the cursor.
 struct Reading {
     BodyAngles sent;     ///< of the sample of the pose, else the newest
     BodyAngles computed; ///< of the pose
@@ -141,7 +141,7 @@ JointRow rowOf(std::size_t joint, const Reading& reading) {
     return row;
 }
 
-/// Where an angle is between the ends of its reference range, for the bar of its cell.
+/// The place of an angle between the ends of its reference range, for the bar of its cell.
 QVariant barOf(const JointRow& row, std::size_t axis, const model::JointExtents& extents) {
     const auto reference = model::referenceRange(row.joint, axis);
     if (!reference || !row.shown().allFinite()) {

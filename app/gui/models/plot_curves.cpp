@@ -25,7 +25,7 @@ struct CurveBatch {
 
 namespace {
 
-/// Of each curve: a day at 240 Hz in a scratch file, half an hour and more in memory.
+/// Rows of each curve: a day at 240 Hz in a scratch file, half an hour and more in memory.
 constexpr std::size_t kMostRowsOnDisk = std::size_t{24} * 3600 * 240;
 constexpr std::size_t kMostRowsInMemory = std::size_t{1} << 19;
 /// Packets that are read at once without a thread.

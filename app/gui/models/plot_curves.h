@@ -44,11 +44,11 @@ struct PlotChart {
     std::optional<std::pair<double, double>>
         range{}; ///< chosen by the operator; nothing: fits what is in view
 
-    /// Of all its curves; empty if they differ.
+    /// The unit of all its curves; empty if they differ.
     [[nodiscard]] QString unit() const;
 };
 
-/// What a curve is within a pixel, or one of its values if they are far apart. In order of time.
+/// The least and most of a curve within a pixel, or one of its values if they are far apart.
 struct PlotPoint {
     double seconds = 0; ///< since the window's begin
     double least = 0;

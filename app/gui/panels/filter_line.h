@@ -15,7 +15,7 @@ class QLabel;
 
 namespace posewire::gui {
 
-/// What is written in a line.
+/// The language that is written in a line.
 struct LineLanguage {
     std::function<std::optional<filter::FilterError>(const std::string& text)> errorOf;
     std::function<std::vector<filter::Completion>(const std::string& text, std::size_t cursor)> completions;

@@ -47,7 +47,7 @@ std::vector<double> ticksOf(double least, double most, bool isLog, double room) 
     return ticks;
 }
 
-/// With as many decimals as the ticks differ in.
+/// Writes a value with as many decimals as the ticks differ in.
 QString tickLabel(double value, double step) {
     constexpr double kLarge = 1e6;
     if (std::abs(value) >= kLarge || (value != 0 && std::abs(step) < 1 / kLarge)) {

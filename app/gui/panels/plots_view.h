@@ -56,7 +56,7 @@ public:
         std::optional<std::size_t> curve{}; ///< in the legend, or next to the pointer
     };
     [[nodiscard]] std::optional<Spot> spotAt(const QPoint& place);
-    /// Of a curve at a moment, such as "0.963 m"; "–" in gaps.
+    /// Returns a curve's value at a moment, such as "0.963 m"; "–" in gaps.
     [[nodiscard]] QString valueText(std::size_t chart, const PlotCurve& curve, log::Stamp stamp);
     /// The name in the legend: with whose it is, if the charts are of several characters.
     [[nodiscard]] QString nameOf(const PlotCurve& curve) const;
@@ -102,7 +102,7 @@ private:
     }
     [[nodiscard]] int decimalsOf(std::size_t chart) const;
     [[nodiscard]] std::optional<std::size_t> chartAt(const QPoint& place) const;
-    /// Of the pointer, or the cursor.
+    /// The moment of the pointer, or of the cursor.
     [[nodiscard]] log::Stamp legendStamp() const;
 
     model::SessionView& m_view;

@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kTableCharacters = 36; ///< names and flags
 
-/// What a column has the norm of, by its field.
+/// The vector whose norm a column shows, by its field.
 const char* fieldOf(int column) {
     return column == TrackerModel::kAcceleration ? "acceleration"
            : column == TrackerModel::kGyro       ? "angularVelocity"

@@ -28,7 +28,7 @@ constexpr Reference kHip{{{-30, 45}, {-45, 45}, {-30, 120}}};
 constexpr Reference kKnee{{{}, {}, {-10, 135}}};
 /// Eversion 15°, inversion 35°; dorsiflexion 20°.
 constexpr Reference kAnkle{{{-35, 15}, {}, {-50, 20}}};
-/// Of the great toe.
+/// Ranges of the great toe.
 constexpr Reference kBallOfFoot{{{}, {}, {-45, 70}}};
 
 /// In the order of jointDefinitions().

@@ -23,7 +23,7 @@ struct AngleRange {
     [[nodiscard]] double excess(double angle) const;
 };
 
-/// Of the average ranges of motion below.
+/// The source of the average ranges of motion below.
 inline constexpr std::string_view kRangeSource =
     "American Academy of Orthopaedic Surgeons: Joint Motion, Method of Measuring and Recording (1965)";
 

@@ -40,7 +40,7 @@ protected:
         return {std::move(command), testing::internal::GetCapturedStderr()};
     }
 
-    /// What is wrong with these arguments.
+    /// Returns the complaint about these arguments.
     std::string mistakeIn(const std::vector<std::string>& arguments) {
         const Parsed parsed = parse(arguments);
         EXPECT_FALSE(parsed.command);

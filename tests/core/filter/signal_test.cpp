@@ -121,7 +121,7 @@ TEST(Signal, SplitsSignsFromWords) {
     EXPECT_THAT(words("-delta"), ElementsAre("-", "delta"));
 }
 
-// What signals can say of items and types, filters can.
+// Filters name items and types as signals do.
 TEST(FilterOfItems, AsksForOneItem) {
     const Case hand = pose({{0, 0, 1}, {0, 0, 5}});
     EXPECT_TRUE(matches(hand, "position.z of Pelvis == 1"));

@@ -31,7 +31,7 @@ protected:
     }
 
     void add(const QString& text, std::optional<std::size_t> chart = {}) { m_panel.add({text}, chart); }
-    /// What was sent of the pelvis by then, m.
+    /// The pelvis as sent by then, m.
     double sentHeight(log::Stamp stamp) {
         m_stage.playback.showMoment(stamp);
         const auto* message = m_stage.session.messages().message(m_stage.key(), 2);
