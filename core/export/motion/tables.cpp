@@ -47,12 +47,9 @@ public:
     }
 
     void begin(MotionOutput& out) override {
-        std::vector<std::string> cells{
-            "character", "id", "run", "sample", "time (s)", "received (ns since 1970 UTC)", "time code (ms)"};
-        if (m_hasTimeOfDay) {
-            cells.emplace_back("time of day");
-        }
-        cells.emplace_back("type");
+        std::vector<std::string> cells{"character",      "id",       "run",
+                                       "sample",         "time (s)", "received (ns since 1970 UTC)",
+                                       "time code (ms)", "type"};
         for (int position = 0; position < m_layout.count(); ++position) {
             const std::string name(model::segmentName(m_layout, position));
             for (const char* part : {" x (m)", " y (m)", " z (m)", " qw", " qx", " qy", " qz"}) {
@@ -61,6 +58,9 @@ public:
         }
         for (int position = 0; position < m_layout.count(); ++position) {
             cells.push_back(std::string(model::segmentName(m_layout, position)) + " from");
+        }
+        if (m_hasTimeOfDay) {
+            cells.emplace_back("time of day");
         }
         out.write(csvLine(cells));
     }
@@ -75,9 +75,6 @@ public:
                 (m_hasTimeOfDay ? 3 : 2) + (kCells + 1) * static_cast<std::size_t>(m_layout.count()), ',');
         } else {
             m_line += receiptText(m_task, frame) + ',' + std::to_string(frame.pose->timeCode) + ',';
-            if (m_hasTimeOfDay) {
-                m_line.append(timeOfDayText(frame)).append(",");
-            }
             m_line += wire::typeDigits(frame.pose->type);
             for (int position = 0; position < m_layout.count(); ++position) {
                 addSegment(*frame.pose, position);
@@ -85,6 +82,9 @@ public:
             for (int position = 0; position < m_layout.count(); ++position) {
                 const auto from = static_cast<std::size_t>(provenanceAt(*frame.pose, m_layout, position));
                 m_line.append(",").append(kProvenanceNames[from]);
+            }
+            if (m_hasTimeOfDay) {
+                m_line.append(",").append(timeOfDayText(frame));
             }
         }
         m_line += "\r\n";
