@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What an AppImage of Posewire begins with. A squashfs image follows this program's own bytes, from the end of its section headers on.
+// An AppImage of Posewire begins with this program. A squashfs image follows this program's own bytes, from the end of its section headers on.
 // It is mounted by FUSE, or unpacked where that fails, and its AppRun is started with APPDIR, APPIMAGE, ARGV0 and OWD set, as
 // https://github.com/AppImage/AppImageSpec asks. The mount ends when the last process does that inherited the pipe `alive`.
 #define _GNU_SOURCE

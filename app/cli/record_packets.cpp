@@ -38,7 +38,7 @@ const field::Candidate& RecordPackets::packetOf(const log::FileRecord& record, s
     return *m_candidate;
 }
 
-/// The same for the same sender as long as there are not too many.
+/// Returns one number for each sender, as long as there are not too many.
 log::SenderId RecordPackets::numberOf(const log::SenderInfo& sender) {
     constexpr std::size_t kMostSenders = 65'536;
     const log::SenderId id = m_senders.intern(sender);

@@ -26,7 +26,7 @@ struct Firewall {
 /// The active packet filter of this computer, as far as any user may see it. Empty if none was found, which
 /// is no proof that there is none.
 [[nodiscard]] std::optional<Firewall> findFirewall();
-/// The same by the files of Linux below a folder.
+/// Finds it by the files of Linux below a folder.
 [[nodiscard]] std::optional<Firewall> findFirewall(const std::string& root);
 
 struct FailedInput {

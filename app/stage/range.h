@@ -11,7 +11,7 @@
 
 namespace posewire::stage {
 
-/// What `--since` and `--until` name, as it was typed: seconds after the beginning ("12.5"), a time of day
+/// The times that `--since` and `--until` name, as typed: seconds after the beginning ("12.5"), a time of day
 /// ("10:30", "10:30:15.5"), or that with its date ("2026-11-26T10:30"), in this computer's time zone.
 struct Range {
     std::string since; ///< empty: from the beginning

@@ -23,7 +23,7 @@ struct Completion {
 /// that suit the field, then its values. Works within a word and in texts that are wrong elsewhere.
 [[nodiscard]] std::vector<Completion> completions(std::string_view text, std::size_t cursor);
 
-/// The same in a signal: functions, fields, figures, items, units, arithmetic, and filters after `where`.
+/// Completes signals alike: functions, fields, figures, items, units, arithmetic, and filters after `where`.
 [[nodiscard]] std::vector<Completion> signalCompletions(std::string_view text, std::size_t cursor);
 
 /// A filter for packets that have this value: ("character", "1") gives `character == 1`, ("source",

@@ -17,7 +17,7 @@ namespace posewire::gui {
 /// Each component of a vector of a tracker, by the field's name in type 23.
 [[nodiscard]] QStringList curvesOfTracker(const char* field, std::uint32_t id);
 
-/// What is dragged from dock to dock; the second returns an empty list if it is something else.
+/// Wraps curves that are dragged from dock to dock; the second unwraps them, and returns none for other data.
 [[nodiscard]] QMimeData* asDragged(const QStringList& curves);
 [[nodiscard]] QStringList draggedCurves(const QMimeData& data);
 

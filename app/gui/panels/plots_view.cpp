@@ -451,7 +451,7 @@ void PlotsView::keyPressEvent(QKeyEvent* event) {
     }
 }
 
-/// What else comes to it.
+/// Handles the events that have no function of their own.
 bool PlotsView::event(QEvent* event) {
     if (event->type() == QEvent::Leave) {
         m_pointer.reset();
